@@ -49,6 +49,8 @@ Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
   return null.cols() == 0 ? null : orthonormal(null);
 }
 
+bool has_share(const Eigen::MatrixXd& null, Eigen::Index i) { return null.row(i).norm() > dependent; }
+
 namespace {
 
 const Combination& form_of(const Model& model, std::size_t row) {
@@ -101,7 +103,7 @@ SharedRows::SharedRows(const Model& model, const Structure& structure)
     const Eigen::MatrixXd null = null_of_columns(columns(rows));
     bool friction = false;
     for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
-      friction = friction || (rows[i] % 2 == 1 && !null.row(static_cast<Eigen::Index>(i)).isZero(0.0));
+      friction = friction || (rows[i] % 2 == 1 && has_share(null, static_cast<Eigen::Index>(i)));
     if (!friction) continue;
     for (const std::size_t k : group) grouped_[k] = true;
     groups_.push_back(std::move(group));

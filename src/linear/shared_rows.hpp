@@ -27,6 +27,9 @@ struct SharedForces {
 /// Orthonormal z with H z = 0: combinations of columns that vanish, but for a rounding.
 [[nodiscard]] Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h);
 
+/// Does row i take part in one of these combinations (orthonormal columns)? What rounding has left of it does not count.
+[[nodiscard]] bool has_share(const Eigen::MatrixXd& null, Eigen::Index i);
+
 class SharedRows {
  public:
   SharedRows(const Model& model, const Structure& structure);

@@ -10,7 +10,7 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t rotation = 2, most_named = 3;
+constexpr std::size_t rotation = 2, most_listed = 3;
 
 /// What elements make of the rotations of nodes.
 class Turning {
@@ -54,7 +54,7 @@ void name(Named& list, const std::string& key, const std::string& node) {
 }
 
 std::string nodes_of(const std::vector<std::string>& nodes) {
-  return (nodes.size() == 1 ? "node " : "nodes ") + listed(nodes, most_named);
+  return (nodes.size() == 1 ? "node " : "nodes ") + listed(nodes, most_listed);
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ bool ModeSystems::held_by_others(std::size_t c, Mode mode) const {
   mode[c].state = State::stick;
   for (const SharedForces& shared : matrix_.shared_rows().in_force(rows_of(model_, mode))) {
     const auto at = std::find(shared.rows.begin(), shared.rows.end(), 2 * c + 1) - shared.rows.begin();
-    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && !shared.null.row(at).isZero(0.0)) return true;
+    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && has_share(shared.null, at)) return true;
   }
   return false;
 }

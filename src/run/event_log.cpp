@@ -44,6 +44,9 @@ void settle(const Contact& contact, double error, Event& event) {
   if (event.gap && vanishes(contact.normal_stiffness * *event.gap)) event.gap = 0.0;
 }
 
+/// As events name states: at the limit is slip, whether others hold it there or not.
+State in_events(State state) { return is_held(state) ? kind_of(state) : state_of_rows(state); }
+
 /// What the decision knows of a contact; the guard is left out.
 Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, const Contact& contact) {
   const Decision& decision = *now.decision;
@@ -59,8 +62,8 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
   event.t = now.t;
   event.contact = static_cast<int>(k);
   event.type = type;
-  event.from = state_of_rows((*now.before)[k].state);
-  event.to = state_of_rows(decision.mode[k].state);
+  event.from = in_events((*now.before)[k].state);
+  event.to = in_events(decision.mode[k].state);
   if (is_hit(decision, k)) {
     event.impulse_n = decision.impulses[k].normal;
     event.impulse_t = decision.impulses[k].tangent;
@@ -81,8 +84,7 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
 }  // namespace
 
 std::optional<EventType> classify(State from, State to, bool let_go) {
-  if (from == to || (slip_sign(from) != 0 && slip_sign(from) == slip_sign(to)))
-    return let_go ? std::optional(EventType::slip) : std::nullopt;
+  if (from == to) return let_go ? std::optional(EventType::slip) : std::nullopt;
   if (is_open(to)) return EventType::separation;
   if (is_open(from)) return EventType::contact;
   if (slip_sign(from) != 0 && slip_sign(to) != 0) return EventType::reversal;
@@ -111,7 +113,7 @@ void EventLog::instant(const Instant& now, const Stepper& stepper) {
   if (now.load_jumps) load_jump(now);
   const Decision& decision = *now.decision;
   for (std::size_t k = 0; k < now.before->size(); ++k) {
-    const State from = state_of_rows((*now.before)[k].state), to = state_of_rows(decision.mode[k].state);
+    const State from = in_events((*now.before)[k].state), to = in_events(decision.mode[k].state);
     const bool let_go = from == State::stick && decision.visited[k] && decision.jumped[k] &&
                         !model_.contacts[k].takes_impulses();
     auto type = is_hit(decision, k) ? std::optional(EventType::impact) : classify(from, to, let_go);

@@ -135,7 +135,6 @@ class Finder {
   void friction_impulse(const RecordedImpulse& p, const Strike& strike, double greatest);
   void state_of(std::size_t k);
   void friction_of(std::size_t k, const Sight& m);
-  void rests(std::size_t k, const Sight& m);
   void old_rows(std::size_t k);
   void necessity(std::size_t k);
   void guard_of(const RecordedEvent& event);
@@ -153,7 +152,6 @@ class Finder {
   };
   [[nodiscard]] std::optional<Old> as_before(std::size_t k) const;
   [[nodiscard]] bool is_pushed_off(std::size_t k, const ContactState& old, const Sight& after) const;
-  [[nodiscard]] bool moves_alone(std::size_t k) const;
   [[nodiscard]] bool jumps(std::size_t k) const;
   [[nodiscard]] bool moves_at_once(std::size_t k) const;
   [[nodiscard]] double zero_of(const SeenGuard& guard, const Contact& contact) const;

@@ -52,7 +52,7 @@ bool guards_stand(const Contact& c, std::size_t k, const ContactState& state, co
   const double N = N_of(side, k);
   if (!c.is_pressed() && N > 0.0) return false;
   if (!c.has_friction() || kind_of(state.state) == State::closed) return true;
-  if (c.friction.force || c.friction.varies()) return false;
+  if (c.friction.force || c.friction.varies() || is_held(state.state)) return false;
   if (const int s = sign_of_slip(state.state); s != 0) return slides_on(c, k, s, side);
   return std::abs(T_of(side, k)) <= -c.friction.static_ * N;
 }

@@ -50,6 +50,22 @@ double size_of_normal(const Contact& c, const Sight& m) {
   return c.normal_stiffness * m.place + c.normal_damping * m.speed;
 }
 
+bool held_beside(const Model& model, std::size_t k) {
+  const Contact& foot = model.contacts[k];
+  const auto shares = [&](const Contact& other) {
+    return std::any_of(other.tangent.terms.begin(), other.tangent.terms.end(), [&](const auto& a) {
+      return std::any_of(foot.tangent.terms.begin(), foot.tangent.terms.end(),
+                         [&](const auto& b) { return a.first == b.first; });
+    });
+  };
+  if (!foot.sticks_rigidly()) return false;
+  for (std::size_t j = 0; j < model.contacts.size(); ++j)
+    if (j != k && model.contacts[j].sticks_rigidly() &&
+        model.contacts[j].takes_impulses() == foot.takes_impulses() && shares(model.contacts[j]))
+      return true;
+  return false;
+}
+
 Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
   const auto at = static_cast<Eigen::Index>(2 * k);
   const Driven& d = side.driven[k];
@@ -107,6 +123,8 @@ SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m
     const double off = fs * of_N + (kt > 0.0 ? kt * of_u : tol.rtol * std::abs(m.T) + tol.force);
     const double side = m.T >= 0.0 ? 1.0 : -1.0;
     guards.add({"friction", -fs * m.N - std::abs(m.T), size, -growth * dN - side * kt * m.dut, off});
+  } else if (is_held(state.state)) {
+    guards.add({"rest", -std::abs(m.dut), m.speed, 0.0, of_v});
   } else {
     double rate = s * m.dut, size = m.speed, off = of_v;
     if (kt > 0.0) {

@@ -43,6 +43,9 @@ struct SeenGuards {
 /// The guards of a state at a motion whose forces are those of the state's own rows.
 [[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state, const Sight& m,
                                    const WitnessLimits& limits);
+/// Another foot, or slider, may hold this one at the limit of its friction: what it slips then is rounding of what holds
+/// it.
+[[nodiscard]] bool held_beside(const Model& model, std::size_t k);
 /// The size of kn g + cn g'.
 [[nodiscard]] double size_of_normal(const Contact& contact, const Sight& m);
 

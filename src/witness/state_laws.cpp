@@ -13,7 +13,7 @@ namespace {
 const Unit& unit_of(const SeenGuard& guard) {
   const std::string_view law = guard.law;
   return law == "penetration" || law == "lasting gap" ? seen::length
-         : law == "slip direction"                    ? seen::velocity
+         : law == "slip direction" || law == "rest"   ? seen::velocity
                                                       : seen::force;
 }
 
@@ -151,7 +151,11 @@ void Finder::state_of(std::size_t k) {
     // And it stops for a step what goes on sliding the other way.
     if (std::string_view(guard.law) == "friction" && !c.tangential_stiffness && !record_.located) continue;
     double zero = zero_of(guard, c);
-    if (guard.value < -zero && std::string_view(guard.law) == "slip direction")
+    // What others hold slips by the rounding of what holds it.
+    const bool of_slip = std::string_view(guard.law) == "slip direction";
+    if (std::string_view(guard.law) == "rest" || (of_slip && held_beside(model_, k)))
+      zero += bench_.slowest(record_, k);
+    if (guard.value < -zero && of_slip)
       zero += (1.0 + record_.forgiven) * noise_of_slip_rate(bench_, record_.after, k);
     if (guard.value < -zero)
       add(contact, guard.law, -guard.value, zero, unit_of(guard), -guard.value > gross * guard.size);
@@ -174,19 +178,12 @@ void Finder::state_of(std::size_t k) {
   friction_of(k, m);
 }
 
-/// It does not slip.
-void Finder::rests(std::size_t k, const Sight& m) {
-  const double zero = bench_.slowest(record_, k);
-  if (std::abs(m.dut) > zero) add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
-}
-
 /// T of the state's row.
 void Finder::friction_of(std::size_t k, const Sight& m) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
   const int s = sign_of_slip(state.state);
   double asked = 0.0, size = std::abs(m.T);
-  if (is_held(state.state)) rests(k, m);
   if (s != 0) {
     if (c.friction.varies() && c.shear) return;  // its rate follows from T, it is no datum
     const double f = friction_in(c, state.state, m.dut, m.N);
@@ -194,7 +191,10 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
     size += std::abs(asked) + f * size_of_normal(c, m);
   } else if (kind_of(state.state) == State::stick) {
     if (c.shear || !c.tangential_stiffness) {
-      return rests(k, m);
+      const double zero = bench_.slowest(record_, k);
+      if (std::abs(m.dut) > zero)
+        add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
+      return;
     }
     asked = *c.tangential_stiffness * (m.ut - state.anchor);
     size += *c.tangential_stiffness * (m.place + std::abs(state.anchor));
@@ -301,12 +301,6 @@ bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& 
   return true;  // a slider: it takes none
 }
 
-/// What was held at its static limit is set moving by that limit itself: others hold it no more.
-bool Finder::moves_alone(std::size_t k) const {
-  const std::optional<Old> before = as_before(k);
-  return before && std::abs(before->m.ddut) > rounding::of_elimination * before->m.push;
-}
-
 /// The least guard of the old state, with v+, is above its rounding: nothing asked for another state.
 void Finder::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
@@ -316,7 +310,6 @@ void Finder::necessity(std::size_t k) {
   if (c.is_pressed() && (is_open(old.state) || is_open(now.state))) return;  // as the compression asks
   const double rest = rounding::of_elimination * after.speed;
   if (is_pushed_off(k, old, after)) return;
-  if (is_held(old.state) && moves_alone(k)) return;
   // Thrown off: beside a hit, however slowly.
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))

@@ -39,28 +39,6 @@ std::array<double, 2> Witness::modal_size(double norm) const {
   return size;
 }
 
-namespace {
-
-/// Another foot, or slider, may hold this one at the limit of its friction: what it slips then is rounding of what holds
-/// it.
-bool held_beside(const Model& model, std::size_t k) {
-  const Contact& foot = model.contacts[k];
-  const auto shares = [&](const Contact& other) {
-    return std::any_of(other.tangent.terms.begin(), other.tangent.terms.end(), [&](const auto& a) {
-      return std::any_of(foot.tangent.terms.begin(), foot.tangent.terms.end(),
-                         [&](const auto& b) { return a.first == b.first; });
-    });
-  };
-  if (!foot.sticks_rigidly()) return false;
-  for (std::size_t j = 0; j < model.contacts.size(); ++j)
-    if (j != k && model.contacts[j].sticks_rigidly() &&
-        model.contacts[j].takes_impulses() == foot.takes_impulses() && shares(model.contacts[j]))
-      return true;
-  return false;
-}
-
-}  // namespace
-
 std::array<double, 2> Witness::modal_size(const Vector& x) const {
   return modal_size(std::sqrt(std::max(0.0, x.dot(parts_->bench.model.mass * x))));
 }
@@ -84,13 +62,13 @@ void Witness::contact(double t, std::size_t k, const ContactState& state, const 
     double limit =
         rounding::of_elimination * (guard.size + (held ? of_held : 0.0)) + of_tolerance * guard.tolerance;
     if (guard.value >= -limit) continue;
-    if (law == "slip direction" && held_beside(parts_->bench.model, k)) {
+    if (law == "rest" || (law == "slip direction" && held_beside(parts_->bench.model, k))) {
       limit += c.capture_velocity.value_or(parts_->bench.limits.capture_velocity);
       if (guard.value >= -limit) continue;
     }
     found.push_back({t, "between", static_cast<int>(k), guard.law, -guard.value, limit,
                      law == "penetration" || law == "lasting gap" ? seen::length
-                     : law == "slip direction"                    ? seen::velocity
+                     : law == "slip direction" || law == "rest"   ? seen::velocity
                                                                   : seen::force,
                      false});
   }

@@ -133,6 +133,38 @@ tangential_stiffness = 400.0
 friction = { static = 0.5, kinetic = 0.3 }
 )";
 
+/// A block on two rigid feet with static above kinetic friction, on ground inclined by 0.3 rad, pushed until it slides and back.
+inline constexpr const char* held_text = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+gravity = [2.899053227347741, -9.371850958322195]
+[run]
+t_end = 4.0
+output_dt = 0.05
+rtol = 1e-9
+dt = 1e-3
+initial = "static"
+[nodes]
+L = [-0.477668244562803, -0.14776010333066977]
+R = [0.38213459565024244, 0.11820808266453582]
+[[rigid]]
+name = "block"
+centre = [-0.08865606199840186, 0.28660094673768177]
+nodes = ["L", "R"]
+mass = 2.0
+inertia = 0.2
+[[contacts]]
+name = "foot"
+nodes = ["L", "R"]
+law = "rigid"
+normal = [-0.29552020666133955, 0.955336489125606]
+friction = { static = 0.5, kinetic = 0.3 }
+[[loads]]
+node = "block"
+direction = [0.955336489125606, 0.29552020666133955]
+amplitude = 12.0
+history = { type = "table", times = [0.0, 1.0, 3.0, 4.0], values = [0.0, 0.9, -0.9, 0.0] }
+)";
+
 /// A bar on two feet, one with a dashpot, on ground inclined by -0.4 rad, shaken along it and lifted now and then.
 inline constexpr const char* feet_text = R"(schema = 1
 units = { force = "N", mass = "kg", length = "m", time = "s" }

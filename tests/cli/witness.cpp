@@ -11,6 +11,7 @@
 
 using namespace signorini::cli_test;
 using signorini::tests::witnessed::feet_text;
+using signorini::tests::witnessed::held_text;
 using signorini::tests::witnessed::scene_text;
 using signorini::tests::witnessed::sliders_text;
 
@@ -114,7 +115,7 @@ void forget_a_velocity(std::vector<Cells>& table) {
 }  // namespace
 
 TEST_CASE("cli witness: a run that nobody touched keeps all laws, by its files alone") {
-  for (const char* text : {scene_text, sliders_text, feet_text})
+  for (const char* text : {scene_text, sliders_text, feet_text, held_text})
     for (const char* engine : {"exact", "ida", "newmark"}) {
       CAPTURE(text);
       CAPTURE(engine);

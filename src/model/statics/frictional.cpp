@@ -19,17 +19,29 @@
 namespace signorini {
 namespace {
 
+// What does not balance in an equilibrium, of the greatest force or moment: rounding of long paths is below. Chosen.
+constexpr double balanced = 1e-7;
+
 class Path {
  public:
   Path(const SparseMatrix& stiffness, const std::vector<Contact>& contacts, const DofMap& map,
        const SourcePlace& place)
-      : stiffness_(stiffness), contacts_(contacts), map_(map), place_(place), u_(Vector::Zero(map.size())) {
+      : stiffness_(stiffness),
+        contacts_(contacts),
+        map_(map),
+        place_(place),
+        u_(Vector::Zero(map.size())),
+        load_(u_) {
     for (const Contact& c : contacts) standing_.push_back(undeformed(c));
   }
 
   FrictionalEquilibrium run(const std::vector<Stage>& stages) {
     fit();
-    for (const Stage& stage : stages) grow(stage);
+    for (const Stage& stage : stages) {
+      grow(stage);
+      load_ += stage.load;
+      check_equilibrium();
+    }
     return told();
   }
 
@@ -104,6 +116,52 @@ class Path {
       refuse_stage("the stiffness is indefinite");
     const std::string name = null.cols() > 0 ? describe_motion(null.col(0), map_) : std::string("structure");
     refuse_stage(fmt::format("nothing restrains the {}: no equilibrium follows", name));
+  }
+
+  /// A contact at its limit whose motion others hold: what it bears from there on is not told by slips.
+  void refuse_shares(const std::vector<HeldRow>& rows, const std::vector<Unknown>& unknowns,
+                     const std::vector<bool>& moves) const {
+    std::vector<bool> slips(rows.size(), false);
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      if (moves[j]) slips[static_cast<std::size_t>(unknowns[j].row)] = true;
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      const Unknown& unknown = unknowns[j];
+      if (!moves[j] || unknown.kind != Unknown::Kind::slip) continue;
+      if (held_besides(rows, slips, static_cast<std::size_t>(unknown.row)))
+        refuse_stage(fmt::format(
+            "contact '{}' reaches its limit of friction while others hold the same motion, and a "
+            "frictional start does not share friction between them; give them a "
+            "tangential_stiffness, or law = \"compliant\", or begin without the load and apply it "
+            "during the run",
+            contacts_[unknown.contact].name));
+    }
+  }
+
+  /// K u + sum(N n + T t) = P
+  void check_equilibrium() const {
+    Vector rest = stiffness_ * u_ - load_, size = stiffness_.cwiseAbs() * u_.cwiseAbs() + load_.cwiseAbs();
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Standing& s = standing_[k];
+      const auto bear = [&](const Combination& form, double force) {
+        for (const auto& [dof, factor] : form.terms) {
+          rest[dof] += factor * force;
+          size[dof] += std::abs(factor * force);
+        }
+      };
+      bear(contacts_[k].normal, s.N);
+      bear(contacts_[k].body_tangent(), s.T);
+    }
+    double greatest[2] = {0.0, 0.0};  // forces and moments
+    for (Eigen::Index i = 0; i < size.size(); ++i) {
+      double& of = greatest[map_.dofs[static_cast<std::size_t>(i)].rotation ? 1 : 0];
+      of = std::max(of, size[i]);
+    }
+    for (Eigen::Index i = 0; i < rest.size(); ++i) {
+      const Dof& dof = map_.dofs[static_cast<std::size_t>(i)];
+      if (!(std::abs(rest[i]) <= balanced * greatest[dof.rotation ? 1 : 0]))
+        refuse_stage(
+            fmt::format("no equilibrium was found: along {} the forces do not balance", dof.displacement));
+    }
   }
 
   [[nodiscard]] bool rubs(std::size_t k) const { return contacts_[k].has_friction(); }
@@ -212,6 +270,7 @@ class Path {
             "at {:.4g} of stage '{}' {} may continue in several ways that all satisfy the laws of contact; "
             "the start takes the one with the least slips and openings",
             part_, stage_->name, names_of_unknowns(unknowns)));
+      refuse_shares(rows, unknowns, shared.moves);
       take_states(unknowns, shared.moves);
     }
     u_rate_ = std::move(rates);
@@ -323,7 +382,7 @@ class Path {
   const std::vector<Contact>& contacts_;
   const DofMap& map_;
   const SourcePlace& place_;
-  Vector u_, u_rate_;
+  Vector u_, u_rate_, load_;  // load_: of the stages so far
   std::vector<Standing> standing_;
   StaticStart found_;
   const Stage* stage_ = nullptr;

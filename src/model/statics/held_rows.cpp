@@ -1,6 +1,7 @@
 #include "model/statics/held_rows.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "base/eigen_dense.hpp"
 #include "model/statics/null_motions.hpp"
@@ -10,8 +11,28 @@ namespace {
 
 /// Rounding leaves a pivot of some eps of its own diagonal entry; below this one a motion without energy is looked for.
 constexpr double regular_share = 1e-9;
+// What other rows leave of one that they span, of its length: rounding is below. Chosen.
+constexpr double spanned = 1e-9;
 
 }  // namespace
+
+bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loose, std::size_t row) {
+  std::vector<const Combination*> forms{&rows[row].form};
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    if (j != row && rows[j].rigid && !loose[j]) forms.push_back(&rows[j].form);
+  if (!rows[row].rigid || forms.size() < 2) return false;
+  std::map<int, Eigen::Index> place;
+  for (const Combination* form : forms)
+    for (const auto& term : form->terms) place.emplace(term.first, static_cast<Eigen::Index>(place.size()));
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(forms.size()));
+  for (std::size_t j = 0; j < forms.size(); ++j)
+    for (const auto& [dof, factor] : forms[j]->terms)
+      columns(place.at(dof), static_cast<Eigen::Index>(j)) += factor;
+  const Eigen::MatrixXd others = columns.rightCols(columns.cols() - 1);
+  const Eigen::VectorXd own = columns.col(0);
+  return (own - others * least_squares(others, own)).norm() <= spanned * own.norm();
+}
 
 HeldRows::HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows)
     : rows_(std::move(rows)),
@@ -41,7 +62,8 @@ std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
     Eigen::VectorXd miss(n);
     for (Eigen::Index i = 0; i < n; ++i)
       miss[i] = rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
-    const Eigen::VectorXd multipliers = solve_dense(schur_, miss);
+    // Rows that hold one motion together share it: the least norm.
+    const Eigen::VectorXd multipliers = least_squares(schur_, miss);
     for (Eigen::Index i = 0; i < n; ++i) {
       u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
       forces[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])] = multipliers[i];

@@ -21,6 +21,10 @@ struct HeldRow {
   bool rigid = false;
 };
 
+/// Do rigid rows that are not loose prevent the motion along this one, too? Its force is not unique then.
+[[nodiscard]] bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loose,
+                                std::size_t row);
+
 class HeldRows {
  public:
   HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows);

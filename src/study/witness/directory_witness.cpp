@@ -124,7 +124,9 @@ class DirectoryWitness {
 
   [[nodiscard]] RecordedEvent recorded(const Event& event, const InstantRow& row) const {
     RecordedEvent result = recorded_event(event);
-    const auto plain = [](State told, State kept) { return kind_of(kept) == told ? kept : told; };
+    const auto plain = [](State told, State kept) {
+      return is_own(kept) && kind_of(kept) == told ? kept : told;
+    };
     result.from = plain(event.from, row.before.states[result.contact].state);
     result.to = plain(event.to, row.after.states[result.contact].state);
     result.guard_rate = event.guard_rate.value_or(0.0);

@@ -120,15 +120,25 @@ long TableRows::check(const std::filesystem::path& file, bool complete, const Fo
 
 void TableRows::check(const Row& row, const char* file, const Found& found) {
   const Contact& c = model_.contacts[row.contact];
-  const std::vector<ContactState> states = states_at(row.contact, row.t);
-  const auto state = std::find_if(states.begin(), states.end(),
-                                  [&](const ContactState& s) { return row.state == to_string(s.state); });
-  if (state == states.end()) {
+  std::optional<std::vector<Violation>> least;  // of the states at its time that have the row's name
+  for (const ContactState& state : states_at(row.contact, row.t)) {
+    if (row.state != to_string(state.state)) continue;
+    std::vector<Violation> broken;
+    if (!c.own && engine_.follows) broken = broken_by(row, state, file);
+    if (!least || broken.size() < least->size()) least = std::move(broken);
+  }
+  if (!least) {
     found(violation(file, row.t, row.contact, "state", 1.0, 0.0, {}));
     return;
   }
   reach(row);
-  if (c.own || !engine_.follows) return;
+  for (Violation& v : *least) found(std::move(v));
+}
+
+/// What a row of a contact in this state breaks.
+std::vector<Violation> TableRows::broken_by(const Row& row, const ContactState& state,
+                                            const char* file) const {
+  const Contact& c = model_.contacts[row.contact];
   Sight m;
   const Size& size = sizes_[row.contact];
   m.N = row.N;
@@ -138,20 +148,19 @@ void TableRows::check(const Row& row, const char* file, const Found& found) {
   m.dut = row.vt;
   m.place = size.place;
   m.speed = size.speed;
-  if (c.borrows && !is_open(state->state)) {  // of its springs, whatever they are
+  if (c.borrows && !is_open(state.state)) {  // of its springs, whatever they are
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }
-  if (state->state == State::inside) m.g = 0.0;  // it is a dashpot's: the same
+  if (state.state == State::inside) m.g = 0.0;  // it is a dashpot's: the same
   std::vector<Violation> broken;
-  witness_.contact(row.t, row.contact, *state, m, false, size.force, broken);
-  for (Violation& v : broken) {
-    if (c.tangential_stiffness && v.law == "slip direction")
-      continue;  // it takes g', which tables do not have
-    v.event = file;
-    found(std::move(v));
-  }
-  check_forces(row, *state, file, found);
+  witness_.contact(row.t, row.contact, state, m, false, size.force, broken);
+  std::erase_if(broken, [&](const Violation& v) {
+    return c.tangential_stiffness && v.law == "slip direction";  // it takes g', which tables do not have
+  });
+  for (Violation& v : broken) v.event = file;
+  check_forces(row, state, file, [&](Violation v) { broken.push_back(std::move(v)); });
+  return broken;
 }
 
 void TableRows::check_forces(const Row& row, const ContactState& state, const char* file,
@@ -175,7 +184,7 @@ void TableRows::check_forces(const Row& row, const ContactState& state, const ch
   if (c.has_spring() && !c.borrows && c.normal_damping == 0.0 && row.gap)
     check("normal force", row.N, kn * *row.gap);
   if (const int s = sign_of_slip(state.state); s != 0 && !c.friction.varies())
-    check("friction force", row.T, -s * friction_at(c, 0.0, row.N) * row.N);
+    check("friction force", row.T, -s * friction_in(c, state.state, 0.0, row.N) * row.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", c.borrows ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }

@@ -51,6 +51,8 @@ class TableRows {
   };
   [[nodiscard]] std::vector<ContactState> states_at(std::size_t contact, double t) const;
   void check(const Row& row, const char* file, const Found& found);
+  [[nodiscard]] std::vector<Violation> broken_by(const Row& row, const ContactState& state,
+                                                 const char* file) const;
   void check_forces(const Row& row, const ContactState& state, const char* file, const Found& found) const;
   void check_ratio(const Row& row, const char* file, const Found& found) const;
   void reach(const Row& row);

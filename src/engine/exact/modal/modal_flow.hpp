@@ -17,6 +17,8 @@
 
 namespace signorini {
 
+class ModalSystem;
+
 /// A stretch without an event, or up to one.
 struct Passage {
   double length = 0.0;

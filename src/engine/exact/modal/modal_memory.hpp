@@ -11,6 +11,8 @@
 
 namespace signorini {
 
+class ModalSystem;
+
 class ModalMemory {
  public:
   struct Kept {

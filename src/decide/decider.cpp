@@ -88,10 +88,14 @@ struct Decider::Course {
   Findings found;
   std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states stay
   bool blurred = false;
+  Vector given = {};                        // at a start: u as it is given, before parts without mass move
   std::vector<MotionJet> so_far = {};       // up to the instant; empty where no limit has rested
   std::optional<std::size_t> touched = {};  // in this round, by parts without mass that move at once
   double touched_ut = 0.0;                  // its ut there, less that at the end of the way
   Eigen::VectorXd held = {};                // what holds the mode tried last; Decision::captures
+
+  /// Where parts without mass begin that move at once.
+  [[nodiscard]] const Vector& comes_from() const { return instant.start ? given : instant.u; }
 };
 
 Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
@@ -151,6 +155,7 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
   d.slides_before = slides(before, d);
   // What sticks rigidly moves with its surface, what touches rigidly has no gap: an integrator's drift must
   // not decide what comes next.
+  if (instant.start) course.given = instant.u;
   instant.u = d.u;
   instant.v = d.v;
   course.found.capture(every_contact(model_), std::exchange(course.held, {}));
@@ -187,7 +192,7 @@ void Decider::look(Course& course, bool before) {
 std::optional<double> Decider::touched_at(const Failure& f, const Course& course) const {
   if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
   const Contact& contact = model_.contacts[f.contact];
-  const double from = contact.gap_at(course.instant.u), to = contact.gap_at(course.decision.u);
+  const double from = contact.gap_at(course.comes_from()), to = contact.gap_at(course.decision.u);
   if (!(to < 0.0 && to < from)) return std::nullopt;
   return from > 0.0 ? from / (from - to) : 0.0;
 }
@@ -204,10 +209,10 @@ void Decider::touch_first(Course& course) const {
   if (first == nullptr) return;
   const std::size_t c = first->contact;
   std::erase_if(course.failed, [&](const Failure& f) { return f.contact != c && touched_at(f, course); });
-  const Vector way = course.decision.u - course.instant.u;
+  const Vector way = course.decision.u - course.comes_from();
   course.touched_ut = model_.contacts[c].tangent.dot(way) * (at - 1.0);
   course.touched = c;
-  if (model_.contacts[c].normal_damping > 0.0) course.instant.u += at * way;
+  if (model_.contacts[c].normal_damping > 0.0) course.instant.u = course.comes_from() + at * way;
 }
 
 /// Parts without mass are on their way to where the states that are tried balance, and another contact fails by more than
@@ -489,6 +494,9 @@ void Decider::finish(Course& course) const {
             known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
         start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
         start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
+        if (start.at_zero && start.leading < 0)
+          for (std::size_t k = 0; k < start.loose.size(); ++k)
+            start.loose[k] = course.instant.blur * guard.form.magnitude(jet.noise[k + 2]);
         // What the decision took for zero is rounding to an engine, too.
         if (start.at_zero && (start.leading < 0 || base != nullptr))
           start.noise = std::max(start.noise, std::abs(guard.form.value(now)));

@@ -18,6 +18,10 @@ struct GuardStart {
   bool at_zero = false;  ///< starts at zero and rises
   double noise = 0.0;    ///< rounding of its value at the start; no less than what was taken for zero
   int leading = 0;       ///< order of its first derivative that is not zero; -1: none is known
+  std::array<double, 2> loose{};  ///< leading < 0: rounding of its second and third derivative
+
+  /// How far rounding of what nothing tells may have taken it after a time h: a body at rest beside a wall drifts.
+  [[nodiscard]] double drift(double h) const { return h * h * (loose[0] / 2.0 + h * loose[1] / 6.0); }
 };
 
 /// The guard whose failure changed a contact's state.

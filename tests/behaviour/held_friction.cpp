@@ -180,6 +180,68 @@ TEST_CASE("a run that goes on while one foot bears its static limit is the run")
   }
 }
 
+TEST_CASE(
+    "a mass on a block on two feet slides by its own law, whatever the order of contacts and the angle") {
+  // The block stays: 0.5 * 5 g bears what comes. The mass breaks away at 0.4 * 2 g and slides with 0.2 * 2 g.
+  const double away = 0.4 * 2.0 * g / 20.0, after = 1.0 - away;
+  const double slid = (10.0 * (1.0 / 3.0 - std::pow(away, 3) / 3.0 - away * away * after) -
+                       0.2 * 2.0 * g * after * after / 2.0) /
+                      2.0;
+  for (const double turn : {0.0, 0.31})
+    for (const std::string order : {"lrb", "lbr", "rbl", "blr", "brl"})
+      for (const char* engine : {"exact", "ida"}) {
+        CAPTURE(turn);
+        CAPTURE(order);
+        CAPTURE(engine);
+        const Block axes{.turn = turn};
+        std::string text = parts::head + "gravity = " + axes.vector(0.0, -g) +
+                           "\n[run]\nt_end = 1.0\noutput_dt = 0.05\n" +
+                           "[nodes]\nl = " + axes.vector(-0.5, 0.0) + "\nr = " + axes.vector(0.5, 0.0) +
+                           "\ntop = " + axes.vector(0.0, 0.1) + "\nb = " + axes.vector(0.0, 0.1) +
+                           "\n[[rigid]]\nname = \"A\"\ncentre = " + axes.vector(0.0, 0.05) +
+                           "\nnodes = [\"l\", \"r\", \"top\"]\nmass = 3.0\ninertia = 0.3\n[[masses]]\nnode = "
+                           "\"b\"\nmass = 2.0\n";
+        for (const char which : order)
+          text +=
+              fmt::format("[[contacts]]\nname = \"{0}\"\nnode = \"{0}\"\nlaw = \"rigid\"\nnormal = {1}\n{2}",
+                          which, axes.vector(0.0, 1.0),
+                          which == 'b' ? "against = \"top\"\nfriction = { static = 0.4, kinetic = 0.2 }\n"
+                                       : "friction = 0.5\n");
+        text += "[[loads]]\nnode = \"b\"\ndirection = " + axes.vector(1.0, 0.0) +
+                "\namplitude = 20.0\nhistory = { type = \"polynomial\", coefficients = [0.0, 1.0] }\n";
+        const Result result = run(text, engine);
+        CHECK(last_slip(result) == doctest::Approx(away).epsilon(1e-8));
+        const auto b = order.find('b');
+        CHECK(result.rows.back().contacts[b].ut == doctest::Approx(slid).epsilon(1e-6));
+      }
+}
+
+TEST_CASE("a box that stands against a wall is pulled away from it without an event at the wall") {
+  for (const double turn : {0.0, 0.297})
+    for (const char* engine : {"exact", "ida"}) {
+      CAPTURE(turn);
+      CAPTURE(engine);
+      const Block axes{.turn = turn};
+      std::string text = parts::head + "gravity = " + axes.vector(0.0, -g) +
+                         "\n[run]\nt_end = 1.0\noutput_dt = 0.1\n" +
+                         "[nodes]\nl = " + axes.vector(-0.3, 0.0) + "\nr = " + axes.vector(0.3, 0.0) +
+                         "\nw = " + axes.vector(0.3, 0.1) +
+                         "\n[[rigid]]\nname = \"box\"\ncentre = " + axes.vector(0.0, 0.1) +
+                         "\nnodes = [\"l\", \"r\", \"w\"]\nmass = 2.0\ninertia = 0.067\n";
+      for (const char which : {'l', 'r', 'w'})
+        text += fmt::format(
+            "[[contacts]]\nname = \"{0}\"\nnode = \"{0}\"\nlaw = \"rigid\"\nnormal = {1}\nfriction = {2}\n",
+            which, which == 'w' ? axes.vector(-1.0, 0.0) : axes.vector(0.0, 1.0), which == 'w' ? 0.0 : 0.5);
+      text +=
+          "[[loads]]\nnode = \"box\"\ndirection = " + axes.vector(-1.0, 0.0) +
+          fmt::format("\namplitude = {}\nhistory = {{ type = \"polynomial\", coefficients = [0.0, 1.0] }}\n",
+                      m * g);
+      const Result result = run(text, engine);
+      CHECK(last_slip(result) == doctest::Approx(0.5).epsilon(1e-8));
+      CHECK(result.events.size() == 2);  // the foot that bears less, then the other one
+    }
+}
+
 TEST_CASE("slow loads that only shares of friction would bear are refused, not guessed") {
   const auto refusal = [](const std::string& text) -> std::string {
     try {

@@ -263,7 +263,7 @@ FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
   if (arming_.armed(slot)) return first_fall(guard_.data(), degree_, slack);
   if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found what is below to be zero
     return first_fall(guard_.data() + m, degree_ - m, rounding::of_few * std::abs(guard_[m]));
-  guard_[0] += guard.noise + slack;
+  guard_[0] += guard.noise + slack + guard.drift(t_ + x * series_.scale - segment_.decision->jet.t);
   return first_fall(guard_.data(), degree_, 0.0);
 }
 
@@ -338,7 +338,8 @@ void ExactEngine::see_unarmed(double x) {
     if (arming_.idle(slot) || arming_.armed(slot)) continue;
     const GuardStart& guard = segment_.decision->guards[slot];
     contacts_[contact_of_guard(slot)].combine(guard.form, guard_.data());
-    arming_.see(slot, value_at(guard_.data(), degree_, x), 4.0 * guard.noise);
+    const double drift = guard.drift(t_ + x * series_.scale - segment_.decision->jet.t);
+    arming_.see(slot, value_at(guard_.data(), degree_, x), 4.0 * (guard.noise + drift));
   }
 }
 

@@ -251,10 +251,12 @@ class Path {
       }
       const double size = std::max(q.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
       const auto found = slow_rates(m, q / size, unknowns);
-      if (!found)
+      if (!found) {
+        refuse_shares(rows, unknowns, std::vector<bool>(unknowns.size(), true));
         refuse_stage(
             names_of_unknowns(unknowns) +
             " can neither stick nor slip in equilibrium: the friction there is too small for the load");
+      }
       for (Eigen::Index j = 0; j < n; ++j) {
         rates += found->z[j] * size * answers[static_cast<std::size_t>(j)].first;
         forces += found->z[j] * size * answers[static_cast<std::size_t>(j)].second;

@@ -253,7 +253,6 @@ bool Levels::settle(const Level& level, const CoulombSolution& solution, std::ve
     entry.standing = verdict == Verdict::limit ? Standing::limit : Standing::decided;
     decides = true;
   }
-  systems_.tell_held(mode);
   return decides;
 }
 
@@ -279,13 +278,15 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
         std::optional<CoulombSolution> solution;
         if (Refusal why = solve_level(level, solution)) return why;
         if (solution && settle(level, *solution, entries, mode, known)) again.push_back(std::move(level));
+        systems_.tell_held(mode, forcing, instant.t);
       }
       levels = std::move(again);
     }
   }
   // No known derivative says more: what touches stays as it was, what is at its limit sticks.
   for (const Entry& entry : entries) {
-    if (entry.standing == Standing::limit && systems_.held_by_others(entry.who.contact, mode)) {
+    if (entry.standing == Standing::limit &&
+        systems_.held_by_others(entry.who.contact, mode, forcing, instant.t)) {
       known[entry.who.contact].sliding = Known::at_limit();  // it bears its limit at rest
     } else if (entry.standing == Standing::limit) {
       mode[entry.who.contact].state = State::stick;

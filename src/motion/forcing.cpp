@@ -62,6 +62,13 @@ void Forcing::add_load(double t, int order, double* P, double factor) const {
   for (const auto& [load, p] : varying_) model_->loads[load].direction.add_to(P, factor * p->value(t, order));
 }
 
+std::size_t Forcing::surface_terms(std::size_t k) const {
+  constexpr std::size_t of_wave = 13, of_function = 9;  // orders up to 8 are known of functions
+  const Piece& p = *surface_[k];
+  return std::max({p.coefficients.size(), std::size_t{1}, p.amplitude != 0.0 ? of_wave : 0,
+                   p.function ? of_function : 0});
+}
+
 Forcing Forcing::none(const Model& model) {
   static const Piece still;
   Forcing f(model);

@@ -58,6 +58,12 @@ class Forcing {
   [[nodiscard]] double surface(std::size_t k, double t, int order) const {
     return moves_[k] ? surface_[k]->value(t, order) : order == 0 ? still_surface_[k] : 0.0;
   }
+  /// Coefficients scale^j / j! s_k^(j)(t), j < count, of the motion of a surface.
+  void expand_surface(std::size_t k, double t, double scale, std::size_t count, double* out) const {
+    surface_[k]->taylor(t, scale, count, out);
+  }
+  /// So many coefficients say all of it on a step of up to a quarter of a radian: of a wave 0.25^13 / 13! is left.
+  [[nodiscard]] std::size_t surface_terms(std::size_t k) const;
   /// Rounding of the surface velocity at t.
   [[nodiscard]] double surface_rounding(std::size_t k, double t) const;
   /// True while the compression of slider k is zero over an interval.

@@ -163,4 +163,40 @@ TEST_CASE("peaks of contacts are the extremes of outputs of the same quantity, i
   }
 }
 
+TEST_CASE("ut peaks where a surface turns, though no step does") {
+  // s turns at 0.6 s, by the area 0.5 * 0.5 * 0.6; in a wave at pi/w, by 2 V/w. The body flies away from it along n.
+  const double V = 0.4, w = 3.0;
+  const struct {
+    std::string velocity;
+    double peak;
+  } surfaces[] = {{"{ type = \"table\", times = [0.0, 0.3, 0.9], values = [0.0, 0.5, -0.5] }", 0.15},
+                  {fmt::format("{{ type = \"harmonic\", amplitude = {}, omega = {} }}", V, w), 2.0 * V / w}};
+  for (const Way& way : ways)
+    for (const auto& surface : surfaces)
+      for (const double angle : {0.0, 0.7}) {
+        CAPTURE(std::string(way.engine));
+        CAPTURE(surface.velocity);
+        const std::string text = fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+run = {{ t_end = 1.3, output_dt = 1.3, initial = {{ A = {{ vx = {0:.17g}, vy = {1:.17g} }} }} }}
+nodes = {{ A = [0.0, 0.0] }}
+masses = [{{ node = "A", mass = 1.0 }}]
+[[contacts]]
+name = "wall"
+node = "A"
+law = "compliant"
+normal = [{0:.17g}, {1:.17g}]
+gap = 0.5
+normal_stiffness = 1e4
+friction = 0.3
+tangential_stiffness = 1e4
+surface_velocity = {2}
+)",
+                                             -std::sin(angle), std::cos(angle), surface.velocity);
+        const Report report = simulate(read(text, way)).report;
+        CHECK(std::abs(report.peaks[0].tangential - surface.peak) < 10.0 * way.eps);
+        CHECK(report.witness.violations.empty());
+      }
+}
+
 TEST_SUITE_END();

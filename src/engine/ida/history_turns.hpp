@@ -1,6 +1,7 @@
 // history_turns.hpp: extreme values of contacts inside a BDF step.
 //
 //   N, T, g and ut are linear in y, so their polynomials through the last steps are those of the step
+//   ut = t.u - s(t) beside a surface that moves: p(x) - s(t_0 + h x), s in its own series, since no step follows it
 //
 // Looked for only where a polynomial may leave what was seen, and does not go one way (its Bernstein coefficients).
 #pragma once
@@ -9,6 +10,7 @@
 
 #include "engine/falls/step_history.hpp"
 #include "engine/falls/turning_points.hpp"
+#include "motion/forcing.hpp"
 
 namespace signorini {
 
@@ -19,17 +21,22 @@ class HistoryTurns {
       : contacts_(contacts), first_(first), turns_(contacts) {}
 
   [[nodiscard]] std::size_t count() const { return TurningPoints::watched.size() * contacts_; }
-  void start(const Decision& decision) { turns_.start(decision); }
-  /// The part [0, x_end] of the last step.
+  /// The forcing must outlive the segment.
+  void start(const Decision& decision, const Forcing& forcing);
+  /// The part [0, x_end] of the last step. Where a surface moves the history has t.u in the place of ut.
   void find(const StepHistory& history, double x_end);
   /// Ascending, of the last step.
   [[nodiscard]] const std::vector<double>& times() const { return turns_.times(); }
 
  private:
   void look_at(std::size_t shown, const StepHistory& history, double x_end);
+  void look_at_slide(std::size_t contact, const StepHistory& history, double x_end);
 
   std::size_t contacts_, first_;
   TurningPoints turns_;
+  const Forcing* forcing_ = nullptr;
+  std::vector<std::size_t> carried_;  // contacts whose surface moves
+  std::vector<double> series_, of_surface_;
 };
 
 }  // namespace signorini

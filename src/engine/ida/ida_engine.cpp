@@ -52,7 +52,8 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion_of(contact, k, *segment_.forcing, t, point);
-    const double ut = slide_of(contact, k, *segment_.forcing, t, point.u, point.v).ut;
+    const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
+    const double ut = contact.body_tangent().dot(point.u) - still;      // history_turns.hpp
     for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // as TurningPoints::watched
     for (std::size_t i = 0; i < guards_per_contact; ++i)
       *out++ = decision.guards[guard_slot(k, i)].form.value(m);
@@ -105,7 +106,7 @@ void IdaEngine::start(const Segment& segment) {
     levels.push_back(level);
   }
   grazes_.start(decision.guards, levels);
-  turns_.start(decision);
+  turns_.start(decision, *segment.forcing);
   watch_.start(decision.guards, std::move(levels));
   remember(bdf_.start(segment, watch_));
 }

@@ -27,6 +27,13 @@ Crossing crossing(const Form& form, const MotionJet& jet) {
   return result;
 }
 
+/// Its guard did not fall: it was above its rounding just before, and another contact's new state let it jump below zero.
+bool is_pushed(const Failure& f, const Instant& instant, const ContactMotion& before,
+               const ContactMotion& noise) {
+  return f.sign.order == 0 && !instant.has_fired(f.contact, f.guard) &&
+         f.form.value(before) > unlucky * f.form.magnitude(noise);
+}
+
 std::vector<std::size_t> contacts_of(const std::vector<Failure>& failed) {
   std::vector<std::size_t> result;
   for (const Failure& f : failed) result.push_back(f.contact);
@@ -162,12 +169,16 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
   return {};
 }
 
+bool Decider::held_by_others(std::size_t c, const Course& course) const {
+  return systems_.held_by_others(c, course.mode, course.after, course.instant.t);
+}
+
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
 void Decider::look(Course& course, bool before) {
   course.failed =
       failures(model_, course.jets, course.mode, course.instant, before, course.found.known, course.so_far);
   std::erase_if(course.failed, [&](const Failure& f) {
-    if (f.guard == Guard::sliding && systems_.held_by_others(f.contact, course.mode)) return true;
+    if (f.guard == Guard::sliding && held_by_others(f.contact, course)) return true;
     return std::find(course.undecided.begin(), course.undecided.end(), block_of_[f.contact]) !=
            course.undecided.end();
   });
@@ -236,7 +247,8 @@ std::vector<Block> Decider::react(Course& course) const {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
     // What is touched on the way is touched at a time that others give.
-    if (!course.decision.visited[c] && course.touched != c)
+    if (!course.decision.visited[c] && course.touched != c &&
+        !is_pushed(f, course.instant, course.decision.before[c], course.noise_before[c]))
       course.decision.crossings[c] = crossing(f.form, course.jets[c]);
     course.decision.visited[c] = true;
     if (found.sliders) jointly[block_of_[c]] = true;
@@ -472,7 +484,7 @@ void Decider::finish(Course& course) const {
                   std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
     for (const GuardForm& guard : guards(model_.contacts[c], course.mode[c])) {
       // Others hold its slip rate at zero, whatever rounding makes of it.
-      if (guard.kind == Guard::sliding && systems_.held_by_others(c, course.mode)) {
+      if (guard.kind == Guard::sliding && held_by_others(c, course)) {
         d.guards.emplace_back();
         continue;
       }

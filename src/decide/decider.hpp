@@ -62,6 +62,7 @@ class Decider {
   [[nodiscard]] Refusal try_next(Course& course);
   static bool blur(Course& course);
   [[nodiscard]] bool release(std::size_t block, Course& course);
+  [[nodiscard]] bool held_by_others(std::size_t c, const Course& course) const;
   [[nodiscard]] Refusal leave_circle(Course& course);
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
   [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);

@@ -284,7 +284,8 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
   }
   // No known derivative says more: what touches stays as it was, what is at its limit sticks.
   for (const Entry& entry : entries) {
-    if (entry.standing == Standing::limit && systems_.held_by_others(entry.who.contact, mode)) {
+    if (entry.standing == Standing::limit &&
+        systems_.held_by_others(entry.who.contact, mode, forcing, instant.t)) {
       known[entry.who.contact].sliding = Known::at_limit();  // it bears its limit at rest
     } else if (entry.standing == Standing::limit) {
       mode[entry.who.contact].state = State::stick;

@@ -288,7 +288,7 @@ void Touching::rest_together(const Instant& instant, const Forcing& forcing, con
                                                                            : State::stick;
   for (Participant& who : found.participants) {
     const std::size_t c = who.contact;
-    if (!who.slipping || !systems_.held_by_others(c, held)) continue;
+    if (!who.slipping || !systems_.held_by_others(c, held, forcing, instant.t)) continue;
     const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
     if (std::abs(vt) > slowest_flight(c) + rounding::of_many * model_.scales.velocity) continue;
     who.slipping = false;
@@ -308,7 +308,7 @@ std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing
     const auto stops = [&](std::size_t c) {
       if (mode[c].state == State::stick || instant.has_fired(c, Guard::sliding)) return true;
       const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
-      const double held_too = systems_.held_by_others(c, held)
+      const double held_too = systems_.held_by_others(c, held, forcing, instant.t)
                                   ? slowest_flight(c) + rounding::of_many * model_.scales.velocity
                                   : 0.0;
       return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);

@@ -1,10 +1,35 @@
 #include "motion/mode_systems.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 
 namespace signorini {
+namespace {
+
+/// Derivatives of surface motions that a decision asks for.
+constexpr int most_told = 8;
+
+/// z.s' = 0 from t on: surfaces on which feet share a motion move alike, or stand.
+bool moves_as_one(const std::vector<std::size_t>& rows, const Eigen::VectorXd& z, const Forcing& forcing,
+                  double t) {
+  for (int order = 1; order <= most_told; ++order) {
+    double sum = 0.0, zero = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i] % 2 == 0) continue;  // a normal
+      const double zi = z[static_cast<Eigen::Index>(i)], rate = forcing.surface(rows[i] / 2, t, order);
+      sum += zi * rate;
+      zero += std::abs(zi) * (rounding::of_many * std::abs(rate) +
+                              (order == 1 ? forcing.surface_rounding(rows[i] / 2, t) : 0.0));
+    }
+    if (std::abs(sum) > zero) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBounds bounds)
     : model_(model),
@@ -111,12 +136,14 @@ ModeSystemPtr ModeSystems::of(const Mode& mode) {
   return last_ = std::make_shared<const ModeSystem>(mode, std::move(rows), std::move(factorised));
 }
 
-bool ModeSystems::held_by_others(std::size_t c, Mode mode) const {
+bool ModeSystems::held_by_others(std::size_t c, Mode mode, const Forcing& forcing, double t) const {
   if (!may_share(c) || !model_.contacts[c].sticks_rigidly() || mode[c].is_open()) return false;
   mode[c].state = State::stick;
   for (const SharedForces& shared : matrix_.shared_rows().in_force(rows_of(model_, mode))) {
     const auto at = std::find(shared.rows.begin(), shared.rows.end(), 2 * c + 1) - shared.rows.begin();
-    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && !shared.null.row(at).isZero(0.0)) return true;
+    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || shared.null.row(at).isZero(0.0)) continue;
+    // The motion with the greatest z_c of those that are held too often.
+    return moves_as_one(shared.rows, shared.null * shared.null.row(at).transpose(), forcing, t);
   }
   return false;
 }

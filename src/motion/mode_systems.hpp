@@ -15,6 +15,7 @@
 
 #include "base/bounded_cache.hpp"
 #include "linear/system_matrix.hpp"
+#include "motion/forcing.hpp"
 #include "motion/mode_system.hpp"
 
 namespace signorini {
@@ -32,8 +33,10 @@ class ModeSystems {
   /// rates do not return. Null: singular.
   [[nodiscard]] ModeSystemPtr at_friction(const ModeSystem& system, std::span<const Form> tangents);
 
-  /// Others that stick hold the motion along the tangent of a contact: sticking, it would hold nothing more.
-  [[nodiscard]] bool held_by_others(std::size_t contact, Mode mode) const;
+  /// Others that stick or touch hold contact c at rest on its surface: sticking, it would hold nothing more. With H z = 0 of
+  /// the rows in force its slip rate is -z.s'/z_c, s the motions of the surfaces: zero from t on where all derivatives of z.s
+  /// are. What others hold beside a surface that moves slips.
+  [[nodiscard]] bool held_by_others(std::size_t c, Mode mode, const Forcing& forcing, double t) const;
 
   /// Contacts, two at least a list, that may hold one motion together; is one of them?
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& sharing() const {

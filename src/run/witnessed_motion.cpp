@@ -152,7 +152,9 @@ void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vecto
   const std::array<double, 2> by_energy = witness.modal_size(std::sqrt(energy_));
   const double period = model_.omega1 > 0.0 ? 1.0 / model_.omega1 : 0.0;
   for (std::size_t turns : {0U, 1U}) {
-    u_modal_[turns] = std::max({u_modal_[turns], of_u[turns], period * by_energy[turns]});
+    // In a sum over modes displacements are amplitudes times sines, and these are v/omega.
+    u_modal_[turns] =
+        std::max({u_modal_[turns], of_u[turns], period * by_energy[turns], period * of_v[turns]});
     v_modal_[turns] = std::max({v_modal_[turns], of_v[turns], by_energy[turns]});
   }
 }

@@ -113,9 +113,10 @@ void Finder::old_rows(std::size_t k) {
   const WitnessLimits& tol = bench_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const double held = c.takes_impulses() ? force_noise() : 0.0;
+  // In modes forces and displacements are two sums, each known to its round trip.
   const double limit =
-      rounding::of_elimination *
-          (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor)) + std::abs(m.N) + std::abs(m.T)) +
+      rounding::of_elimination * (2.0 * (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor))) +
+                                  std::abs(m.N) + std::abs(m.T)) +
       of_tolerance *
           ((kn + kt) * (tol.rtol * m.place + tol.displacement) + cn * (tol.rtol * m.speed + tol.velocity) +
            tol.rtol * (std::abs(m.N) + std::abs(m.T)) + tol.force) +
@@ -296,6 +297,20 @@ bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& 
   return true;  // a slider: it takes none
 }
 
+namespace {
+
+/// N on both sides; where a dashpot makes it jump, also by that alone, since u goes on: N is known to the rounding of
+/// kn u, cn (g'+ - g'-) to that of velocities.
+bool force_jumps(const Contact& c, const Sight& before, const Sight& after) {
+  const double of_N =
+      rounding::of_elimination * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
+  const double of_rate = rounding::of_elimination * (before.speed + after.speed);
+  return std::abs(after.N - before.N) > of_N ||
+         (c.normal_damping > 0.0 && std::abs(after.dg - before.dg) > of_rate);
+}
+
+}  // namespace
+
 /// The least guard of the old state, with v+, is above its rounding: nothing asked for another state.
 void Finder::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
@@ -310,9 +325,7 @@ void Finder::necessity(std::size_t k) {
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
     return;
   // T stays where N jumps: what slid sticks at it until its limit is reached anew.
-  const double jump =
-      rounding::of_elimination * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
-  if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && std::abs(after.N - before.N) > jump) return;
+  if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && force_jumps(c, before, after)) return;
   const std::optional<Old> before_it = as_before(k);
   if (!before_it) return;
   const SeenGuards guards = guards_of(c, old, before_it->m, bench_.limits);

@@ -355,6 +355,42 @@ TEST_CASE("an event that is ten uncertainties late") {
   }
 }
 
+TEST_CASE(
+    "an event whose own motion or force jumps was led to its state: its guard need not have been zero") {
+  // It sticks rigidly in flight of its guard, 0.5 m/s from zero; what jumps at that instant is one quantity, or none.
+  enum class Jump { none, g_rate, ut_rate, N, little };
+  for (const Jump jump : {Jump::none, Jump::g_rate, Jump::ut_rate, Jump::N, Jump::little}) {
+    CAPTURE(static_cast<int>(jump));
+    Recorded r;
+    r.v_before = along(0.0, 0.5);
+    const double size = jump == Jump::little ? 1e-15 : 0.1;
+    r.v_after = along(jump == Jump::g_rate ? size : 0.0,
+                      jump == Jump::ut_rate || jump == Jump::little ? 0.5 + size : 0.5);
+    r.forces_before = Eigen::Vector2d(-10.0, -3.0);
+    r.forces_after = Eigen::Vector2d(jump == Jump::N ? -11.0 : -10.0, -2.0);
+    r.before = {{State::slip_plus, 0.0}};
+    r.after = {{State::stick, 0.0}};
+    r.record.events = {{0, "stick", State::slip_plus, State::stick, -3.0, 1e-9}};
+    const bool jumps = jump != Jump::none && jump != Jump::little;
+    CHECK(names(r.by(block(ground(Law::rigid))), "time of the event") == !jumps);
+  }
+  // N of a spring goes with u: a jump of it tells nothing, but with a dashpot beside it does.
+  for (const double damping : {0.0, 20.0}) {
+    Contact foot = ground(Law::compliant);
+    foot.normal_damping = damping;
+    Recorded r(-1e-3, 0.0);
+    r.v_before = r.v_after = along(0.0, 0.5);
+    r.a = along(0.0, 0.0);
+    r.forces_before = Eigen::Vector2d(-10.0, -3.0);
+    r.forces_after = Eigen::Vector2d(-11.0, -3.0);
+    r.before = {{State::slip_plus, 0.0}};
+    r.after = {{State::stick, 3.0 / 8e3}};
+    r.record.events = {{0, "stick", State::slip_plus, State::stick, -3.0, 1e-9}};
+    CAPTURE(damping);
+    CHECK(names(r.by(block(foot)), "time of the event") == (damping == 0.0));
+  }
+}
+
 TEST_CASE("forces of the new state: its rows, no tension, no friction outside the cone") {
   Recorded r = sliding(0.5);
   r.forces_after = Eigen::Vector2d(-10.0, 2.9);

@@ -125,7 +125,10 @@ Model disturbed(const Model& model, std::uint64_t seed) {
     if (!model.static_start) near.u0[i] *= disturb.next();
   }
   if (model.reduction) disturb.products(near);
-  if (const auto moved = moved_start(model, near)) near.u0 += *moved;  // it follows from the other data
+  if (const auto moved = moved_start(model, near)) {  // it follows from the other data
+    near.u0 += moved->w;
+    for (std::size_t k = 0; k < near.contacts.size(); ++k) near.contacts[k].initial_shear = moved->shears[k];
+  }
   return near;
 }
 

@@ -4,7 +4,7 @@
 //
 // Of a reduced model the data are those of the structure: x^T K y of two shapes is off by what its terms are, which may
 // cancel, so that stiffnesses and shapes are others (mixed_shapes.hpp).
-// A static start without friction follows its data (moved_start.hpp).
+// A static start follows its data, with friction as far as that holds below its limit (moved_start.hpp).
 // What stays: times of breakpoints, the initial state of what touches, displacements of other static starts, gaps that are
 // closed, and zeros. So laws, states at the start and symmetry of the matrices are those of the model. The same seed gives
 // the same model.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/rounding.hpp"
+#include "contact/friction.hpp"
 #include "model/assembly/loads.hpp"
 #include "model/statics/held_rows.hpp"
 #include "model/statics/static_system.hpp"
@@ -11,11 +13,39 @@
 namespace signorini {
 namespace {
 
+// Nearer to its limit than this part of it a contact may slide. Chosen, as for starts of reduced models.
+constexpr double at_limit = 1e-9;
+
+bool rubs(const Model& model, const Contact& c) { return model.statics.frictional && c.has_friction(); }
+
+/// Friction holds it below its limit, by a spring.
+bool sticks(const Model& model, std::size_t k) {
+  const Contact& c = model.contacts[k];
+  const double limit = sticking_limit(c, -model.statics.reactions[k]);
+  return c.tangential_stiffness && c.initial_slip == 0 &&
+         std::abs(c.initial_shear) < (1.0 - at_limit) * limit;
+}
+
+/// In `near`, with the sliding point where it is.
+std::vector<double> shears(const Model& model, const Model& near) {
+  std::vector<double> list;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact &c = model.contacts[k], &other = near.contacts[k];
+    const bool springs = c.tangential_stiffness && *c.tangential_stiffness > 0.0;
+    list.push_back(springs ? c.initial_shear * (*other.tangential_stiffness / *c.tangential_stiffness)
+                           : c.initial_shear);
+  }
+  return list;
+}
+
 /// Forces at u0 that are left where the contacts that bear have the forces of their gaps there, rigid ones of the start.
-Vector left_over(const Model& model, const std::vector<double>& reactions) {
+Vector left_over(const Model& model, const std::vector<double>& reactions,
+                 const std::vector<double>& shears) {
   Vector force = static_load(model.loads, model.size()) - model.stiffness * model.u0;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
+    if (model.statics.frictional && reactions[k] > 0.0 && c.has_friction())
+      c.tangent.add_to(force, -shears[k]);
     if (!c.has_gap() || !(reactions[k] > 0.0)) continue;
     c.normal.add_to(force, c.has_spring() ? -c.normal_stiffness * c.gap_at(model.u0) : reactions[k]);
   }
@@ -44,15 +74,33 @@ bool keeps_states(const Model& model, const Model& near, const Vector& u) {
 
 }  // namespace
 
-std::optional<Vector> moved_start(const Model& model, const Model& near) {
-  const bool known = model.static_start && model.statics.reactions.size() == model.contacts.size() &&
-                     std::none_of(model.contacts.begin(), model.contacts.end(),
-                                  [](const Contact& c) { return c.own != nullptr && c.has_gap(); });
-  if (!known || model.statics.frictional) return std::nullopt;
-  const Vector p = left_over(near, model.statics.reactions) - left_over(model, model.statics.reactions);
+namespace {
+
+/// Static, and all friction in it holds below its limits, by springs.
+bool is_known(const Model& model) {
+  if (!model.static_start || model.statics.reactions.size() != model.contacts.size()) return false;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (c.own != nullptr && c.has_gap()) return false;
+    if (!rubs(model, c)) continue;
+    if (c.shear || c.bowl) return false;
+    if (model.statics.reactions[k] > 0.0 && !sticks(model, k)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
+  if (!is_known(model)) return std::nullopt;
+  MovedStart moved{{}, shears(model, near)};
+  const std::vector<double>& reactions = model.statics.reactions;
+  const Vector p =
+      left_over(near, reactions, moved.shears) - left_over(model, reactions, shears(model, model));
   std::vector<HeldRow> rows;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = near.contacts[k];
+    if (rubs(model, c) && reactions[k] > 0.0) rows.push_back({c.tangent, *c.tangential_stiffness, false});
     if (!c.has_gap()) continue;
     if (c.has_spring() && bears(model, k))
       rows.push_back({c.normal, c.normal_stiffness, false});
@@ -74,8 +122,12 @@ std::optional<Vector> moved_start(const Model& model, const Model& near) {
     rows.push_back({tangent, own_stiffness(near.stiffness, tangent), true});
     w = solve();
   }
-  if (w && !(w->allFinite() && keeps_states(model, near, near.u0 + *w))) w.reset();
-  return w;
+  if (!w || !(w->allFinite() && keeps_states(model, near, near.u0 + *w))) return std::nullopt;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (rubs(model, model.contacts[k]) && reactions[k] > 0.0)
+      moved.shears[k] += *near.contacts[k].tangential_stiffness * near.contacts[k].tangent.dot(*w);
+  moved.w = std::move(*w);
+  return moved;
 }
 
 }  // namespace signorini

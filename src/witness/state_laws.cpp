@@ -114,9 +114,10 @@ void Finder::old_rows(std::size_t k) {
   const WitnessLimits& tol = bench_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const double held = c.takes_impulses() ? force_noise() : 0.0;
+  // In modes forces and displacements are two sums, each known to its round trip.
   const double limit =
-      rounding::of_elimination *
-          (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor)) + std::abs(m.N) + std::abs(m.T)) +
+      rounding::of_elimination * (2.0 * (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor))) +
+                                  std::abs(m.N) + std::abs(m.T)) +
       of_tolerance *
           ((kn + kt) * (tol.rtol * m.place + tol.displacement) + cn * (tol.rtol * m.speed + tol.velocity) +
            tol.rtol * (std::abs(m.N) + std::abs(m.T)) + tol.force) +

@@ -80,6 +80,13 @@ void check_conditions(const CoulombProblem& p, const CoulombSolution& s) {
     const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
     const double l = item.kind == Kind::pressed ? item.pressing : s.force[n];
     const double k = s.force[t], rn = s.response[n], rt = s.response[t];
+    if (item.kind == Kind::limit) {
+      CHECK(item.sign * k >= -zero);
+      CHECK(item.sign * rt >= -zero);
+      CHECK(std::abs(k * rt) <= zero * (1.0 + std::abs(k) + std::abs(rt)));
+      CHECK(s.force[n] == 0.0);
+      continue;
+    }
     if (item.kind != Kind::pressed) {
       CHECK(l >= -zero);
       CHECK(rn >= -zero);
@@ -168,6 +175,36 @@ TEST_CASE("contacts that couple: Lemke's solution fulfils all conditions and is 
   CHECK(unique > 2000);
   CHECK(none > 10);  // Painleve: these matrices couple strongly
   CHECK(several > 10);
+}
+
+TEST_CASE(
+    "contacts at their limit stick or slip along their sign, beside others, more than are enumerated, too") {
+  std::mt19937_64 random(11);
+  int sticks = 0, slips = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const auto m = static_cast<std::size_t>(1 + trial % 9);
+    CoulombProblem p = random_problem(random, m, 0.02, false);
+    for (std::size_t i = 0; i < m; i += 2) {
+      p.items[i].kind = Kind::limit;
+      const auto n = static_cast<Eigen::Index>(2 * i);  // its normal is a row in force already
+      p.W.row(n).setZero();
+      p.W.col(n).setZero();
+      p.b[n] = 0.0;
+    }
+    const auto one = solve(p);
+    REQUIRE(one.has_value());
+    check_conditions(p, *one);
+    for (std::size_t i = 0; i < m; i += 2) {
+      const auto t = static_cast<Eigen::Index>(2 * i + 1);
+      (p.items[i].sign * one->force[t] > 0.0 ? sticks : slips) += 1;
+    }
+    if (m > most_enumerated) continue;
+    const std::vector<CoulombSolution> all = all_solutions(p).solutions;
+    REQUIRE(all.size() == 1);
+    CHECK((all[0].response - one->response).norm() <= 1e-7 * (1.0 + one->response.norm()));
+  }
+  CHECK(sticks > 300);
+  CHECK(slips > 300);
 }
 
 TEST_CASE("up to six contacts all states are tried, and no more") {

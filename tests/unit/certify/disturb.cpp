@@ -45,7 +45,9 @@ TEST_CASE("stiffnesses of a reduced model are off by what the entries of K leave
 namespace {
 
 /// The static displacement of two masses by Cramer's rule, to more digits than doubles have.
-std::array<long double, 2> displacement(const Model& model) {
+/// kt, T: of a spring of friction along the second, whose sliding point is where it was at `from`.
+std::array<long double, 2> displacement(const Model& model, long double kt = 0.0L, long double T = 0.0L,
+                                        double from = 0.0) {
   const auto k = [&](int i, int j) { return static_cast<long double>(model.stiffness.coeff(i, j)); };
   const Contact& c = model.contacts[0];
   const long double kn = c.normal_stiffness, n = c.normal.terms.front().second;
@@ -53,15 +55,17 @@ std::array<long double, 2> displacement(const Model& model) {
   for (const Load& load : model.loads)
     for (const auto& [dof, factor] : load.direction.terms)
       p[dof] += static_cast<long double>(factor) * load.history.value(0.0);
-  const long double a = k(0, 0) + kn * n * n, b = k(0, 1), d = k(1, 1), det = a * d - b * b;
+  p[1] -= T - kt * from;
+  const long double a = k(0, 0) + kn * n * n, b = k(0, 1), d = k(1, 1) + kt, det = a * d - b * b;
   return {(p[0] * d - b * p[1]) / det, (a * p[1] - b * p[0]) / det};
 }
 
 }  // namespace
 
-TEST_CASE("a static start follows its data: a stiff bar on a soft spring and a compliant foot") {
-  // K = [k + s, -s; -s, s]: the sum k + s is off by a rounding of s, the soft motion by s/k as many of itself.
-  const std::string scene = R"(schema = 1
+namespace {
+
+/// K = [k + s, -s; -s, s]: the sum k + s is off by a rounding of s, the soft motion by s/k as many of itself.
+constexpr const char* soft = R"(schema = 1
 units = { force = "N", mass = "kg", length = "m", time = "s" }
 run = { t_end = 1.0, initial = "static" }
 [matrices]
@@ -82,7 +86,11 @@ direction = { a = 0.3, b = 1.0 }
 amplitude = 5.0
 history = { type = "constant" }
 )";
-  const Model model = build_model(parse_scene(scene, "soft.toml"));
+
+}  // namespace
+
+TEST_CASE("a static start follows its data: a stiff bar on a soft spring and a compliant foot") {
+  const Model model = build_model(parse_scene(soft, "soft.toml"));
   REQUIRE(model.static_start);
   const auto first = displacement(model);
   for (std::uint64_t seed = 1; seed < 5; ++seed) {
@@ -99,7 +107,44 @@ history = { type = "constant" }
   }
 }
 
-TEST_CASE("a start that friction holds, and what touches without force, stay as they are") {
+TEST_CASE(
+    "a start that friction holds below its limit follows its data, and its shear with it; at its limit it "
+    "stays") {
+  Model model = build_model(parse_scene(soft, "soft.toml"));
+  Contact& foot = model.contacts[0];
+  // T on top of all: its load balances it. The limit is 0.4 N.
+  const double T = 0.3 * model.statics.reactions[0], from = model.u0[1];
+  model.statics.frictional = true;
+  foot.initial_shear = T;
+  Load more = model.loads[0];
+  more.direction = foot.tangent;
+  more.history = History::constant(T);
+  model.loads.push_back(more);
+  const long double own = *foot.tangential_stiffness;
+  const auto first = displacement(model, own, T, from);
+  for (std::uint64_t seed = 1; seed < 5; ++seed) {
+    CAPTURE(seed);
+    const Model near = disturbed(model, seed);
+    const double kt = *near.contacts[0].tangential_stiffness;
+    const long double begun = T * static_cast<long double>(kt) / own;
+    const auto moved = displacement(near, kt, begun, from);
+    for (int i = 0; i < 2; ++i) {
+      const auto expected =
+          static_cast<double>(moved[static_cast<std::size_t>(i)] - first[static_cast<std::size_t>(i)]);
+      CHECK(std::abs(expected) > 1e-11 * std::abs(model.u0[i]));
+      CHECK(near.u0[i] - model.u0[i] == doctest::Approx(expected).epsilon(1e-5));
+    }
+    const double shear = static_cast<double>(begun - T + kt * (moved[1] - first[1]));
+    CHECK(near.contacts[0].initial_shear - T == doctest::Approx(shear).epsilon(1e-4));
+  }
+  foot.initial_shear = 0.4 * model.statics.reactions[0];
+  CHECK(disturbed(model, 3).u0 == model.u0);
+  foot.initial_shear = T;
+  foot.initial_slip = 1;
+  CHECK(disturbed(model, 3).u0 == model.u0);
+}
+
+TEST_CASE("what touches without force stays as it is, and what is apart does not") {
   // The gap of the second contact is closed, and it bears nothing.
   const std::string scene = R"(schema = 1
 units = { force = "N", mass = "kg", length = "m", time = "s" }
@@ -125,8 +170,6 @@ history = { type = "constant" }
   CHECK(std::abs(near.contacts[0].gap_at(near.u0)) <= 1e-15 * std::abs(model.contacts[0].gap));
   model.contacts[0].gap += 1.0;  // apart
   CHECK(std::abs(disturbed(model, 3).u0[0] - model.u0[0]) > 1e-10 * std::abs(model.u0[0]));
-  model.statics.frictional = true;
-  CHECK(disturbed(model, 3).u0 == model.u0);
 }
 
 TEST_SUITE_END();

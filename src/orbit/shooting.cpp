@@ -24,7 +24,10 @@ constexpr double least_singular = 1e-9;
 // Where no step reduces the residual: fast mode shapes make Phi 1e5 times greater than what slow ones do to it.
 constexpr std::array finer_steps{1e-11, 1e-13};
 
-double over(double value, double amplitude) { return amplitude > 0.0 ? value / amplitude : value; }
+// In scales: an amplitude below it is rest, and what rounding of the state leaves. Chosen: fifty roundings.
+constexpr double at_rest = 1e-14;
+
+double over(double value, double amplitude) { return amplitude > at_rest ? value / amplitude : value; }
 
 /// Of the state, and of the energy where it is given.
 double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {

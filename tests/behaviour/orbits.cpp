@@ -336,6 +336,29 @@ TEST_CASE(
   CHECK(chosen.multipliers == exact.multipliers);
 }
 
+TEST_CASE("a search that is interrupted at any time ends without an orbit") {
+  struct Stopper final : Recorder {
+    long left;
+    explicit Stopper(long calls) : left(calls) {}
+    void event(const Event& /*event*/) override {}
+    void sample(const Sample& /*sample*/) override {}
+    bool progress(double /*t*/) override { return left-- > 0; }
+  };
+  OrbitOptions options;
+  options.transient = 1;
+  constexpr long many = 1000000;
+  Stopper never(many);
+  REQUIRE(find_orbit(reader_of_text(chain("0.62")), options, &never).found);
+  const long calls = many - never.left;
+  REQUIRE(calls > 20);
+  for (long k = 0; k < calls; k += std::max(1L, calls / 200)) {
+    CAPTURE(k);
+    Stopper stopper(k);
+    static_cast<void>(find_orbit(reader_of_text(chain("0.62")), options, &stopper));
+    CHECK(stopper.left < 0);
+  }
+}
+
 TEST_CASE("scenes without an orbit say why") {
   const auto text = [](const std::string& loads, const std::string& run = "") {
     return matrix_scene("t_end = 9.0\n" + run, "mass = [[1.0]]\nstiffness = [[1.0]]",

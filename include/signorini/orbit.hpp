@@ -56,21 +56,27 @@ struct Orbit {
   /// Loads, compressions and surfaces are at this time of the scene where the orbit's time is 0.
   double phase = 0.0;
   double residual = 0.0;   ///< max |z(T) - z| over amplitude
-  double amplitude = 0.0;  ///< half the greatest range of a displacement; length
+  double amplitude = 0.0;  ///< half the greatest range of a displacement, rotations left out; length
   std::vector<OrbitStep> steps;
 
   /// Of all directions in which the state at the section may move; by magnitude, descending. Of an autonomous orbit
   /// one of them is 1, along the motion.
   std::vector<std::complex<double>> multipliers;
-  double multiplier_error = 0.0;  ///< change between two evaluations that share no state
-  std::optional<bool> stable;     ///< nothing: a multiplier is on the unit circle within its error
+  /// How far a simple multiplier may be off: the change between Phi from this state and Phi from its image a period later, and
+  /// the error that both share: rounding of Phi, what the steps of its tangents leave, and with `ida` 100 rtol, each times the
+  /// greatest entry of Phi. Rounding of the phase omega T in modes, which turns a multiplier along the circle, is not in it.
+  double multiplier_error = 0.0;
+  /// Nothing: a multiplier is on the unit circle within its error, or, of a conservative motion, within the square root of it,
+  /// by which two equal multipliers move apart.
+  std::optional<bool> stable;
   OrbitLoss loss = OrbitLoss::none;
   double max_multiplier = 0.0;  ///< greatest magnitude, without those of families and of time
   /// Directions with a multiplier of 1, one orbit beside the other: what holds still all the time, one name each. The
   /// orbit found is the one that is nearest to where the search began.
   std::vector<std::string> families;
 
-  std::vector<Event> sequence;  ///< events of one period, from phase on; no jumps of loads
+  /// Events of one period, from phase on, one at the orbit's time 0 first; no jumps of loads.
+  std::vector<Event> sequence;
   Energy cycle;          ///< change over one period: of what is dissipated, of works, of what is stored
   double section = 0.0;  ///< time after `phase` at which Newton's method closed the orbit
   SavedState start;      ///< the state at the orbit's time 0
@@ -123,10 +129,10 @@ struct BranchPoint {
   long events = 0;  ///< in one period
   int branch = 1;   ///< 1: of the first orbit; else that of Branch::sides
   /// A point that was located: "fold" (the parameter turns), "flip", "neimark-sacker", "branch point", "sequence" (the last one
-  /// with its sequence). Else what lies between the point before and this one: "fold" (the parameter turns at a corner of the
-  /// branch, where the sequence changes), "stability" (gained or lost), "sequence",
-  /// "restart" (the branch before could not be followed on); "switched": the first point beside the branch that it leaves;
-  /// several with "+"
+  /// with its sequence), "end" (no step leads further, as at a graze where two orbits meet and vanish). Else what lies between
+  /// the point before and this one: "fold" (the parameter turns at a corner of the branch, where the sequence changes),
+  /// "stability" (gained or lost), "sequence", "restart" (the branch before could not be followed on); "switched": the first
+  /// point beside the branch that it leaves; several with "+"
   std::string special;
 };
 
@@ -136,14 +142,17 @@ struct SideBranch {
   std::string kind;          ///< "flip", "branch point"
   double parameter = 0.0;    ///< where it leaves
   std::string end;           ///< why it ends, one sentence
-  bool complete = false;     ///< it reached an end of the range, or returned
+  /// It reached an end of the range; or, of twice the period, it came back to an orbit of the simple one.
+  bool complete = false;
 };
 
 struct Branch {
   std::vector<BranchPoint> points;
   std::vector<std::string> sequences;  ///< by number, from 1 on: "stop contact, stop separation"
   std::string end;                     ///< why it ends, one sentence
-  bool complete = false;               ///< it reached `to`, or `from` again behind a fold
+  /// It reached `to`; or it came back to `from` behind a fold, having met no gap: `end` then says beyond which value it has no
+  /// orbit. False: it ended on the way, came back behind a gap, or was interrupted.
+  bool complete = false;
   bool interrupted = false;
   std::optional<BranchMark> last;  ///< of the first branch, if it has a point
   std::vector<SideBranch> sides;   ///< in the order in which they were followed

@@ -31,9 +31,8 @@ struct OrbitCommand : OutputOptions {
   std::vector<std::string> settings;
   OrbitOptions search;
   std::string over;
-  int switches = 0;
   std::optional<double> step;
-  std::optional<int> most_points;
+  std::optional<int> most_points, switches;
   bool resume = false;
 };
 
@@ -126,6 +125,9 @@ void set_steps(const OrbitCommand& options, BranchOptions& over) {
     throw UsageError("--step: expected a part of the range, above 0 and at most 1");
   if (options.most_points && *options.most_points < 1)
     throw UsageError("--most-points: expected an integer of at least 1");
+  if (options.switches && *options.switches < 0)
+    throw UsageError("--switch: expected an integer of at least 0");
+  over.switches = options.switches.value_or(over.switches);
   over.step = options.step.value_or(over.step);
   over.most_points = options.most_points.value_or(over.most_points);
 }
@@ -137,13 +139,11 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
     BranchOptions over;
     read_over(options.over, over);
     over.orbit = options.search;
-    if (options.switches < 0) throw UsageError("--switch: expected an integer of at least 0");
-    over.switches = options.switches;
     set_steps(options, over);
     return run_over(options.scene, reader_of(options.scene, changes), over, path, options, options.resume);
   }
-  if (options.step || options.most_points)
-    throw UsageError("--step, --most-points: expected --over, whose branch they are of");
+  if (options.step || options.most_points || options.switches)
+    throw UsageError("--step, --most-points, --switch: expected --over, whose branch they are of");
   if (options.resume) throw UsageError("--resume: expected --over, whose branch it continues");
   check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);

@@ -112,7 +112,7 @@ void carry_on(const SweepOptions& options, SweepSpec& spec) {
 
 /// What points a stroboscopic sweep has.
 void specify_strobe(const SweepOptions& options, const Scene& scene, const Model& model, SweepSpec& spec) {
-  const Strobe strobe = parse_strobe(options.strobe, model);
+  const Strobe strobe = parse_strobe(options.strobe, scene, model);
   spec.strobe = {options.strobe, strobe.period, options.settle, strobe_columns(model)};
   const double t_end = scene.run.t_end;
   if (options.settle && !(*options.settle >= 0.0 && *options.settle < t_end))
@@ -120,7 +120,7 @@ void specify_strobe(const SweepOptions& options, const Scene& scene, const Model
   if (strobe.period > t_end)
     throw UsageError(fmt::format("--strobe {}: is longer than the run, t_end = {:g}", options.strobe, t_end));
   const double periods = strobe.period > 0.0 ? t_end / strobe.period : 0.0;
-  if (options.carry && std::abs(periods - std::round(periods)) > 1e-9 * periods)
+  if (options.carry && !strobe.of_loads && std::abs(periods - std::round(periods)) > 1e-9 * periods)
     throw UsageError(
         fmt::format("--carry: t_end = {:g} is {:g} times the period of --strobe, expected a whole "
                     "number: the next run's loads begin anew",
@@ -304,6 +304,21 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
                            (directory.path() / "sweep.csv").string()));
 }
 
+/// Of the first and the last row: a varied key may change the period of the loads.
+void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec) {
+  const auto all = points(spec.vary);
+  for (const auto* point : {&all.front(), &all.back()}) {
+    std::vector<Override> changes = overrides_of(options.settings);
+    changes.insert(changes.end(), point->begin(), point->end());
+    try {
+      const Scene scene = read_scene(options.scene, changes);
+      const std::string doubt = strobe_doubt(parse_strobe(options.strobe, scene, build_model(scene)), scene);
+      if (!doubt.empty()) return print_note(doubt);
+    } catch (const Error&) {  // a row that is refused says so itself
+    }
+  }
+}
+
 ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& command_line) {
   const SweepSpec spec = specify(options);
   check_overlaps(options.scene, spec.vary, overrides_of(options.settings));
@@ -313,6 +328,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
     for (const Vary& vary : spec.vary)
       if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
+  if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec);
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
   RowTask common{options.scene, overrides_of(options.settings), 0, {}, {}, command_line};
@@ -403,9 +419,9 @@ ExitCode sweep_or_merge(const SweepOptions& given, const std::vector<std::string
 void add_strobe(CLI::App& command, SweepOptions& options, const CLI::Validator& given) {
   command
       .add_option("--strobe", options.strobe,
-                  "states at multiples of a period, or after every EVENT or EVENT@CONTACT: strobe.csv, and a "
-                  "bifurcation diagram")
-      ->option_text("PERIOD|EVENT");
+                  "states at multiples of a period, of the period of the loads, or after every EVENT or "
+                  "EVENT@CONTACT: strobe.csv, and a bifurcation diagram")
+      ->option_text("PERIOD|loads|EVENT");
   command
       .add_option("--settle", options.settle,
                   "no state of --strobe before this time (default: half of t_end)")

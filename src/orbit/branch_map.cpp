@@ -30,7 +30,9 @@ BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, cons
   const double at = options.resumed ? options.resumed->parameter : options.from;
   start_.s = (at - options.from) / (options.to - options.from);
   const SceneReader begun = branch_reader(read_, options_.path, at);
-  t_end_ = std::max(begun({}).run.t_end, first.phase + 4.0 * first.period);
+  const Scene scene = begun({});
+  t_end_ = std::max(scene.run.t_end, first.phase + 4.0 * first.period);
+  drive_ = driving_loads(scene);
   Model on_orbit = build_model(orbit_scene(begun, first));
   machine_ = on_orbit.machine;
   phase_ = first.phase / machine_.time;
@@ -84,7 +86,8 @@ Scene BranchMap::scene_at(double s) const {
 
 /// Errors: SceneError where the loads do not repeat themselves as they do at the start of the branch.
 LoadPeriod BranchMap::loads_at(const Scene& scene) const {
-  LoadPeriod loads = options_.orbit.period ? check_period(scene, *options_.orbit.period) : load_period(scene);
+  const LoadPeriod loads = options_.orbit.period ? check_period(scene, *options_.orbit.period, drive_)
+                                                 : load_period(scene, drive_);
   const double phase = phase_ * machine_.time;
   if (loads.settled > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
     throw SceneError(
@@ -179,15 +182,22 @@ OrbitPass BranchMap::margins(const BranchState& state) const {
 
 Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {
   const OrbitSection section(first_, pass.begin);
-  if (conservative()) return Vector::Zero(section.basis().rows());
+  const Eigen::Index n = section.basis().rows();
+  if (conservative()) return -Vector::Unit(n + 1, n);
+  const auto rows_of = [&](const OrbitPass& of) {
+    Vector rows(n + (keeps_energy() ? 1 : 0));
+    rows.head(n) = section.coordinates(of.end) - section.coordinates(of.begin);
+    if (keeps_energy()) rows[n] = of.energy / energy_unit();
+    return rows;
+  };
   const auto gap = [&](double s) -> std::optional<Vector> {
     const OrbitPass other = this->pass(
         {fitted(state.state, pass.begin.mode, s), autonomous_ ? state.duration : period(s), s}, false);
     if (!other.done()) return std::nullopt;
-    return section.coordinates(other.end) - section.coordinates(other.begin);
+    return rows_of(other);
   };
-  const Vector here = section.coordinates(pass.end) - section.coordinates(pass.begin);
-  const double noise = residual_of(section, pass, here);
+  const Vector here = rows_of(pass);
+  const double noise = residual_of(section, pass, here.head(n));
   const double h = at(state.s)->run().engine == Engine::exact
                        ? std::clamp(std::sqrt(noise), difference, greatest_difference)
                        : difference_of_steps;

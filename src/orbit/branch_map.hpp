@@ -2,7 +2,9 @@
 //
 //   y = (x, dT, s)       x: directions at the section; dT where the motion is driven by itself; s: (p - from)/(to - from)
 //   G(y) = B^T (z(T; z, s) - z),    dG/ds by a difference of the map, dG/dx from Phi
-//   over the energy of conservative motions: dG/ds = 0, and the row (E(x) - E(s))/(to - from) = 0
+//   of conservative motions one row more: (E(x, s) - E*(s))/E1 = 0
+//     over the energy:            E*(s) = from + s (to - from), E1 = to - from, and dG/ds = 0
+//     over a key at an energy:    E* = E1 = that energy
 //
 // All models have the units of the machine of the first one, so that states are comparable.
 #pragma once
@@ -37,6 +39,13 @@ class BranchMap {
   [[nodiscard]] bool conservative() const { return options_.path == over_energy; }
   /// Over the energy, or over a key at a given energy.
   [[nodiscard]] bool keeps_energy() const { return conservative() || options_.orbit.energy.has_value(); }
+  /// E*(s) of orbits that keep it, in the scene's unit; E1.
+  [[nodiscard]] std::optional<double> energy(double s) const {
+    return conservative() ? std::optional(parameter(s)) : options_.orbit.energy;
+  }
+  [[nodiscard]] double energy_unit() const {
+    return conservative() ? range() : options_.orbit.energy.value_or(1.0);
+  }
   [[nodiscard]] double range() const { return options_.to - options_.from; }
   [[nodiscard]] double parameter(double s) const;
   /// The loads' period at s, times `times`; machine's.
@@ -55,8 +64,8 @@ class BranchMap {
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
   /// Margins alone, from many rows.
   [[nodiscard]] OrbitPass margins(const BranchState& state) const;
-  /// dG/ds by a difference to one side, coordinates at the section, not yet times B^T. A matrix of Newton's method and a
-  /// direction: neither needs more digits.
+  /// dG/ds by a difference to one side, coordinates at the section, not yet times B^T, and the row of the energy if there is
+  /// one. A matrix of Newton's method and a direction: neither needs more digits.
   [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
 
  private:
@@ -72,6 +81,7 @@ class BranchMap {
   Factors machine_;
   double phase_;  // machine's
   double t_end_;  // of scenes
+  SilentLoads drive_;
   double section_ = 0.0;
   Model first_;
   BranchState start_;

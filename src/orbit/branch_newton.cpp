@@ -27,6 +27,8 @@ constexpr double least_size = 1e-3;     // of a coordinate in the norm; chosen
 constexpr double singular = 1e-9, finer_singular = 1e-12;
 constexpr double amplitudes_a_range =
     5.0;  // in which the state may change as far as the parameter in its range
+// Of the greatest amplitude of the branch: below, steps no longer shrink with the amplitude, and reach zero. Chosen.
+constexpr double vanishing = 0.05;
 // Of dz/ds, beside the motion: above the noise of dG/ds. Chosen; who asks tries it.
 constexpr double shifts_by = 1e-3;
 
@@ -63,23 +65,34 @@ Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass
   const OrbitSection section(map_.model(), pass.begin);
   const Eigen::MatrixXd& B = section.basis();
   const Eigen::Index n = section.size(), extra = map_.autonomous() ? 1 : 0;
-  const Eigen::Index rows = n + extra + (map_.conservative() ? 1 : 0);
+  const Eigen::Index of_energy = map_.keeps_energy() ? 1 : 0, rows = n + extra + of_energy;
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, n + extra + 1);
   const Vector over = sizes_.cwiseInverse();
   J.topLeftCorner(n, n) = over.asDiagonal() * (B.transpose() * pass.end_rates) * sizes_.asDiagonal();
   J.topLeftCorner(n, n) -= Eigen::MatrixXd::Identity(n, n);
-  if (by_s.size() == n) J.block(0, n + extra, n, 1) = over.cwiseProduct(by_s);
+  if (by_s.size() == n + of_energy) {
+    J.block(0, n + extra, n, 1) = over.cwiseProduct(by_s.head(n));
+    J.block(n + extra, n + extra, of_energy, 1) = by_s.tail(of_energy);
+  }
   if (extra == 1) {
     J.block(0, n, n, 1) = over.cwiseProduct(B.transpose() * section.rates(pass.end)) * state.duration;
     Vector along = sizes_.cwiseProduct(B.transpose() * section.rates(pass.begin));
     J.block(n, 0, 1, n) = (along / along.norm()).transpose();
   }
-  if (map_.conservative()) {
+  if (of_energy == 1)
     J.row(rows - 1).head(n) =
-        sizes_.cwiseProduct(energy_slope(map_.model(), pass, section)).transpose() / map_.range();
-    J(rows - 1, J.cols() - 1) = -1.0;
-  }
+        sizes_.cwiseProduct(energy_slope(map_.model(), pass, section)).transpose() / map_.energy_unit();
   return J;
+}
+
+Vector BranchNewton::by_parameter(const BranchState& state, const OrbitPass& pass) const {
+  const OrbitSection section(map_.model(), pass.begin);
+  const Eigen::MatrixXd& B = section.basis();
+  const Vector rates = map_.by_parameter(state, pass);
+  const Eigen::Index of_energy = rates.size() - B.rows();
+  Vector by_s(section.size() + of_energy);
+  by_s << B.transpose() * rates.head(B.rows()), rates.tail(of_energy);
+  return by_s;
 }
 
 /// Why a pass is no step of the branch; empty: it is one.
@@ -91,9 +104,10 @@ std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) 
 
 double BranchNewton::closed_at_last() const { return std::max(corrected_at_last, of_noise_at_last * noise_); }
 
-/// E(s) - E(x), in the scene's units.
+/// E*(s) - E(x, s), in the scene's units; 0 where no energy is kept.
 double BranchNewton::energy_missing(const Corrected& c) const {
-  return map_.parameter(c.state.s) - c.pass.energy;
+  const std::optional<double> kept = map_.energy(c.state.s);
+  return kept ? *kept - c.pass.energy : 0.0;
 }
 
 Corrected BranchNewton::correct(BranchState guess, const Vector& direction, const Vector& by_s) const {
@@ -109,7 +123,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     c.reason = refusal(c.pass, t.size());
     if (!c.reason.empty()) return c;
     c.residual = orbit_residual(map_.model(), c.pass);
-    if (map_.conservative()) c.residual = std::max(c.residual, std::abs(energy_missing(c)) / c.pass.energy);
+    if (map_.keeps_energy()) c.residual = std::max(c.residual, std::abs(energy_missing(c)) / c.pass.energy);
     const bool stands = c.iterations > 0 && c.residual > 0.5 * before && c.residual <= closed_at_last();
     if (c.residual <= enough || stands) {
       c.done = true;
@@ -119,12 +133,13 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     const double least = c.iterations > 0 && c.residual > 0.5 * before ? finer_singular : singular;
     before = c.residual;
     const OrbitSection section(map_.model(), c.pass.begin);
-    if (!held && (slope.size() != section.size() || stale)) slope = by_parameter(c.state, c.pass);
+    const Eigen::Index of_energy = map_.keeps_energy() ? 1 : 0;
+    if (!held && (slope.size() != section.size() + of_energy || stale)) slope = by_parameter(c.state, c.pass);
     const Eigen::MatrixXd J = jacobian(c.state, c.pass, slope);
     Eigen::MatrixXd A(J.rows() + 1, t.size());
     A << J, t.transpose();
     Vector b = Vector::Zero(A.rows());
-    if (map_.conservative()) b[J.rows() - 1] = energy_missing(c) / map_.range();
+    if (of_energy == 1) b[J.rows() - 1] = energy_missing(c) / map_.energy_unit();
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
     Vector dy = shortest_solution(A, b, least);
@@ -213,7 +228,9 @@ void BranchNewton::measure(const OrbitPass& pass, Vector* t) {
     const double part = weights[static_cast<Eigen::Index>(i)] * amplitude;
     square += part * part;
   }
-  const double amplitude = amplitudes_a_range * (square > 0.0 ? std::sqrt(square) : 1.0);
+  greatest_ = std::max(greatest_, std::sqrt(square));
+  const double counted = std::max(std::sqrt(square), vanishing * greatest_);
+  const double amplitude = amplitudes_a_range * (counted > 0.0 ? counted : 1.0);
   const Vector by = (section.basis().cwiseAbs2().transpose() * weights.cwiseAbs2()).cwiseSqrt();
   const Vector before = std::exchange(sizes_, amplitude * by.cwiseInverse());
   if (t != nullptr && before.size() == sizes_.size())
@@ -225,7 +242,7 @@ Vector BranchNewton::flip_direction(const Corrected& at) const {
   const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
                             (at.monodromy + Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
   Vector away = Vector::Zero(size(at.pass));
-  away.head(n) = sizes_.cwiseProduct(symmetric_eigen(A.transpose() * A).vectors.col(0));
+  away.head(n) = sizes_.cwiseProduct(least_stretched(A, 1).col(0));
   return away;
 }
 

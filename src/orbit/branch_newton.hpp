@@ -19,6 +19,9 @@ namespace signorini {
 /// Residual over amplitude that corrections aim at, unless the noise of the map is greater.
 inline constexpr double corrected_to = 1e-11;
 
+/// Cosine of two directions that count as one. Chosen.
+inline constexpr double alike = 0.9;
+
 /// A point of the branch, as a secant needs it.
 struct BranchPlace {
   OrbitPoint begin;
@@ -33,7 +36,8 @@ struct Corrected {
   OrbitPass pass;
   double residual = 0.0;
   int iterations = 0;
-  Vector by_s;                ///< B^T dG/ds at this point; empty: not asked for yet
+  Vector
+      by_s;  ///< B^T dG/ds at this point, and the row of the energy if there is one; empty: not asked for yet
   Eigen::MatrixXd monodromy;  ///< with multipliers and tests: of examine()
   Multipliers multipliers;
   double error = 0.0;      ///< error_of() the monodromy matrix
@@ -107,13 +111,12 @@ class BranchNewton {
   [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(const BranchState& state, const OrbitPass& pass,
                                          const Vector& by_s) const;
-  [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const {
-    return OrbitSection(map_.model(), pass.begin).basis().transpose() * map_.by_parameter(state, pass);
-  }
+  [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
 
   BranchMap& map_;
-  Vector sizes_;        // of x, in scales: what counts as 1 in the norm
-  double noise_ = 0.0;  // of the map, over the amplitude
+  Vector sizes_;           // of x, in scales: what counts as 1 in the norm
+  double greatest_ = 0.0;  // amplitude of the state along the branch, in scales
+  double noise_ = 0.0;     // of the map, over the amplitude
 };
 
 }  // namespace signorini

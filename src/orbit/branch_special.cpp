@@ -8,11 +8,18 @@
 namespace signorini {
 namespace {
 
-constexpr double alike_ways = 0.9;       // cosine of two directions. Chosen.
 constexpr double beside_section = 1e-4;  // of the period, from an event to the section. Chosen.
 // In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
-constexpr double parts_apart = 1e3;  // of that: two places show the way from one to the other. Chosen.
+// An orbit is as continuous at a graze as a root of the key. Beyond ten times the root of the width the other orbit does not
+// meet this one, and is that of another branch. Chosen: ten.
+constexpr double roots_apart = 10.0;
+constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not doubted. Chosen.
+constexpr double parts_apart = 1e3;        // of that: two places show the way from one to the other. Chosen.
+
+constexpr const char* other_branch = "other branch";
+
+BranchPlace place_of(const Corrected& at) { return {at.pass.begin, at.state.duration, at.state.s}; }
 
 /// An event at the section may count twice, or not at all.
 bool event_at_section(const Corrected& at) {
@@ -45,7 +52,7 @@ std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, 
   return point;
 }
 
-/// The last point with the sequence of here.
+/// The last point with the sequence of here; kind: other_branch where the next one does not meet it.
 std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
                                                                const Vector& t, double ds) const {
   const std::string sequence = sequence_of(here.pass);
@@ -59,6 +66,7 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
   SequenceSearch search(stretches(here), stretches(next), enough / ds);
   Vector way = ds * t;  // a step in x, along what was found last
   std::string beyond = sequence_of(next.pass);
+  BranchPlace other = place_of(next);  // the nearest orbit with another sequence
   while (!search.done()) {
     const double x = search.next();
     const Corrected& from = point.at.done ? point.at : here;
@@ -67,6 +75,7 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
     search.see(x, same, c.done ? stretches(c) : std::vector<double>());
     if (!same) {
       seen = c.done;
+      if (seen) other = place_of(c);
       if (!seen || sequence_of(c.pass) == beyond) continue;
       beyond = sequence_of(c.pass);
       point.behind_part = x;
@@ -74,10 +83,16 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
       continue;
     }
     const auto secant = newton_.secant({from.pass.begin, from.state.duration, from.state.s}, c);
-    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > alike_ways)
-      way = ds / part * *secant;
+    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > alike) way = ds / part * *secant;
     point.part = x;
     point.at = std::move(c);
+  }
+  const auto way_to = newton_.difference(place_of(here), next);
+  const auto apart = newton_.difference(other, point.at.done ? point.at : here);
+  if (seen && way_to && apart &&
+      apart->norm() > roots_apart * std::sqrt(search.high() - search.low()) * way_to->norm()) {
+    point.kind = other_branch;
+    return point;
   }
   if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;
   if ((point.behind_part - point.part) * ds < parts_apart * enough) point.behind.reset();
@@ -85,25 +100,56 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
   return point;
 }
 
-std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, const Corrected& next,
-                                                     const Vector& t, double ds) const {
+/// Whether a multiplier passes 1 on a step without a turn and without a place where it is 1. It is continuous as long as the sequence
+/// of events stays: the next orbit is then one of another branch, as behind a fold.
+bool BranchWalk::changes_unseen(const Corrected& here, const Corrected& next,
+                                const std::vector<Located>& points) const {
+  if ((here.tests.branch < 0.0) == (next.tests.branch < 0.0) || here.tests.fold * next.tests.fold < 0.0)
+    return false;
+  const auto seen = [](const Located& p) { return p.kind == std::string("branch point"); };
+  return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
+}
+
+/// Special points of the step. Where Newton's method has changed to another branch on the way, next becomes the last orbit of
+/// this one, and length is shorter.
+std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corrected& next, const Vector& t,
+                                                     double& length) {
   std::vector<Located> all;
+  std::optional<Located> change = end_of_sequence(here, next, t, length);
+  if (change && change->kind == other_branch) {
+    const double part = change->part;
+    next = std::move(change->at);
+    change.reset();
+    next.done = next.done && ++jumps_ < most_jumps;
+    if (!next.done) {
+      next.reason = "Newton's method ends at another branch";
+      return all;
+    }
+    length *= part;
+    newton_.examine(next, t);
+  } else {
+    jumps_ = 0;
+  }
   const auto take = [&](std::optional<Located> point) {
     if (point) all.push_back(std::move(*point));
   };
-  for (const SpecialKind& kind : special_kinds) take(zero_of(kind, here, next, t, ds));
-  take(end_of_sequence(here, next, t, ds));
+  for (const SpecialKind& kind : special_kinds) take(zero_of(kind, here, next, t, length));
+  if (length > shortest_doubted && changes_unseen(here, next, all)) {
+    next.done = false;
+    next.reason = "Newton's method ends at another branch";
+    return {};
+  }
+  take(std::move(change));
   std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
   return all;
 }
 
-/// Special points between here and next are added. A step crosses one change of the sequence: where more follow, next becomes
+/// Special points between here and next are added, in their order. A step crosses one change of the sequence: where more follow, next becomes
 /// a place before the second one. Returns the place that shows the way at next, which has its sequence; nothing: nobody
 /// wants more.
-std::optional<BranchPlace> BranchWalk::cross(const Corrected& here, Corrected& next, const Vector& t,
-                                             double& length) {
-  BranchPlace place{here.pass.begin, here.state.duration, here.state.s};
-  std::vector<Located> points = located(here, next, t, length);
+std::optional<BranchPlace> BranchWalk::cross(std::vector<Located> points, const Corrected& here,
+                                             Corrected& next, const Vector& t, double& length) {
+  BranchPlace place = place_of(here);
   const auto change =
       std::find_if(points.begin(), points.end(), [](const Located& p) { return p.kind == "sequence"; });
   double end = 1.0;
@@ -113,8 +159,7 @@ std::optional<BranchPlace> BranchWalk::cross(const Corrected& here, Corrected& n
       next = std::move(*change->behind);
       newton_.examine(next, t);
     }
-    if ((end - change->part) * length >= parts_apart * shortest_part)
-      place = {change->at.pass.begin, change->at.state.duration, change->at.state.s};
+    if ((end - change->part) * length >= parts_apart * shortest_part) place = place_of(change->at);
   }
   folds_ = true;
   for (const Located& point : points) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/rescale.hpp"
 #include "orbit/family_middle.hpp"
@@ -18,7 +19,6 @@ constexpr double shortest_step = 1e-7;  // in the norm
 constexpr int quick = 4;                // corrections, after which the next step may be longer
 constexpr double longest_way = 10.0;  // of a step: a branch turns by less, or the point is elsewhere. Chosen.
 constexpr double shifted_to = 1e-3;   // residual over amplitude: what noise leaves of a shift. Chosen.
-constexpr double alike = 0.9;         // cosine of two directions. Chosen.
 constexpr double restart_step = 2e-3;  // of the range
 // Of amplitudes from the rows of a period, and of multipliers between two points: that two orbits are one. Chosen.
 constexpr double same_amplitude = 0.05;
@@ -35,7 +35,7 @@ bool BranchWalk::restart(Corrected& here, double sign) {
   const std::shared_ptr<const PeriodMap> at = map_.at(next.s);
   const auto close = [&](const OrbitState& state) {
     ShootingStart start{state, next.duration, map_.autonomous(), newton_.closed_at_last(), {}};
-    if (map_.conservative()) start.energy = map_.parameter(next.s);
+    start.energy = map_.energy(next.s);
     Shot shot = shoot(*at, start, corrected_to);
     if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
     here.state = {shot.state, shot.duration, next.s};
@@ -136,7 +136,7 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   BranchPoint point;
   point.parameter = map_.parameter(here.state.s);
   point.period = here.state.duration * model.unit.time;
-  point.amplitude = here.pass.u_amplitude * model.scales.displacement * model.unit.length;
+  point.amplitude = here.pass.amplitude;
   point.max_multiplier = orbit.max_multiplier;
   point.multiplier_error = orbit.multiplier_error;
   point.stable = orbit.stable;
@@ -220,7 +220,7 @@ bool BranchWalk::has_passed(const Corrected& at) {
   const Multipliers all = multipliers_of(monodromy(model, at.pass)),
                     rest = without_ones(all, count_ones(all));
   const double p = value(at), multiplier = rest.empty() ? 0.0 : std::abs(rest.front());
-  const double amplitude = at.pass.u_amplitude * model.scales.displacement * model.unit.length;
+  const double amplitude = at.pass.amplitude;
   const int sequence = number_of_sequence(at.pass);
   for (std::size_t i = 1; i < branch_.points.size(); ++i) {
     const BranchPoint &a = branch_.points[i - 1], &b = branch_.points[i];
@@ -253,6 +253,7 @@ bool BranchWalk::keeps_going(const Corrected& here, const Corrected& next, doubl
 bool BranchWalk::beyond(const Corrected& here, Corrected& next, Vector& t) {
   const double sign = t[t.size() - 1] < 0.0 ? -1.0 : 1.0;
   const std::string why = next.reason;
+  jumps_ = 0;
   next = here;
   const bool found = restart(next, sign);
   const bool known = found && has_passed(next);
@@ -292,14 +293,20 @@ void BranchWalk::walk(Corrected here, Vector t) {
     if (branch_.interrupted) return;
     std::string special;
     std::optional<BranchPlace> place;
+    std::vector<Located> points;
     if (next.done) {
       newton_.examine(next, t);
+      points = located(here, next, t, length);
+    }
+    if (next.done) {
       if (next.iterations <= quick) ds = std::min(1.5 * ds, options_.step);
-      place = cross(here, next, t, length);
+      place = cross(std::move(points), here, next, t, length);
       if (!place || !keeps_going(here, next, along)) return;
     } else {
       ds = 0.5 * length;
-      if (ds >= shortest_step) continue;
+      const bool jumps = jumps_ >= most_jumps;
+      if (ds >= shortest_step && !jumps) continue;
+      if (!jumps && !add(here, "end")) return;
       special = "restart";
       if (!beyond(here, next, t)) return;
       along = t[t.size() - 1];

@@ -79,10 +79,12 @@ class BranchWalk {
     std::optional<Corrected> behind = {};
     double behind_part = 1.0;
   };
-  [[nodiscard]] std::vector<Located> located(const Corrected& here, const Corrected& next, const Vector& t,
-                                             double ds) const;
-  [[nodiscard]] std::optional<BranchPlace> cross(const Corrected& here, Corrected& next, const Vector& t,
-                                                 double& length);
+  [[nodiscard]] std::vector<Located> located(const Corrected& here, Corrected& next, const Vector& t,
+                                             double& length);
+  [[nodiscard]] bool changes_unseen(const Corrected& here, const Corrected& next,
+                                    const std::vector<Located>& points) const;
+  [[nodiscard]] std::optional<BranchPlace> cross(std::vector<Located> points, const Corrected& here,
+                                                 Corrected& next, const Vector& t, double& length);
   [[nodiscard]] std::optional<Located> zero_of(const SpecialKind& kind, const Corrected& here,
                                                const Corrected& next, const Vector& t, double ds) const;
   [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
@@ -111,6 +113,10 @@ class BranchWalk {
     double section, sign;
   };
   std::optional<FoundBeyond> found_beyond_;
+  // Steps in a row that ended at another branch, as beside a graze where a multiplier without bound leaves Newton's method no
+  // room: after so many the branch is sought further on. Chosen.
+  static constexpr int most_jumps = 4;
+  int jumps_ = 0;
   bool crossed_gap_ = false;  // it was found anew at least once
   bool turned_back_ = false;  // it goes from found_beyond_ the other way
   std::optional<BranchState> last_;

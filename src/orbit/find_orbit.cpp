@@ -1,6 +1,7 @@
 // find_orbit(): the period, a transient, a section away from events, Newton's method, multipliers.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
@@ -17,10 +18,11 @@
 namespace signorini {
 namespace {
 
-constexpr int most_transients = 3;   // each twice as long as the one before
-constexpr double beside = 1e-6;      // of the amplitude: members of a family beside the orbit. Chosen.
-constexpr int most_repeats = 6;      // periods after which a transient is asked whether it repeats itself
-constexpr double comes_back = 1e-3;  // of the amplitude; chosen
+constexpr int most_transients = 3;    // each twice as long as the one before
+constexpr double beside = 1e-6;       // of the amplitude: members of a family beside the orbit. Chosen.
+constexpr double seen_periods = 1.1;  // in which events are seen: one at a begin is none of that run
+constexpr int most_repeats = 6;       // periods after which a transient is asked whether it repeats itself
+constexpr double comes_back = 1e-3;   // of the amplitude; chosen
 // Parts of a period after which a motion of its own may have closed already; a search that begins with a guess finds any
 // multiple. Larger primes are not looked for. Chosen.
 constexpr int shorter_by[] = {2, 3, 5, 7};
@@ -104,6 +106,9 @@ void Search::set_period(const Scene& scene) {
   const bool conservative = options_.energy.has_value();
   LoadPeriod loads =
       options_.period && !conservative ? check_period(scene, *options_.period) : load_period(scene);
+  // At rest under loads of amplitude zero: the begin, or the end, of a branch over that amplitude.
+  if (!loads.period && !loads.surfaces_move && !conservative)
+    loads = load_period(scene, driving_loads(scene));
   orbit_.autonomous = !loads.period || (options_.period && !load_period(scene).period && loads.surfaces_move);
   if (conservative) check_conservative(scene, loads);
   if (orbit_.autonomous && !loads.surfaces_move && !conservative)
@@ -158,7 +163,7 @@ bool Search::forced() {
       state = orbit_state(transient.end);
     }
     length = std::max(1, options_.transient) * period_ * (i + 1);
-    const OrbitPass once = at_phase.pass({state, period_, false});
+    const OrbitPass once = at_phase.pass({state, seen_periods * period_, false});
     if (!once.done()) return stop("the run over one period stopped: " + once.outcome.reason);
     const double section = section_away_from(once.instants, period_);
     OrbitState at_section = state;
@@ -279,8 +284,9 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
   const OrbitPass& pass = shot_.pass;
   const OrbitSection section(map_->model(), pass.begin);
   const Eigen::MatrixXd A = phi - Eigen::MatrixXd::Identity(phi.rows(), phi.cols());
-  const Eigen::MatrixXd ways = symmetric_eigen(A.transpose() * A).vectors;
-  for (Eigen::Index k = 0; k < std::min(ways.cols(), static_cast<Eigen::Index>(orbit_.families.size())); ++k)
+  const Eigen::MatrixXd ways =
+      least_stretched(A, std::min(A.cols(), static_cast<Eigen::Index>(orbit_.families.size())));
+  for (Eigen::Index k = 0; k < ways.cols(); ++k)
     for (const double side : {-beside, beside}) {
       const Vector way = ways.col(k) / residual_of(section, pass, section.basis() * ways.col(k));
       const OrbitPass other =
@@ -297,21 +303,34 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
 
 /// A turn between two places is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.
 constexpr int places_told = 720;
+/// Of the period: an event so near to the orbit's time 0 is at it. Chosen: what is left of an orbit that closed to 1e-9.
+constexpr double same_instant = 1e-9;
 
-/// The run from the orbit's time 0.
+/// Events of a period from the section on, in the order from the orbit's time 0 on. A run that begins there does not tell of
+/// one at its begin, and rounding decides whether it tells of one at its end.
+std::vector<Event> since_time_0(std::vector<Event> events, double section, double period) {
+  for (Event& event : events) {
+    event.t += section;
+    if (event.t >= period * (1.0 - same_instant)) event.t = std::max(0.0, event.t - period);
+  }
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.t < b.t; });
+  return events;
+}
+
+/// The start, and what is told of a period.
 void Search::tell(const OrbitState& at_section, double section) {
   const Model base = orbit_.autonomous ? map_->model() : driven_from(first_, before_);
-  const PeriodMap map = map_of(base, false);
+  const PeriodMap map = map_of(base, false), from_section = map_of(map_->model(), false);
   OrbitState start = at_section;
-  if (section > 0.0) start = orbit_state(map_->pass({at_section, shot_.duration - section, false}).end);
+  if (section > 0.0) start = orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);
   orbit_.start = last_state(driven_from(given_, orbit_.phase), rows);
-  OrbitLeg told{start, shot_.duration, false};
+  OrbitLeg told{at_section, shot_.duration, false};
   told.places = places_told;
-  const OrbitPass once = map.pass(told);
-  orbit_.sequence = once.events;
+  const OrbitPass once = from_section.pass(told);
+  orbit_.sequence = since_time_0(once.events, orbit_.section, orbit_.period);
   orbit_.cycle = once.cycle;
-  orbit_.amplitude = once.u_amplitude * first_.scales.displacement * given_.machine.length;
+  orbit_.amplitude = once.amplitude;
 }
 
 Orbit Search::find() {

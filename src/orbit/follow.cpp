@@ -22,6 +22,10 @@ Branch follow(const SceneReader& read, const BranchOptions& options, Recorder* r
               const std::function<void(const BranchPoint&)>& seen) {
   if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
     throw UsageError("--over: expected PATH=FROM:TO with two different numbers");
+  if (options.path == over_energy && !(options.from > 0.0 && options.to > 0.0))
+    throw UsageError("--over energy: expected two energies above 0; without energy nothing moves");
+  if (options.path == over_energy && options.orbit.energy)
+    throw UsageError("--energy: cannot be combined with --over energy, which sets it");
   const Orbit orbit = options.resumed ? options.resumed->orbit : first_orbit(read, options, recorder);
   if (!orbit.found) {
     Branch none;

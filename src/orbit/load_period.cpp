@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -25,14 +26,17 @@ struct Driver {
   bool acceleration = false;  // of a support, which starts at rest at zero
 };
 
-std::vector<Driver> drivers(const Scene& scene) {
+bool drives(const LoadSpec& load) { return load.amplitude != 0.0; }
+
+std::vector<Driver> drivers(const Scene& scene, const SilentLoads& count = {}) {
   std::vector<Driver> all;
   const auto add = [&](const HistorySpec& spec, std::string key, bool surface = false,
                        bool acceleration = false) {
     if (spec.amplitude != 0.0 || spec.in_code) all.push_back({&spec, std::move(key), surface, acceleration});
   };
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
-    if (scene.loads[i].amplitude != 0.0) add(scene.loads[i].history, fmt::format("loads.{}.history", i + 1));
+    if (drives(scene.loads[i]) || (i < count.size() && count[i]))
+      add(scene.loads[i].history, fmt::format("loads.{}.history", i + 1));
   for (std::size_t i = 0; i < scene.base_motion.size(); ++i)
     add(scene.base_motion[i].acceleration, fmt::format("base_motion.{}.acceleration", i + 1));
   for (const Support& s : scene.supports)
@@ -110,8 +114,15 @@ void check_drift(const Driver& d, const History& acceleration, double settled, d
 
 }  // namespace
 
-LoadPeriod load_period(const Scene& scene) {
-  const std::vector<Driver> all = drivers(scene);
+SilentLoads driving_loads(const Scene& scene) {
+  SilentLoads count;
+  for (const LoadSpec& load : scene.loads) count.push_back(drives(load));
+  const bool none = std::find(count.begin(), count.end(), true) == count.end();
+  return none ? SilentLoads(count.size(), true) : count;
+}
+
+LoadPeriod load_period(const Scene& scene, const SilentLoads& count) {
+  const std::vector<Driver> all = drivers(scene, count);
   LoadPeriod found = settled(all);
   for (const Driver& d : all) {
     if (!repeats(*d.spec)) continue;
@@ -125,11 +136,11 @@ LoadPeriod load_period(const Scene& scene) {
                       shortest(own), shortest(*found.period), most_multiples));
     found.period = both;
   }
-  return found.period ? check_period(scene, *found.period) : found;
+  return found.period ? check_period(scene, *found.period, count) : found;
 }
 
-LoadPeriod check_period(const Scene& scene, double period) {
-  const std::vector<Driver> all = drivers(scene);
+LoadPeriod check_period(const Scene& scene, double period, const SilentLoads& count) {
+  const std::vector<Driver> all = drivers(scene, count);
   LoadPeriod found = settled(all);
   found.period = period;
   for (const Driver& d : all) {

@@ -67,6 +67,7 @@ class CycleRecorder final : public Recorder {
     for (Eigen::Index i = 0; i < u_low_.size(); ++i) {
       const bool turns = dofs[static_cast<std::size_t>(i)].rotation;
       grow(pass_.u_amplitude, u_high_[i] - u_low_[i], turns ? s.rotation : length);
+      if (!turns) grow(pass_.amplitude, u_high_[i] - u_low_[i], 1.0);
       grow(pass_.v_amplitude, v_high_[i] - v_low_[i], turns ? spin : velocity);
     }
     for (std::size_t c = 0; c < T_.size(); ++c) {

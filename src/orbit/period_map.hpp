@@ -22,8 +22,9 @@ struct OrbitPass {
   std::vector<Event> events;         ///< without jumps of loads
   Energy cycle;
   double energy = 0.0;  ///< stored at the beginning; the scene's units
-  /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest.
+  /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest. Rotations count.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
+  double amplitude = 0.0;     ///< of displacements alone, without rotations; the scene's unit
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
   double rates_error = 0.0;   ///< of end_rates, over their greatest entry: rounding and what series leave out
   std::string reason;         ///< why they are not known

@@ -24,7 +24,10 @@ constexpr double least_singular = 1e-9;
 // Where no step reduces the residual: fast mode shapes make Phi 1e5 times greater than what slow ones do to it.
 constexpr std::array finer_steps{1e-11, 1e-13};
 
-double over(double value, double amplitude) { return amplitude > 0.0 ? value / amplitude : value; }
+// In scales: an amplitude below it is rest, and what rounding of the state leaves. Chosen: fifty roundings.
+constexpr double at_rest = 1e-14;
+
+double over(double value, double amplitude) { return amplitude > at_rest ? value / amplitude : value; }
 
 /// Of the state, and of the energy where it is given.
 double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
@@ -175,15 +178,23 @@ bool is_noise(const PeriodMap& map, const Shot& shot) {
 
 }  // namespace
 
+namespace {
+
+/// From the state that was reached, with tangents. False: it stops, or is interrupted.
+bool run_period(const PeriodMap& map, Shot& shot) {
+  shot.pass = map.pass({shot.state, shot.duration});
+  if (shot.pass.done()) return true;
+  shot.interrupted = shot.pass.interrupted;
+  shot.reason = "the run over one period stopped: " + shot.pass.outcome.reason;
+  return false;
+}
+
+}  // namespace
+
 Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
   const Model& model = map.model();
   Shot shot{false, "", false, start.state, start.duration, 0.0, {}, {}};
-  shot.pass = map.pass({shot.state, shot.duration});
-  if (!shot.pass.done()) {
-    shot.interrupted = shot.pass.interrupted;
-    shot.reason = "the run over one period stopped: " + shot.pass.outcome.reason;
-    return shot;
-  }
+  if (!run_period(map, shot)) return shot;
   shot.residual = residual_to(model, start, shot.pass);
   bool fell = true;
   while (fell && static_cast<int>(shot.steps.size()) < most_steps) {
@@ -202,10 +213,10 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
         fell = damped_step(map, start, shot, finer);
     if (shot.interrupted) return shot;
     if (shot.residual > 0.5 * before && shot.residual <= closed_at_last) {
-      if (fell) shot.pass = map.pass({shot.state, shot.duration});
+      if (fell && !run_period(map, shot)) return shot;
       break;
     }
-    if (fell) shot.pass = map.pass({shot.state, shot.duration});
+    if (fell && !run_period(map, shot)) return shot;
   }
   shot.steps.push_back({shot.residual, 0.0});
   shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed}) || is_noise(map, shot);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <tuple>
 
 #include "behaviour/one_mass.hpp"
 #include "behaviour/rates.hpp"
@@ -26,8 +28,8 @@ std::string one_stop() {
 }
 
 /// 1/f: y0/B = 1/sqrt(2 e (k + kc)/k - kc/k), e = E/(k y0^2), is the cosine of the contact's phase.
-double period_of_one_stop(double E) {
-  const double k = 10.0, kc = 50.0, y0 = 0.01, e = E / (k * y0 * y0), stiffer = (k + kc) / k;
+double period_of_one_stop(double E, double kc = 50.0, double y0 = 0.01) {
+  const double k = 10.0, e = E / (k * y0 * y0), stiffer = (k + kc) / k;
   if (2.0 * e <= 1.0) return 2.0 * std::numbers::pi / std::sqrt(k);
   const double free = 2.0 * std::acos(-1.0 / std::sqrt(2.0 * e));
   const double closed = 2.0 / std::sqrt(stiffer) * std::acos(1.0 / std::sqrt(2.0 * e * stiffer - kc / k));
@@ -129,6 +131,51 @@ TEST_CASE("a branch over the energy is the backbone of a mass before a stop, fro
     CHECK(p.events == (E > 0.0005 ? 2 : 0));
   }
   CHECK(branch.points.back().parameter == 0.02);
+}
+
+TEST_CASE(
+    "a branch over a key holds the energy that --energy gives: the period is the closed form's at each "
+    "point") {
+  const double E = 0.00650108331626;
+  for (const auto& [path, from, to] : {std::tuple{"contacts.c.normal_stiffness", 50.0, 400.0},
+                                       {"contacts.c.normal_stiffness", 50.0, 3.0},
+                                       {"contacts.c.gap", 0.01, 0.05},
+                                       {"contacts.c.gap", 0.01, -0.01}}) {
+    CAPTURE(path);
+    CAPTURE(to);
+    BranchOptions options;
+    options.path = path;
+    options.from = from;
+    options.to = to;
+    options.step = 0.1;
+    options.orbit.energy = E;
+    const Branch branch = follow(reader_of_text(one_stop()), options);
+    CAPTURE(branch.end);
+    CHECK(branch.complete);
+    REQUIRE(branch.points.size() > 5);
+    CHECK(branch.points.back().parameter == to);
+    const bool stiffness = std::string(path) != "contacts.c.gap";
+    for (const BranchPoint& p : branch.points) {
+      CAPTURE(p.parameter);
+      const double kc = stiffness ? p.parameter : 50.0, y0 = stiffness ? 0.01 : p.parameter;
+      const double T = period_of_one_stop(E, kc, y0);
+      if (y0 > 0.0) CHECK(std::abs(p.period - T) <= 1e-8 * T);
+      if (y0 > 0.0) CHECK(std::abs(5.0 * p.minima.front() * p.minima.front() - E) <= 1e-8 * E);
+      const double y = p.minima.front(), pressed = std::max(0.0, y - y0);
+      if (y0 <= 0.0) CHECK(std::abs(5.0 * y * y + 25.0 * pressed * pressed - E) <= 1e-8 * E);
+    }
+  }
+}
+
+TEST_CASE("energies of a branch are above 0, and given once") {
+  BranchOptions options;
+  options.path = "energy";
+  options.from = 0.02;
+  options.to = 0.0;
+  CHECK_THROWS_AS(follow(reader_of_text(one_stop()), options), UsageError);
+  options.to = 0.01;
+  options.orbit.energy = 0.015;
+  CHECK_THROWS_AS(follow(reader_of_text(one_stop()), options), UsageError);
 }
 
 TEST_CASE(

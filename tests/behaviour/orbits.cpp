@@ -6,13 +6,13 @@
 #include <fmt/core.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
-#include "behaviour/one_mass.hpp"
 #include "behaviour/orbit_runs.hpp"
-#include "behaviour/rates.hpp"
+#include "behaviour/orbit_scenes.hpp"
 
 using namespace signorini;
 using namespace signorini::tests;
@@ -20,49 +20,6 @@ using namespace signorini::tests;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Orbit orbit_of(const std::string& text, const OrbitOptions& options = {}) {
-  return find_orbit(reader_of_text(text), options);
-}
-
-Result run_on(const std::string& text, const Orbit& orbit) {
-  return simulate(orbit_scene(reader_of_text(text), orbit));
-}
-
-double product(const Orbit& orbit) {
-  std::complex<double> det = 1.0;
-  for (const auto& mu : orbit.multipliers) det *= mu;
-  CHECK(std::abs(det.imag()) <= 1e-12 * (1.0 + std::abs(det)));
-  return det.real();
-}
-
-double saved(const Orbit& orbit, const std::string& name) {
-  for (const auto& [key, value] : orbit.start.motions)
-    if (key == name) return value;
-  REQUIRE_MESSAGE(false, name);
-  return 0.0;
-}
-
-/// NLvib's third example: a chain of two masses, the second before a one-sided spring.
-std::string chain(const std::string& omega) {
-  return matrix_scene(
-      "t_end = 9.0\ninitial = { u = [0.9471418552234623, 0.6753036568662564], "
-      "v = [0.37884121883540234, 0.10774812890179698] }",
-      "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[1.0, -1.0], [-1.0, 2.0]]\n"
-      "damping = [[0.03, -0.03], [-0.03, 0.06]]",
-      "law = \"compliant\"\nnormal = { d0 = -1.0 }\ngap = 1.0\nnormal_stiffness = 100.0",
-      "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = 0.1\nhistory = { type = \"harmonic\", omega = " +
-          omega + ", phase = 1.5707963267948966 }\n");
-}
-
-std::string jenkins(const std::string& load = "3.0") {
-  return matrix_scene("t_end = 9.0", "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.02]]",
-                      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 1.0\n"
-                      "tangential_stiffness = 20.0\n",
-                      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = " + load +
-                          "\nhistory = { type = \"harmonic\", omega = 1.5, phase = 1.5707963267948966 }\n"
-                          "[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");
-}
 
 }  // namespace
 
@@ -76,12 +33,12 @@ TEST_CASE("a chain before a one-sided spring: NLvib's third example, and Liouvil
   REQUIRE(orbit.found);
   CHECK(orbit.residual <= 1e-13);
   CHECK(orbit.period == doctest::Approx(2.0 * pi / 0.62).epsilon(1e-15));
-  CHECK(std::abs(saved(orbit, "d0.u") - 0.9719291853302878) <= 1e-11);
-  CHECK(std::abs(saved(orbit, "d1.u") - 0.6459326749109593) <= 1e-11);
-  CHECK(std::abs(saved(orbit, "d0.v") - 0.25416996239535306) <= 1e-11);
-  CHECK(std::abs(saved(orbit, "d1.v") - 0.0715593505999609) <= 1e-11);
+  CHECK(std::abs(saved_value(orbit, "d0.u") - 0.9719291853302878) <= 1e-11);
+  CHECK(std::abs(saved_value(orbit, "d1.u") - 0.6459326749109593) <= 1e-11);
+  CHECK(std::abs(saved_value(orbit, "d0.v") - 0.25416996239535306) <= 1e-11);
+  CHECK(std::abs(saved_value(orbit, "d1.v") - 0.0715593505999609) <= 1e-11);
   const double det = std::exp(-0.09 * orbit.period);
-  CHECK(std::abs(product(orbit) - det) <= 1e-11 * det);
+  CHECK(std::abs(product_of_multipliers(orbit) - det) <= 1e-11 * det);
   CHECK(orbit.steps.size() <= 7);
 }
 
@@ -113,6 +70,35 @@ TEST_CASE("a Jenkins element that never slips has a multiplier of one: a family"
   CHECK(std::abs(std::abs(orbit.multipliers[1]) - decay) <= 1e-12);
   CHECK(orbit.stable.value_or(false));
   CHECK(orbit.sequence.empty());
+}
+
+TEST_CASE(
+    "an event at the orbit's time 0, beside it to both sides or at the period's end, is in the sequence "
+    "once") {
+  const auto text = [](double phase) {
+    std::string scene = jenkins();
+    return scene.replace(scene.find("1.5707963267948966"), 18, fmt::format("{:.17g}", phase));
+  };
+  const Orbit plain = orbit_of(text(0.3));
+  REQUIRE(plain.found);
+  REQUIRE(plain.sequence.size() == 4);
+  for (const Event& event : plain.sequence)
+    for (const double off : {-1e-5, -1e-7, -1e-13, 0.0, 1e-13, 1e-7, 1e-5}) {
+      CAPTURE(event.t);
+      CAPTURE(off);
+      const Orbit orbit = orbit_of(text(0.3 + 1.5 * (event.t + off)));
+      CAPTURE(orbit.reason);
+      REQUIRE(orbit.found);
+      REQUIRE(orbit.sequence.size() == 4);
+      std::vector<double> expected;
+      for (const Event& other : plain.sequence) {
+        const double t = std::remainder(other.t - event.t - off, plain.period);
+        expected.push_back(t < -1e-8 ? t + plain.period : t);
+      }
+      std::sort(expected.begin(), expected.end());
+      for (std::size_t k = 0; k < 4; ++k) CHECK(std::abs(orbit.sequence[k].t - expected[k]) <= 2e-8);
+      CHECK(std::abs(orbit.cycle.friction - plain.cycle.friction) <= 1e-9 * plain.cycle.friction);
+    }
 }
 
 TEST_CASE(
@@ -151,7 +137,7 @@ TEST_CASE("an impact oscillator with one hit a cycle: det Phi = e^2 exp(-c T/m)"
   REQUIRE(orbit.found);
   const auto hits = static_cast<double>(orbit.sequence.size());
   const double det = std::pow(0.8, 2.0 * hits) * std::exp(-0.1 * orbit.period);
-  CHECK(std::abs(product(orbit) - det) <= 1e-11 * det);
+  CHECK(std::abs(product_of_multipliers(orbit) - det) <= 1e-11 * det);
 }
 
 TEST_CASE("a block on a belt sticks and slips with the period pi + 2 atan 0.4 + 5") {
@@ -246,7 +232,7 @@ TEST_CASE("a disturbed run leaves or returns by its multipliers") {
           for (const auto& mu : orbit.multipliers) sum += mu;
           return sum.real();
         }()) <= 1e-7);
-  CHECK(std::abs(phi.determinant() - product(orbit)) <= 1e-7);
+  CHECK(std::abs(phi.determinant() - product_of_multipliers(orbit)) <= 1e-7);
 }
 
 TEST_CASE("eight masses between a stop and a Jenkins element: Phi in modes against differences of runs") {
@@ -281,7 +267,8 @@ TEST_CASE("eight masses between a stop and a Jenkins element: Phi in modes again
     CAPTURE(still.reason);
     REQUIRE(still.found);
     REQUIRE(still.families.size() == 1);
-    CHECK(std::abs(product(still) - std::exp(-0.8 * still.period)) <= 1e-11 * std::exp(-0.8 * still.period));
+    CHECK(std::abs(product_of_multipliers(still) - std::exp(-0.8 * still.period)) <=
+          1e-11 * std::exp(-0.8 * still.period));
   }
   const std::string scene = text("2.5");
   const Orbit orbit = orbit_of(scene);
@@ -349,6 +336,29 @@ TEST_CASE(
   CHECK(chosen.multipliers == exact.multipliers);
 }
 
+TEST_CASE("a search that is interrupted at any time ends without an orbit") {
+  struct Stopper final : Recorder {
+    long left;
+    explicit Stopper(long calls) : left(calls) {}
+    void event(const Event& /*event*/) override {}
+    void sample(const Sample& /*sample*/) override {}
+    bool progress(double /*t*/) override { return left-- > 0; }
+  };
+  OrbitOptions options;
+  options.transient = 1;
+  constexpr long many = 1000000;
+  Stopper never(many);
+  REQUIRE(find_orbit(reader_of_text(chain("0.62")), options, &never).found);
+  const long calls = many - never.left;
+  REQUIRE(calls > 20);
+  for (long k = 0; k < calls; k += std::max(1L, calls / 200)) {
+    CAPTURE(k);
+    Stopper stopper(k);
+    static_cast<void>(find_orbit(reader_of_text(chain("0.62")), options, &stopper));
+    CHECK(stopper.left < 0);
+  }
+}
+
 TEST_CASE("scenes without an orbit say why") {
   const auto text = [](const std::string& loads, const std::string& run = "") {
     return matrix_scene("t_end = 9.0\n" + run, "mass = [[1.0]]\nstiffness = [[1.0]]",
@@ -379,274 +389,9 @@ TEST_CASE("scenes without an orbit say why") {
   refused(text(load("\"harmonic\", omega = 1.0")), "--times", {.times = 0});
 }
 
-TEST_CASE("a branch over the frequency passes both folds of a one-sided spring's resonance") {
-  // A linear branch first: below the gap the amplitude is that of the linear chain at every point.
-  const SceneReader linear = reader_of_text(chain("0.62") +
-                                            "[[output]]\nname = \"x\"\nkind = \"displacement\"\n"
-                                            "direction = { d0 = 1.0 }\n");
-  BranchOptions options;
-  options.orbit.transient = 60;
-  options.path = "loads.1.history.omega";
-  options.from = 0.3;
-  options.to = 0.4;
-  const Branch branch = follow(linear, options);
-  CAPTURE(branch.end);
-  REQUIRE(branch.complete);
-  REQUIRE(branch.points.size() >= 5);
-  for (const BranchPoint& p : branch.points) {
-    const double w = p.parameter;
-    using C = std::complex<double>;
-    const C a(1.0 - w * w, 0.03 * w), b(-1.0, -0.03 * w), d(2.0 - w * w, 0.06 * w);
-    const double u0 = std::abs(-b * 0.1 / (a * d - b * b));
-    CHECK(std::abs(p.maxima.front() - u0) <= 1e-11);
-    CHECK(p.stable.value_or(false));
-    CHECK(std::abs(p.period - 2.0 * pi / w) <= 1e-14 * p.period);
-  }
-  CHECK(branch.points.back().parameter == 0.4);
-}
-
-TEST_CASE("a branch locates the flip of an impact oscillator where the closed form has it") {
-  // m = k = 1 at a wall where the spring is slack, one hit a cycle of cos(w t): Phi from hit to hit has
-  //   det = e^2,   tr = -2 e C + (1 + e)^2 (1 + C) (1 - w^2)/2,   C = cos(2 pi/w);   flip: 1 + tr + det = 0
-  const double e = 0.8;
-  const auto flips = [&](double w) {
-    const double C = std::cos(2.0 * pi / w);
-    return 1.0 + e * e - 2.0 * e * C + 0.5 * (1.0 + e) * (1.0 + e) * (1.0 + C) * (1.0 - w * w);
-  };
-  double below = 2.6, above = 2.7;
-  REQUIRE(flips(below) * flips(above) < 0.0);
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (below + above);
-    ((flips(middle) < 0.0) == (flips(below) < 0.0) ? below : above) = middle;
-  }
-  BranchOptions options;
-  options.path = "loads.1.history.omega";
-  options.from = 2.6;
-  options.to = 2.7;
-  options.step = 0.1;
-  const Branch branch = follow(
-      reader_of_text(matrix_scene("t_end = 100.0\nengine = \"exact\"",
-                                  "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.0]]",
-                                  "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.0\nrestitution = 0.8",
-                                  "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
-                                  "\"harmonic\", omega = 2.6, phase = 1.5707963267948966 }\n")),
-      options);
-  CAPTURE(branch.end);
-  REQUIRE(branch.complete);
-  long found = 0;
-  for (const BranchPoint& p : branch.points) {
-    if (p.special == "flip") {
-      ++found;
-      CHECK(std::abs(p.parameter - below) <= 1e-10);
-      CHECK(std::abs(p.max_multiplier - 1.0) <= 1e-9);
-    } else if (std::abs(p.parameter - below) > 1e-6) {
-      CHECK(p.stable == (p.parameter < below));
-    }
-  }
-  CHECK(found == 1);
-}
-
-TEST_CASE("a branch over friction locates Den Hartog's boundary of motions without stops") {
-  // b = w (m = k = P = 1): no stops as long as the force at a reversal exceeds friction, b^2 X >= F, X = sqrt(V^2 - F^2 U^2):
-  //   F = b^2 V/sqrt(1 + b^4 U^2),   V = 1/(1 - b^2),   U = sin(pi/b)/(b (1 + cos(pi/b)))
-  const double b = 0.8, V = 1.0 / (1.0 - b * b), U = std::sin(pi / b) / (b * (1.0 + std::cos(pi / b)));
-  const double boundary = b * b * V / std::sqrt(1.0 + b * b * b * b * U * U);
-  BranchOptions options;
-  options.path = "contacts.1.friction";
-  options.from = 0.7;
-  options.to = 0.9;
-  options.step = 0.2;
-  const Branch branch =
-      follow(reader_of_text(
-                 matrix_scene("t_end = 100.0", "mass = [[1.0]]\nstiffness = [[1.0]]",
-                              "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.7",
-                              "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
-                              "\"harmonic\", omega = 0.8 }\n")),
-             options);
-  CAPTURE(branch.end);
-  REQUIRE(branch.complete);
-  long found = 0;
-  for (const BranchPoint& p : branch.points) {
-    if (p.special == "sequence") {
-      ++found;
-      CAPTURE(p.parameter);
-      CHECK(std::abs(p.parameter - boundary) <= 1e-10);
-    }
-    if (std::abs(p.parameter - boundary) > 1e-6) CHECK(p.events == (p.parameter < boundary ? 2 : 4));
-  }
-  CHECK(found == 1);
-}
-
-TEST_CASE("the branch of twice the period leaves at the flip of an impact oscillator") {
-  // As above; beyond the flip the stable orbit closes after two periods: a run on it repeats itself after 2 T, not after T.
-  const std::string text = matrix_scene(
-      "t_end = 100.0\nengine = \"exact\"", "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.0]]",
-      "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.0\nrestitution = 0.8",
-      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
-      "\"harmonic\", omega = 2.6, phase = 1.5707963267948966 }\n"
-      "[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");
-  BranchOptions options;
-  options.path = "loads.1.history.omega";
-  options.from = 2.6;
-  options.to = 2.68;
-  options.step = 0.1;
-  options.switches = 1;
-  const Branch branch = follow(reader_of_text(text), options);
-  CAPTURE(branch.end);
-  REQUIRE(branch.complete);
-  REQUIRE(branch.sides.size() == 1);
-  CAPTURE(branch.sides.front().end);
-  CHECK(branch.sides.front().kind == "flip");
-  long points = 0;
-  const BranchPoint* last = nullptr;
-  for (const BranchPoint& p : branch.points) {
-    if (p.branch != 2) continue;
-    ++points;
-    last = &p;
-    CHECK(std::abs(p.period - 4.0 * pi / p.parameter) <= 1e-12);
-    CHECK(p.residual <= 1e-9);
-  }
-  REQUIRE(points > 2);
-  CHECK(last->parameter > branch.sides.front().parameter);
-  // Independent: a transient to the orbit of twice the period, with its own Newton's method.
-  const SceneReader there = [&](const std::vector<Override>& changes) {
-    std::vector<Override> all{{"loads.1.history.omega", fmt::format("{}", last->parameter)}};
-    all.insert(all.end(), changes.begin(), changes.end());
-    return reader_of_text(text)(all);
-  };
-  OrbitOptions twice;
-  twice.times = 2;
-  twice.transient = 200;
-  const Orbit orbit = find_orbit(there, twice);
-  REQUIRE(orbit.found);
-  CHECK(orbit.stable == last->stable);
-  CHECK(std::abs(orbit.max_multiplier - last->max_multiplier) <= 1e-6);
-  const OutputExtremes x = simulate(orbit_scene(there, orbit)).report.response.front();
-  CHECK(std::abs(x.minimum - last->minima.front()) <= 1e-8);
-}
-
-TEST_CASE(
-    "a branch of stick-slip orbits over the belt's speed v: period pi + 2 atan 2 v + 1/v at each point") {
-  BranchOptions options;
-  options.path = "contacts.1.surface_velocity";
-  options.from = 0.2;
-  options.to = 0.5;
-  options.step = 0.2;
-  const Branch branch = follow(
-      reader_of_text(matrix_scene("t_end = 60.0\nengine = \"exact\"", "mass = [[1.0]]\nstiffness = [[1.0]]",
-                                  "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\n"
-                                  "friction = { static = 1.0, kinetic = 0.5 }\nsurface_velocity = 0.2")),
-      options);
-  CAPTURE(branch.end);
-  REQUIRE(branch.complete);
-  REQUIRE(branch.points.size() >= 4);
-  for (const BranchPoint& p : branch.points) {
-    const double v = p.parameter;
-    CHECK(std::abs(p.period - (pi + 2.0 * std::atan(2.0 * v) + 1.0 / v)) <= 1e-9);
-    CHECK(p.stable.value_or(false));
-  }
-}
-
-TEST_CASE("a branch of the pipeline over the frequency: fast mode shapes do not shorten its steps") {
-  // The highest mode shapes turn by hundreds of radians where the period changes by a step.
-  const SceneReader read = reader_of(std::string(SIGNORINI_MODELS) + "/pipeline.toml",
-                                     {{"run.engine", "exact"},
-                                      {"loads.1.amplitude", "20.0"},
-                                      {"loads.1.history", "{ type = \"harmonic\", omega = 100.0 }"}});
-  BranchOptions options;
-  options.path = "loads.1.history.omega";
-  options.from = 100.0;
-  options.to = 106.0;
-  options.step = 0.4;
-  options.most_points = 12;
-  const Branch branch = follow(read, options);
-  CAPTURE(branch.end);
-  REQUIRE(branch.complete);
-  for (const BranchPoint& p : branch.points) CHECK(p.residual <= 1e-9);
-  // Another way to the last point: a transient.
-  const Orbit last = find_orbit([&](const std::vector<Override>& changes) {
-    std::vector<Override> all{{"loads.1.history.omega", "106.0"}};
-    all.insert(all.end(), changes.begin(), changes.end());
-    return read(all);
-  });
-  REQUIRE(last.found);
-  CHECK(branch.points.back().events == static_cast<long>(last.sequence.size()));
-  CHECK(std::abs(branch.points.back().max_multiplier - last.max_multiplier) <= 1e-6);
-}
-
-TEST_CASE("a branch in two parts, the second from the mark of the first, ends where one of one part does") {
-  BranchOptions options;
-  options.path = "loads.1.amplitude";
-  options.from = 3.0;
-  options.to = 3.5;
-  options.step = 0.1;
-  const SceneReader read = reader_of_text(jenkins());
-  const Branch whole = follow(read, options);
-  REQUIRE(whole.complete);
-  options.most_points = 4;
-  const Branch first = follow(read, options);
-  CHECK(!first.complete);
-  REQUIRE(first.last);
-  CHECK(first.last->parameter == first.points.back().parameter);
-  options.most_points = 1000;
-  options.resumed = first.last;
-  const Branch second = follow(read, options);
-  CAPTURE(second.end);
-  REQUIRE(second.complete);
-  CHECK(second.points.front().parameter > first.points.back().parameter);
-  CHECK(second.points.back().parameter == 3.5);
-  CHECK(std::abs(second.points.back().maxima.front() - whole.points.back().maxima.front()) <= 1e-9);
-  CHECK(std::abs(second.points.back().max_multiplier - whole.points.back().max_multiplier) <= 1e-8);
-  CHECK(second.points.back().sequence == whole.points.back().sequence);
-}
-
-TEST_CASE("branches end with a reason: a key that only shifts the motion, a value that the scene refuses") {
-  BranchOptions options;
-  options.path = "loads.1.history.phase";
-  options.from = 0.5;
-  options.to = 1.0;
-  const Branch shifted = follow(reader_of_text(jenkins()), options);
-  CHECK(!shifted.complete);
-  CHECK(shifted.points.size() == 1);
-  CHECK(shifted.end.find("only shifts the motion in time") != std::string::npos);
-  options.path = "contacts.1.friction";
-  options.from = 0.9;
-  options.to = -0.1;
-  options.step = 0.1;
-  const Branch refused = follow(reader_of_text(jenkins()), options);
-  CAPTURE(refused.end);
-  CHECK(!refused.complete);
-  CHECK(refused.points.size() > 3);
-  CHECK(refused.end.find("the scene is refused") != std::string::npos);
-  CHECK(refused.points.back().parameter < 0.3);
-}
-
 TEST_SUITE_END();
 
 TEST_SUITE_BEGIN("slow/orbits");
-
-TEST_CASE("the resonance of a one-sided spring bends over, its middle part is unstable") {
-  BranchOptions options;
-  options.orbit.transient = 60;
-  options.path = "loads.1.history.omega";
-  options.from = 0.5;
-  options.to = 1.0;
-  const Branch branch = follow(reader_of_text(chain("0.62")), options);
-  CAPTURE(branch.end);
-  CHECK(branch.complete);
-  long folds = 0, flips = 0, unstable = 0;
-  for (const BranchPoint& p : branch.points) {
-    flips += p.special == "flip" ? 1 : 0;
-    if (p.special == "fold" || p.special == "flip" || p.special == "neimark-sacker")
-      CHECK(std::abs(p.max_multiplier - 1.0) <= 1e-5);  // that of time and those of families aside
-    folds += p.special == "fold" ? 1 : 0;
-    unstable += p.stable.value_or(true) ? 0 : 1;
-    CHECK(p.residual <= 1e-9);
-  }
-  CHECK(folds == 2);
-  CHECK(flips == 2);
-  CHECK(unstable > 0);
-}
 
 TEST_CASE(
     "a support that its acceleration carries away has no orbit; without drift the orbit closes in closed "
@@ -687,7 +432,7 @@ TEST_CASE(
   // u_B = (1 - cos w t)/w^2: the mass swings about 1/w^2 with the amplitude of its transfer function.
   const double swing = k / (w * w) / std::abs(std::complex<double>(k - m * w * w, c * w));
   const std::complex<double> z = -k / (w * w) / std::complex<double>(k - m * w * w, c * w);
-  CHECK(std::abs(saved(orbit, "A.ux") - (1.0 / (w * w) + z.real())) <= 1e-12);
+  CHECK(std::abs(saved_value(orbit, "A.ux") - (1.0 / (w * w) + z.real())) <= 1e-12);
   CHECK(std::abs(orbit.amplitude - swing) <=
         1e-4 * swing);  // supports are given, and no displacements of the state
 }

@@ -141,6 +141,20 @@ TEST_CASE("cli orbit: a branch that the scene refuses on the way is resumed wher
   CHECK(shell.run({"orbit", "s.toml", "--resume"}).code == 2);
 }
 
+TEST_CASE("cli orbit: options of a branch are refused without --over") {
+  const Shell shell;
+  shell.write("s.toml", rubbed(harmonic()));
+  for (const auto& [option, value] :
+       {std::pair{"--switch", "1"}, {"--switch", "0"}, {"--step", "0.1"}, {"--most-points", "5"}}) {
+    CAPTURE(std::string(option));
+    const Ending ending = shell.run({"orbit", "s.toml", option, value, "--no-plots"});
+    CHECK(ending.code == 2);
+    CHECK(ending.err.find(option) != std::string::npos);
+    CHECK(ending.err.find("--over") != std::string::npos);
+    CHECK(!exists(shell, "s-orbit"));
+  }
+}
+
 TEST_CASE("cli orbit: a killed branch is resumed without a row twice or missing") {
   const Shell shell;
   shell.write("s.toml", rubbed(harmonic()));

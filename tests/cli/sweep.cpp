@@ -323,6 +323,28 @@ TEST_CASE("cli sweep: a bifurcation diagram, there and back") {
   CHECK(has(refused.err, "--settle"));
 }
 
+TEST_CASE("cli sweep: a note where --strobe is no period of the loads; --strobe loads has that of each run") {
+  const Shell shell;
+  shell.write("forced.toml", std::string(sliding_block) +
+                                 "[[loads]]\nnode = \"block\"\ndirection = [1.0, 0.0]\namplitude = 30.0\n"
+                                 "history = { type = \"harmonic\", omega = 8.0 }\n");
+  const auto sweep = [&](const std::string& strobe, const std::vector<std::string>& more) {
+    std::vector<std::string> command = {"sweep",   "forced.toml", "--strobe", strobe,  "--no-plots",
+                                        "--force", "--engine",    "exact",    "--set", "run.t_end=20.0"};
+    command.insert(command.end(), more.begin(), more.end());
+    return shell.run(command);
+  };
+  const std::vector<std::string> over_load = {"--vary", "loads.1.amplitude=20,30"},
+                                 over_period = {"--vary", "loads.1.history.omega=8,9", "--carry", "--back"};
+  CHECK(has(sweep("0.5", over_load).err, "note: --strobe 0.5: the loads repeat themselves after 0.785"));
+  CHECK(sweep("0.7853981633974483", over_load).err.empty());
+  CHECK(has(sweep("0.7853981633974483", {"--vary", "loads.1.history.omega=8,9"}).err, "--strobe loads"));
+  const Ending ending = sweep("loads", over_period);
+  CHECK(ending.code == 0);
+  CHECK(ending.err.empty());
+  CHECK(rows(shell, "forced-sweep").size() == 4);
+}
+
 TEST_CASE("cli sweep: what stroboscopic sweeps and carried states refuse") {
   const Shell shell;
   shell.write("belt.toml", belt(20));

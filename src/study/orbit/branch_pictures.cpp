@@ -109,6 +109,7 @@ constexpr std::array marks{
     MarkOfPoint{"flip", "with points pointtype 5 pointsize 0.9 linecolor '#c0182b'"},
     MarkOfPoint{"neimark-sacker", "with points pointtype 7 pointsize 1.0 linecolor '#7b3294'"},
     MarkOfPoint{"branch point", "with points pointtype 13 pointsize 1.2 linecolor '#1b9e77'"},
+    MarkOfPoint{"end", "with points pointtype 3 pointsize 1.1 linecolor '#1a1a1a'"},
     MarkOfPoint{"restart", "with points pointtype 2 pointsize 1.0 linecolor '#666666'"}};
 
 /// Those that occur, with their names in the first panel.

@@ -9,14 +9,38 @@
 #include "base/excerpt.hpp"
 #include "base/number.hpp"
 #include "base/suggest.hpp"
+#include "orbit/load_period.hpp"
 #include "signorini/error.hpp"
 #include "study/prepared_run.hpp"
 
 namespace signorini {
 
-Strobe parse_strobe(const std::string& text, const Model& model) {
+namespace {
+
+constexpr double same_period = 1e-9;  // of periods in a ratio of integers, as in orbit/load_period.cpp
+
+/// How many times `period` the time t is, from below.
+double whole_periods(double t, double period) { return std::floor(t / period * (1.0 + same_period)); }
+
+Strobe strobe_of_loads(const std::string& option, const Scene& scene) {
+  const std::optional<double> period = load_period(scene).period;
+  if (!period) throw UsageError(option + ": the scene has no load that repeats itself; expected a period");
+  if (whole_periods(scene.run.t_end, *period) < 1.0)
+    throw UsageError(fmt::format("{}: their period {:g} is longer than the run, t_end = {:g}", option,
+                                 *period, scene.run.t_end));
+  Strobe strobe;
+  strobe.text = "loads";
+  strobe.period = *period;
+  strobe.of_loads = true;
+  return strobe;
+}
+
+}  // namespace
+
+Strobe parse_strobe(const std::string& text, const Scene& scene, const Model& model) {
   const std::string option = "--strobe " + text;
   if (!is_plain_text(text)) throw UsageError(excerpt(option) + ": found bytes that are no plain UTF-8 text");
+  if (text == "loads") return strobe_of_loads(option, scene);
   Strobe strobe;
   strobe.text = text;
   if (const std::optional<double> period = parse_number(text)) {
@@ -27,11 +51,28 @@ Strobe parse_strobe(const std::string& text, const Model& model) {
   const std::optional<EventQuery> event = parse_event_query(option, text, model);
   if (!event) {
     const std::string name = text.substr(0, text.find('@'));
-    throw UsageError(fmt::format("{}: found \"{}\", expected a period, EVENT or EVENT@CONTACT{}", option,
-                                 name, suggestion(name, event_names())));
+    throw UsageError(fmt::format("{}: found \"{}\", expected a period, loads, EVENT or EVENT@CONTACT{}",
+                                 option, name, suggestion(name, event_names())));
   }
   strobe.event = *event;
   return strobe;
+}
+
+std::string strobe_doubt(const Strobe& strobe, const Scene& scene) {
+  if (strobe.period == 0.0 || strobe.of_loads) return {};
+  std::optional<double> period;
+  try {
+    period = load_period(scene).period;
+  } catch (const SceneError&) {  // loads without a common period have no phase
+    return {};
+  }
+  if (!period) return {};
+  const double turns = strobe.period / *period;
+  if (turns > 0.5 && std::abs(turns - std::round(turns)) <= same_period * turns) return {};
+  return fmt::format(
+      "--strobe {}: the loads repeat themselves after {}, so the points of one run are states at different "
+      "phases of the loads; --strobe loads takes the period of each run's loads",
+      strobe.text, shortest(*period));
 }
 
 std::vector<StrobeColumn> strobe_columns(const Model& model) {
@@ -93,6 +134,7 @@ RunSpec strobed(RunSpec run, const Strobe& strobe) {
   if (strobe.period == 0.0) return run;
   run.output_times.reset();
   run.output_dt = strobe.period;
+  if (strobe.of_loads) run.t_end = whole_periods(run.t_end, strobe.period) * strobe.period;
   return run;
 }
 

@@ -2,6 +2,7 @@
 // bifurcation diagram.
 //
 //   0.5             t_k = k 0.5 after the start, k = 1, 2, ...
+//   loads           the same, the period being that of the run's loads; the run ends with a whole period
 //   slip@block      after every event `slip` of the contact `block`; without @block after those of all contacts
 //
 //   point = (t, columns of history.csv, outputs),  t >= settle
@@ -19,12 +20,15 @@
 namespace signorini {
 
 struct Strobe {
-  std::string text;     ///< as given
-  double period = 0.0;  ///< time; 0: of events
+  std::string text;       ///< as given
+  double period = 0.0;    ///< time; 0: of events
+  bool of_loads = false;  ///< the period is that of the scene's loads
   EventQuery event;
 };
-/// Errors: UsageError, naming what the model has instead.
-[[nodiscard]] Strobe parse_strobe(const std::string& text, const Model& model);
+/// Errors: UsageError, naming what the model has instead; SceneError of loads without a common period.
+[[nodiscard]] Strobe parse_strobe(const std::string& text, const Scene& scene, const Model& model);
+/// Why the points are states at ever other phases of the loads; empty: they are not, or the loads have no period.
+[[nodiscard]] std::string strobe_doubt(const Strobe& strobe, const Scene& scene);
 
 /// Names and units of the values of a point.
 struct StrobeColumn {
@@ -66,7 +70,7 @@ class StrobeRecorder : public Relay {
   std::vector<double> outputs_;
 };
 
-/// The same run with rows of output where the points are.
+/// The same run with rows of output where the points are; of loads' periods a whole number.
 [[nodiscard]] RunSpec strobed(RunSpec run, const Strobe& strobe);
 
 }  // namespace signorini

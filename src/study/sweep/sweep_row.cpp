@@ -124,7 +124,7 @@ SweepRow computed(const RowTask& task, std::optional<SavedState>* carried) {
     if (task.strobe.empty()) {
       report = run(task, prepared, heard, without_rows(prepared.scene.run));
     } else {
-      const Strobe strobe = parse_strobe(task.strobe, model);
+      const Strobe strobe = parse_strobe(task.strobe, prepared.scene, model);
       StrobeRecorder points(strobe, task.settle.value_or(0.5 * prepared.scene.run.t_end), model, heard);
       report = run(task, prepared, points, strobed(prepared.scene.run, strobe));
       row.points = points.points();

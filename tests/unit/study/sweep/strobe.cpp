@@ -72,9 +72,20 @@ SweepRow row_of(const made_up::Folder& folder, const std::string& scene, const s
   return compute_row(task);
 }
 
-std::string refusal(const std::string& text) {
+/// Of a forced oscillator.
+const std::string forced = head + R"(run = { t_end = 100.0, engine = "exact" }
+springs = [{ node = "block", direction = [1.0, 0.0], stiffness = 50.0, damping = 4.0 }]
+[[loads]]
+node = "block"
+direction = [1.0, 0.0]
+amplitude = 3.0
+history = { type = "harmonic", omega = 4.0 }
+)";
+
+std::string refusal(const std::string& text, const std::string& scene_text = belt) {
+  const Scene scene = parse_scene(scene_text, "belt.toml");
   try {
-    (void)parse_strobe(text, build_model(parse_scene(belt, "belt.toml")));
+    (void)parse_strobe(text, scene, build_model(scene));
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -191,6 +202,54 @@ TEST_CASE("strobe: runs that go on from each other show the hysteresis of fricti
   CHECK(compute_row(task, carried).outcome == "refused");
   task.changes = {{"loads.1.amplitude", "-2.0"}};
   CHECK(std::abs(compute_row(task, carried).points.back().values[0] - u) < 1e-9);
+}
+
+TEST_CASE(
+    "strobe: at the period of each run's loads the steady state has one point, where its closed form is") {
+  // m u'' + c u' + k u = F sin w t: u = F (D sin w t - C cos w t)/(D^2 + C^2), D = k - m w^2, C = c w, at phase 0
+  const made_up::Folder folder;
+  for (const double w : {2.0, 4.0, 7.3}) {
+    CAPTURE(w);
+    RowTask task;
+    task.scene = folder / "scene.toml";
+    made_up::spill(task.scene, forced);
+    task.changes = {{"loads.1.history.omega", std::to_string(w)}};
+    task.strobe = "loads";
+    const SweepRow row = compute_row(task);
+    REQUIRE(row.outcome == "done");
+    const double D = 50.0 - 2.0 * w * w, C = 4.0 * w, square = D * D + C * C;
+    REQUIRE(row.points.size() > 10);
+    for (const StrobePoint& point : row.points) {
+      CHECK(std::abs(point.values[0] + 3.0 * C / square) <= 1e-11);
+      CHECK(std::abs(point.values[1] - 3.0 * D * w / square) <= 1e-11);
+    }
+    CHECK(row.t <= 100.0);
+    CHECK(row.t > 100.0 - 2.0 * 3.141592653589794 / w);
+    CHECK(row.points.back().t == row.t);
+  }
+  CHECK(refusal("loads").find("no load that repeats itself") != std::string::npos);
+  CHECK(refusal("loads", forced).empty());
+}
+
+TEST_CASE("strobe: a period that is none of the loads is doubted, a multiple of theirs is not") {
+  const Scene scene = parse_scene(forced, "forced.toml");
+  const Model model = build_model(scene);
+  const double T = 3.141592653589793 / 2.0;
+  const auto doubt = [&](double period) {
+    return strobe_doubt(parse_strobe(std::to_string(period), scene, model), scene);
+  };
+  const auto exact = [&](double turns) {
+    Strobe strobe;
+    strobe.period = turns * T;
+    return strobe_doubt(strobe, scene);
+  };
+  CHECK(exact(1.0).empty());
+  CHECK(exact(3.0).empty());
+  CHECK(exact(0.5).find("--strobe loads") != std::string::npos);
+  CHECK(doubt(1.5).find("--strobe loads") != std::string::npos);
+  CHECK(doubt(1.5707).find("1.5707963") != std::string::npos);
+  const Scene belted = parse_scene(belt, "belt.toml");
+  CHECK(strobe_doubt(parse_strobe("1.5", belted, build_model(belted)), belted).empty());
 }
 
 TEST_CASE("strobe: rows keep their points on disk") {

@@ -1,5 +1,6 @@
 // An orbit is a motion that closes: the run of its period, by either engine, ends where it begins, shears included.
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

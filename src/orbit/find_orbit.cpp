@@ -322,7 +322,8 @@ void Search::tell(const OrbitState& at_section, double section) {
   const Model base = orbit_.autonomous ? map_->model() : driven_from(first_, before_);
   const PeriodMap map = map_of(base, false), from_section = map_of(map_->model(), false);
   OrbitState start = at_section;
-  if (section > 0.0) start = orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
+  if (section > 0.0)
+    start = orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);
   orbit_.start = last_state(driven_from(given_, orbit_.phase), rows);
   OrbitLeg told{at_section, shot_.duration, false};

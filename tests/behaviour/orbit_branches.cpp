@@ -360,15 +360,18 @@ TEST_CASE(
   CHECK(folds[1] > 47.0);
   // From the first point to the first fold stable, to the second one unstable, stable again.
   std::size_t part = 0;
+  long undecided = 0;  // a multiplier is as near to 1 as its error
   std::vector<double> at(3, 0.0);  // span of the third of the way between the folds
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
     const BranchPoint& p = branch.points[i];
     CAPTURE(p.parameter);
     if (p.special == "fold") ++part;
     const bool beside = std::abs(p.max_multiplier - 1.0) <= 1e-6;
-    if (!beside) CHECK(p.stable == (part != 1));
+    if (!beside && p.stable) CHECK(*p.stable == (part != 1));
+    undecided += p.stable ? 0 : 1;
     if (std::abs(p.parameter - 47.0) < 0.2) at[part] = p.maxima.front() - p.minima.front();
   }
+  CHECK(undecided <= 6);
   CHECK(at[0] > 1.02 * at[1]);
   CHECK(at[1] > 2.0 * at[2]);
 }

@@ -249,6 +249,12 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
          std::abs(form.an) * rate * rate * gap;
 }
 
+/// GuardStart::drift up to the place x of the step; 0 beyond the range of numbers.
+double ExactEngine::drift_of(const GuardStart& guard, double x) const {
+  const double drift = guard.drift(t_ + x * series_.scale - segment_.decision->jet.t);
+  return std::isfinite(drift) ? drift : 0.0;
+}
+
 FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
   const GuardStart& guard = segment_.decision->guards[slot];
   const std::size_t c = contact_of_guard(slot);
@@ -263,7 +269,7 @@ FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
   if (arming_.armed(slot)) return first_fall(guard_.data(), degree_, slack);
   if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found what is below to be zero
     return first_fall(guard_.data() + m, degree_ - m, rounding::of_few * std::abs(guard_[m]));
-  guard_[0] += guard.noise + slack + guard.drift(t_ + x * series_.scale - segment_.decision->jet.t);
+  guard_[0] += guard.noise + slack + drift_of(guard, x);
   return first_fall(guard_.data(), degree_, 0.0);
 }
 
@@ -338,8 +344,7 @@ void ExactEngine::see_unarmed(double x) {
     if (arming_.idle(slot) || arming_.armed(slot)) continue;
     const GuardStart& guard = segment_.decision->guards[slot];
     contacts_[contact_of_guard(slot)].combine(guard.form, guard_.data());
-    const double drift = guard.drift(t_ + x * series_.scale - segment_.decision->jet.t);
-    arming_.see(slot, value_at(guard_.data(), degree_, x), 4.0 * (guard.noise + drift));
+    arming_.see(slot, value_at(guard_.data(), degree_, x), 4.0 * (guard.noise + drift_of(guard, x)));
   }
 }
 

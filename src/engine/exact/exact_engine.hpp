@@ -69,6 +69,7 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] double expand(double scale);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double rest_of_series(double x);
+  [[nodiscard]] double drift_of(const GuardStart& guard, double x) const;
   [[nodiscard]] FirstFall fall_of(std::size_t slot, double x, double rest);
   /// Of all guards on [0, x]: the one that falls first, and in which part of the step.
   struct Earliest {

@@ -360,7 +360,7 @@ TEST_CASE(
   CHECK(folds[1] > 47.0);
   // From the first point to the first fold stable, to the second one unstable, stable again.
   std::size_t part = 0;
-  long undecided = 0;  // a multiplier is as near to 1 as its error
+  long undecided = 0;              // a multiplier is as near to 1 as its error
   std::vector<double> at(3, 0.0);  // span of the third of the way between the folds
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
     const BranchPoint& p = branch.points[i];

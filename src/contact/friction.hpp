@@ -33,6 +33,10 @@ namespace signorini {
 [[nodiscard]] inline double kinetic_friction(const Contact& contact) {
   return contact.friction.rises() ? contact.friction.static_ : contact.friction.kinetic;
 }
+/// |T| over |N| of a state that slips: of one that others hold the static coefficient. Of friction that varies the least.
+[[nodiscard]] inline double slipping_friction(const Contact& contact, State state) {
+  return is_held(state) ? static_friction(contact) : kinetic_friction(contact);
+}
 /// Greatest |T| in stick, and |T| where slip begins, at a normal force N <= 0.
 [[nodiscard]] inline double sticking_limit(const Contact& contact, double N) {
   const Friction& f = contact.friction;

@@ -138,14 +138,12 @@ Rows rows(const Contact& contact, const ContactState& state) {
       break;
     case State::slip_plus:
     case State::slip_minus:
+    case State::held_plus:
+    case State::held_minus:
       if (contact.friction.by_force())
         result.tangent.limit = -slip_sign(state.state);
       else
-        result.tangent = sliding_row(slip_sign(state.state), kinetic_friction(contact));
-      break;
-    case State::held_plus:
-    case State::held_minus:
-      result.tangent = sliding_row(slip_sign(state.state), static_friction(contact));
+        result.tangent = sliding_row(slip_sign(state.state), slipping_friction(contact, state.state));
       break;
   }
   return result;

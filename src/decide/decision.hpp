@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,11 @@ struct GuardStart {
   std::array<double, 2> loose{};  ///< leading < 0: rounding of its second and third derivative
 
   /// How far rounding of what nothing tells may have taken it after a time h: a body at rest beside a wall drifts.
-  [[nodiscard]] double drift(double h) const { return h * h * (loose[0] / 2.0 + h * loose[1] / 6.0); }
+  /// Beyond the range of numbers nothing does.
+  [[nodiscard]] double drift(double h) const {
+    const double far = h * h * (loose[0] / 2.0 + h * loose[1] / 6.0);
+    return std::isfinite(far) ? far : 0.0;
+  }
 };
 
 /// The guard whose failure changed a contact's state.

@@ -11,7 +11,7 @@
 #include "decide/coulomb_reading.hpp"
 #include "decide/fair_share.hpp"
 #include "decide/places.hpp"
-#include "scene/quantities.hpp"
+#include "model/said.hpp"
 
 namespace signorini {
 namespace {
@@ -168,7 +168,7 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
     impact.refusal = {Refusal::Kind::impact,
                       "the impact has no solution: its complementarity problem ends in a ray", touching,
                       condition_of(hit.problem)};
-    const double shown = factor_of(unit::velocity, model_.unit);
+    const double shown = said(model_, 1.0, unit::velocity);
     for (std::size_t i = 0; i < touching.size(); ++i) {
       const Eigen::Index n = normal_place(i);
       impact.refusal.reason +=

@@ -10,7 +10,7 @@
 #include "decide/coulomb_reading.hpp"
 #include "decide/fair_share.hpp"
 #include "decide/places.hpp"
-#include "scene/quantities.hpp"
+#include "model/said.hpp"
 
 namespace signorini {
 namespace {
@@ -148,8 +148,8 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
                      : "no motion continues this one (Painleve's paradox: friction is so strong that "
                        "pressing a sliding contact pushes it into its surface)",
                  level.contacts, condition_of(problem), all.least_miss};
-  const double acceleration = factor_of(unit::acceleration, model_.unit);  // as the scene has it
-  const double per_force = acceleration / model_.unit.force;
+  const double acceleration = said(model_, 1.0, unit::acceleration);
+  const double per_force = acceleration / said(model_, 1.0, unit::force);
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
     const CoulombItem& item = problem.items[i];
     const Eigen::Index n = normal_place(i);

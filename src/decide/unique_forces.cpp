@@ -34,8 +34,7 @@ Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vecto
     if (contact.takes_impulses()) rows.push_back(n);
     if (contact.has_friction() && state.state == State::stick) rows.push_back(t);
     if (const int s = slip_sign(state.state); s != 0)
-      effect.col(n) -=
-          s * (is_held(state.state) ? static_friction(contact) : kinetic_friction(contact)) * W.col(t);
+      effect.col(n) -= s * slipping_friction(contact, state.state) * W.col(t);
   }
   return effect(rows, rows);
 }

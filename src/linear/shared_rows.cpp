@@ -6,6 +6,7 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/eigen_dense.hpp"
+#include "contact/form_columns.hpp"
 
 namespace signorini {
 namespace {
@@ -111,17 +112,9 @@ SharedRows::SharedRows(const Model& model, const Structure& structure)
 }
 
 Eigen::MatrixXd SharedRows::columns(const std::vector<std::size_t>& rows) const {
-  std::unordered_map<int, Eigen::Index> place;
-  for (const std::size_t row : rows)
-    for (const auto& term : form_of(model_, row).terms)
-      place.emplace(term.first, static_cast<Eigen::Index>(place.size()));
-  Eigen::MatrixXd h =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t j = 0; j < rows.size(); ++j)
-    for (const auto& [dof, factor] : form_of(model_, rows[j]).terms)
-      h(place.at(dof), static_cast<Eigen::Index>(j)) +=
-          factor * std::sqrt(lightness_[static_cast<std::size_t>(dof)]);
-  return h;
+  std::vector<const Combination*> forms;
+  for (const std::size_t row : rows) forms.push_back(&form_of(model_, row));
+  return form_columns(forms, [&](int dof) { return std::sqrt(lightness_[static_cast<std::size_t>(dof)]); });
 }
 
 std::vector<SharedForces> SharedRows::in_force(const std::vector<Rows>& rows) const {

@@ -13,6 +13,7 @@
 #include "engine/newmark/friction_iteration.hpp"
 #include "engine/newmark/newmark_engine.hpp"
 #include "linear/shared_rows.hpp"
+#include "model/said.hpp"
 #include "run/choose_flow.hpp"
 #include "signorini/error.hpp"
 
@@ -95,7 +96,7 @@ void refuse_endless_series(const Model& model, const RunSpec& run) {
          fmt::format(
              "follows the highest frequency, {:.3g} rad/{}, by series: {:.2g} radians to t_end, whose steps "
              "no double tells from none",
-             model.omega_max / model.unit.time, model.units.time, radians),
+             said(model, model.omega_max, unit::rate), model.units.time, radians),
          "use \"ida\", or less stiffness");
 }
 

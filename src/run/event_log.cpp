@@ -8,6 +8,7 @@
 
 #include "base/rounding.hpp"
 #include "contact/motion.hpp"
+#include "model/said.hpp"
 #include "run/physical.hpp"
 
 namespace signorini {
@@ -132,8 +133,8 @@ void EventLog::see_hits(const Instant& now) {
         apart < coincidence * now.t)
       order_.warn(
           fmt::format("the hits of '{}' at {:.12g} and of '{}' {:.2g} later, which act on each other,",
-                      model_.contacts[last_hit_.contact].name, last_hit_.t * model_.unit.time,
-                      model_.contacts[k].name, apart * model_.unit.time));
+                      model_.contacts[last_hit_.contact].name, said_time(model_, last_hit_.t),
+                      model_.contacts[k].name, said_time(model_, apart)));
   }
   Hit hit;
   for (std::size_t k = 0; k < decision.impulses.size(); ++k)
@@ -173,7 +174,7 @@ void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std:
   const Crossing& crossing = now.decision->crossings[k];
   if (!crossing.failed) return;
   event.guard_rate =
-      crossing.derivatives[0] * factor_of(unit_of(crossing.form), model_.unit) / model_.unit.time;
+      said(model_, crossing.derivatives[0], unit_of(crossing.form)) * said(model_, 1.0, unit::rate);
   const double error =
       std::max(crossing.noise, stepper.guard_error(crossing.form, now.decision->before[k], k));
   // The instant itself is known to its resolution only.

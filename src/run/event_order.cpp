@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "model/said.hpp"
+
 namespace signorini {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr int most_warnings = 5;  // of pairs of events without an order
 
 std::string EventOrder::told(const Event& event) const {
   return fmt::format("'{}' at {:.12g}", model_.contacts[static_cast<std::size_t>(event.contact)].name,
-                     event.t * model_.unit.time);
+                     said_time(model_, event.t));
 }
 
 void EventOrder::event(const Event& event, double resolution) {
@@ -23,7 +25,7 @@ void EventOrder::event(const Event& event, double resolution) {
 
 void EventOrder::load_jump(double t) {
   if (last_.contact >= 0 && t - last_.t < *last_.t_uncertainty)
-    warn(fmt::format("the event of {} and the jump of a load at {:.12g}", told(last_), t * model_.unit.time));
+    warn(fmt::format("the event of {} and the jump of a load at {:.12g}", told(last_), said_time(model_, t)));
 }
 
 void EventOrder::warn(const std::string& which) {

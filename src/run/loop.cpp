@@ -6,6 +6,7 @@
 
 #include "base/rounding.hpp"
 #include "decide/driven_states.hpp"
+#include "model/said.hpp"
 #include "motion/clock.hpp"
 #include "run/warnings.hpp"
 
@@ -41,7 +42,7 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
       curves_(model, spec.t_end, recorder, share),
       response_(model, spec.t_end, recorder, name_of(spec.engine).accuracy != Accuracy::step),
       touches_(model.contacts.size()),
-      standstill_(spec.t_end, spec.max_events_at_once, model.unit.time),
+      standstill_(spec.t_end, spec.max_events_at_once, said_time(model, 1.0)),
       breakpoints_(breakpoints(model, spec.t_end)),
       forcing_(model, 0.0, Side::after),
       changes_(model, spec, engine, report_.method) {
@@ -370,15 +371,15 @@ void Loop::emit(double t, Point& point) {
 
 void Loop::warn_of_decision() {
   for (const std::size_t c : decision_.released)
-    if (++releases_ <= most_gains) report_.warnings.push_back(left_at_once(model_, c, t_ * model_.unit.time));
+    if (++releases_ <= most_gains) report_.warnings.push_back(left_at_once(model_, c, said_time(model_, t_)));
   if (!shares_)
-    if (auto told = shared_motion(model_, decision_, t_ * model_.unit.time)) {
+    if (auto told = shared_motion(model_, decision_, said_time(model_, t_))) {
       report_.warnings.push_back(std::move(*told));
       shares_ = true;
     }
   if (decision_.impact_gains && ++gains_ <= most_gains)
     report_.warnings.push_back(
-        impact_gain(t_ * model_.unit.time, -decision_.impact_loss * factor_of(unit::energy, model_.unit)));
+        impact_gain(said_time(model_, t_), said(model_, -decision_.impact_loss, unit::energy)));
 }
 
 Ending Loop::end() {
@@ -386,7 +387,7 @@ Ending Loop::end() {
   if (observer_) observer_->end(t_);
   if (observer_ && engine_->graze()) {
     Graze graze = *engine_->graze();
-    graze.t *= model_.unit.time;
+    graze.t = said_time(model_, graze.t);
     observer_->graze(graze);
   }
   engine_->count();

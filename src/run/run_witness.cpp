@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/rounding.hpp"
-#include "scene/quantities.hpp"
+#include "model/said.hpp"
 #include "witness/laws.hpp"
 
 namespace signorini {
@@ -224,9 +224,9 @@ void RunWitness::keep(std::vector<Violation> found) {
   for (Violation& v : found) {
     if (v.grave && grave_.empty()) {
       Violation shown = v;
-      shown.t *= model_.unit.time;
-      shown.value *= factor_of(v.unit, model_.unit);
-      shown.limit *= factor_of(v.unit, model_.unit);
+      shown.t = said_time(model_, v.t);
+      shown.value = said(model_, v.value, v.unit);
+      shown.limit = said(model_, v.limit, v.unit);
       grave_ = sentence_of(shown, model_);
     }
     if (testimony_.violations.size() < most_violations) testimony_.violations.push_back(std::move(v));

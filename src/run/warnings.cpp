@@ -8,6 +8,7 @@
 #include "base/listed.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
+#include "model/said.hpp"
 
 namespace signorini {
 namespace {
@@ -31,8 +32,8 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
     if (!start.visited[k] || !start.jumped[k] || !cut) continue;
     sentences.push_back(fmt::format(
         "contact '{}': initial_shear = {:.6g} {} is above the friction limit at t = 0; T starts at {:.6g} {}",
-        model.contacts[k].name, asked * model.unit.force, model.units.force, found * model.unit.force,
-        model.units.force));
+        model.contacts[k].name, said(model, asked, unit::force), model.units.force,
+        said(model, found, unit::force), model.units.force));
   }
   return sentences;
 }

@@ -25,11 +25,6 @@ inline constexpr double of_uncertainty = 3.0;
 /// taken for too small: they are grave. Chosen; four rigid contacts on a body that three hold (coupled seed 19) fail by all.
 inline constexpr double gross = 1e-3;
 
-namespace seen {
-inline constexpr Unit force{1, 0, 0}, length{0, 1, 0}, velocity{0, 1, -1}, impulse{1, 0, 1},
-    moment_impulse{1, 1, 1};
-}
-
 /// Accelerations by unit forces of a contact, where all its degrees of freedom have mass: of the structure, and its own.
 struct OwnResponse {
   Vector by_n, by_t;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace signorini {
 namespace {
@@ -26,6 +27,13 @@ double growth_of_limit(const Contact& c, double N) {
 double shear_stiffness(const Contact& c) { return c.tangential_stiffness.value_or(0.0); }
 
 }  // namespace
+
+const Unit& SeenGuard::unit() const {
+  const std::string_view name = law;
+  return name == "penetration" || name == "lasting gap" ? seen::length
+         : name == "slip direction" || name == "rest"   ? seen::velocity
+                                                        : seen::force;
+}
 
 int sign_of_slip(State state) {
   return kind_of(state) == State::slip_plus ? 1 : kind_of(state) == State::slip_minus ? -1 : 0;

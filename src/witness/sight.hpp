@@ -10,6 +10,12 @@
 
 namespace signorini {
 
+/// Units of what is seen.
+namespace seen {
+inline constexpr Unit force{1, 0, 0}, length{0, 1, 0}, velocity{0, 1, -1}, impulse{1, 0, 1},
+    moment_impulse{1, 1, 1};
+}
+
 struct Sight {
   double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0,
          ddq = 0.0;
@@ -23,6 +29,8 @@ struct SeenGuard {
   double value = 0.0, size = 0.0;
   double rate = 0.0;       ///< of the value, as far as the motion tells; else 0
   double tolerance = 0.0;  ///< what the engine's tolerances make of it
+
+  [[nodiscard]] const Unit& unit() const;  ///< of the value
 };
 
 struct SeenGuards {

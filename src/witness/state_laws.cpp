@@ -10,13 +10,6 @@
 namespace signorini {
 namespace {
 
-const Unit& unit_of(const SeenGuard& guard) {
-  const std::string_view law = guard.law;
-  return law == "penetration" || law == "lasting gap" ? seen::length
-         : law == "slip direction" || law == "rest"   ? seen::velocity
-                                                      : seen::force;
-}
-
 /// Rows of rigid contacts, and the changes of their forces that hold them:  W dF = asked,  W_ij = row_i . column_j.
 struct HeldRows {
   std::vector<Vector> columns;  // accelerations by a unit force; of what slides with its friction
@@ -159,7 +152,7 @@ void Finder::state_of(std::size_t k) {
     if (guard.value < -zero && of_slip)
       zero += (1.0 + record_.forgiven) * noise_of_slip_rate(bench_, record_.after, k);
     if (guard.value < -zero)
-      add(contact, guard.law, -guard.value, zero, unit_of(guard), -guard.value > gross * guard.size);
+      add(contact, guard.law, -guard.value, zero, guard.unit(), -guard.value > gross * guard.size);
   }
   double asked = 0.0, size = std::abs(m.N);
   if (c.is_pressed()) {
@@ -351,7 +344,7 @@ void Finder::necessity(std::size_t k) {
     limit = zero;
   }
   if (nearest != nullptr)
-    add(static_cast<int>(k), "necessity", nearest->value, limit, unit_of(*nearest),
+    add(static_cast<int>(k), "necessity", nearest->value, limit, nearest->unit(),
         nearest->value > gross * nearest->size);
 }
 
@@ -376,7 +369,7 @@ void Finder::guard_of(const RecordedEvent& event) {
     which = &guard;
   }
   if (which != nullptr && std::abs(least) > limit)
-    add(static_cast<int>(k), "time of the event", std::abs(least), limit, unit_of(*which), false);
+    add(static_cast<int>(k), "time of the event", std::abs(least), limit, which->unit(), false);
 }
 
 }  // namespace signorini

@@ -66,11 +66,7 @@ void Witness::contact(double t, std::size_t k, const ContactState& state, const 
       limit += c.capture_velocity.value_or(parts_->bench.limits.capture_velocity);
       if (guard.value >= -limit) continue;
     }
-    found.push_back({t, "between", static_cast<int>(k), guard.law, -guard.value, limit,
-                     law == "penetration" || law == "lasting gap" ? seen::length
-                     : law == "slip direction" || law == "rest"   ? seen::velocity
-                                                                  : seen::force,
-                     false});
+    found.push_back({t, "between", static_cast<int>(k), guard.law, -guard.value, limit, guard.unit(), false});
   }
 }
 

@@ -10,6 +10,7 @@
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "model/decay.hpp"
+#include "model/said.hpp"
 #include "motion/clock.hpp"
 #include "motion/equilibrium.hpp"
 #include "motion/hold.hpp"
@@ -239,7 +240,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
   const State state = segment_.decision->mode[c].state;
   if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
-    T = (is_held(state) ? static_friction(contact) : kinetic_friction(contact)) * N;
+    T = slipping_friction(contact, state) * N;
   else if (contact.tangential_stiffness)
     T = *contact.tangential_stiffness * ut;
   else if (state == State::stick && norm_.tangent(c) > 0.0)
@@ -249,10 +250,9 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
          std::abs(form.an) * rate * rate * gap;
 }
 
-/// GuardStart::drift up to the place x of the step; 0 beyond the range of numbers.
+/// GuardStart::drift up to the place x of the step.
 double ExactEngine::drift_of(const GuardStart& guard, double x) const {
-  const double drift = guard.drift(t_ + x * series_.scale - segment_.decision->jet.t);
-  return std::isfinite(drift) ? drift : 0.0;
+  return guard.drift(t_ + x * series_.scale - segment_.decision->jet.t);
 }
 
 FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
@@ -286,7 +286,7 @@ std::string ExactEngine::hindrance(double scale) const {
   if (growth_now_ * resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
         "the fastest motion, {:.3g} rad per unit of time, is too fast for the resolution of time here",
-        growth_now_ / growth_margin / model_.unit.time);
+        said(model_, growth_now_ / growth_margin, unit::rate));
   if (!end_.u.allFinite()) return overflow;
   if (!(scale > 0.0)) return "the step has fallen below the resolution of time";
   return {};
@@ -333,7 +333,7 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
         fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
                     "at this precision; it counts as not fallen",
                     model_.contacts[contact_of_guard(slot)].name,
-                    to_string(segment_.decision->guards[slot].kind), t * model_.unit.time));
+                    to_string(segment_.decision->guards[slot].kind), said_time(model_, t)));
   else if (touches_ == most_touches + 1)
     warnings.emplace_back("more guards touch zero; these are not listed");
 }

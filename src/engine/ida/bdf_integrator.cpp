@@ -15,6 +15,7 @@
 #include "engine/ida/fast_vector.hpp"
 #include "engine/ida/ida_problem.hpp"
 #include "engine/ida/step_newton.hpp"
+#include "model/said.hpp"
 
 namespace signorini {
 namespace {
@@ -66,7 +67,7 @@ bool in_closed_form(const Model& model) {
 
 struct BdfIntegrator::Memory {
   Memory(const Model& model, const Structure& structure, const Tolerance& tolerance, int max_order)
-      : problem(model, structure, tolerance), unit_of_time(model.unit.time) {
+      : problem(model, structure, tolerance), unit_of_time(said_time(model, 1.0)) {
     SUNContext_Create(nullptr, &context);
     const auto size = static_cast<sunindextype>(problem.layout().size());
     for (N_Vector* v : {&y, &yp, &work}) *v = make_vector(size, context);

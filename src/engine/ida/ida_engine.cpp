@@ -8,23 +8,23 @@
 
 #include "contact/friction.hpp"
 #include "engine/ida/locate.hpp"
+#include "model/said.hpp"
 #include "motion/clock.hpp"
-#include "scene/quantities.hpp"
 
 namespace signorini {
 namespace {
 
 /// "run.atol.velocity (1e-09 m/s here)": the tolerance of a guard's value, as the scene has it.
 std::string tolerance_in_force(Guard guard, const Tolerance& tolerance, const Model& model) {
-  const auto said = [&](const char* key, double value, const Unit& unit, const std::string& name) {
-    return fmt::format("run.atol.{} ({:.2g} {} here)", key, value * factor_of(unit, model.unit), name);
+  const auto as_key = [&](const char* key, double value, const Unit& unit, const std::string& name) {
+    return fmt::format("run.atol.{} ({:.2g} {} here)", key, said(model, value, unit), name);
   };
   const Units& units = model.units;
   if (guard == Guard::sliding)
-    return said("velocity", tolerance.velocity, unit::velocity, units.length + "/" + units.time);
+    return as_key("velocity", tolerance.velocity, unit::velocity, units.length + "/" + units.time);
   if (guard == Guard::closing || guard == Guard::clearing)
-    return said("displacement", tolerance.displacement, unit::length, units.length);
-  return said("force", tolerance.force, unit::force, units.force);
+    return as_key("displacement", tolerance.displacement, unit::length, units.length);
+  return as_key("force", tolerance.force, unit::force, units.force);
 }
 
 }  // namespace
@@ -210,7 +210,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
           "its steps; it counts as not fallen, there and where this happens again; a smaller {}, or engine "
           "exact, decides whether it falls",
           model_.contacts[contact_of_guard(c.slot)].name, to_string(guards[c.slot].kind),
-          c.time * model_.unit.time, tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
+          said_time(model_, c.time), tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
     return true;
   });
   if (candidates.empty()) return std::nullopt;

@@ -9,6 +9,7 @@
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "contact/transition.hpp"
+#include "model/said.hpp"
 #include "motion/clock.hpp"
 
 namespace signorini {
@@ -181,7 +182,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       switching
           ? "states still change"
           : fmt::format("a friction limit still changes by {:.3g} {}, {:.2g} % of the greatest contact force",
-                        change * model_.unit.force, model_.units.force,
+                        said(model_, change, unit::force), model_.units.force,
                         force > 0.0 ? 100.0 * change / force : 0.0),
       listed(what), relaxation_);
 }
@@ -208,7 +209,7 @@ Step FrictionIteration::advance() {
   step_.count(counters);
   if (!failure.empty()) {
     step.kind = Step::Kind::failed;
-    step.reason = fmt::format("at t = {:.9g}: {}", t1_ * model_.unit.time, failure);
+    step.reason = fmt::format("at t = {:.9g}: {}", said_time(model_, t1_), failure);
     return step;
   }
   step.end = t1_;

@@ -1,9 +1,9 @@
 #include "model/statics/held_rows.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "base/eigen_dense.hpp"
+#include "contact/form_columns.hpp"
 #include "model/statics/null_motions.hpp"
 
 namespace signorini {
@@ -21,14 +21,7 @@ bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loo
   for (std::size_t j = 0; j < rows.size(); ++j)
     if (j != row && rows[j].rigid && !loose[j]) forms.push_back(&rows[j].form);
   if (!rows[row].rigid || forms.size() < 2) return false;
-  std::map<int, Eigen::Index> place;
-  for (const Combination* form : forms)
-    for (const auto& term : form->terms) place.emplace(term.first, static_cast<Eigen::Index>(place.size()));
-  Eigen::MatrixXd columns =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(forms.size()));
-  for (std::size_t j = 0; j < forms.size(); ++j)
-    for (const auto& [dof, factor] : forms[j]->terms)
-      columns(place.at(dof), static_cast<Eigen::Index>(j)) += factor;
+  const Eigen::MatrixXd columns = form_columns(forms);
   const Eigen::MatrixXd others = columns.rightCols(columns.cols() - 1);
   const Eigen::VectorXd own = columns.col(0);
   return (own - others * least_squares(others, own)).norm() <= spanned * own.norm();

@@ -9,6 +9,7 @@
 #include "contact/friction.hpp"
 #include "engine/exact/modal/damped_flow.hpp"
 #include "engine/exact/modal/proportional_flow.hpp"
+#include "model/said.hpp"
 #include "motion/clock.hpp"
 #include "motion/equilibrium.hpp"
 
@@ -46,7 +47,7 @@ ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSys
 void ModalEngine::say_fallback(double t, const std::string& why) {
   if (fallbacks_++ > 0) return;
   warnings.push_back(fmt::format("the flow in modes gave way to the Taylor series at t = {:.6g}: {}",
-                                 t * model_.unit.time, why));
+                                 said_time(model_, t), why));
 }
 
 /// The series takes over within a segment: from its beginning, past what has been told already.
@@ -95,7 +96,7 @@ void ModalEngine::see_touches(const Passage& passage, double begin) {
           "contact '{}': its {} touches zero near {:.9g}; whether it falls there is not decidable "
           "at this precision; it counts as not fallen",
           model_.contacts[contact_of_guard(slot)].name, to_string(segment_.decision->guards[slot].kind),
-          begin * model_.unit.time));
+          said_time(model_, begin)));
 }
 
 /// How far off the fall of a guard lies by the u, v and forces that the decision will see, and how far off

@@ -1,0 +1,16 @@
+// said.hpp: what a run computes, in the scene's units: for messages of whoever computes.
+//
+//   said = value * factor of its unit          of Model::unit; of results as a whole: run/physical.hpp
+#pragma once
+
+#include "scene/quantities.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+[[nodiscard]] inline double said(const Model& model, double value, const Unit& of) {
+  return value * factor_of(of, model.unit);
+}
+[[nodiscard]] inline double said_time(const Model& model, double t) { return said(model, t, unit::time); }
+
+}  // namespace signorini

@@ -105,7 +105,7 @@ struct Decider::Course {
   [[nodiscard]] const Vector& comes_from() const { return instant.start ? given : instant.u; }
 };
 
-Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
+Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, bool whole_jets)
     : model_(systems.model()),
       systems_(systems),
       jets_(systems),
@@ -118,6 +118,9 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
       block_of_(model_.contacts.size()) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (const std::size_t c : blocks_[b]) block_of_[c] = b;
+  if (whole_jets || !decide_alone_) return;
+  near_.emplace(systems);
+  if (!near_->possible()) near_.reset();
 }
 
 /// The motion in a mode. False: its rows are dependent.
@@ -135,7 +138,9 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
     told = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
       return told_by(model_.contacts[c], c, mode[c], jet, orders, instant, unlucky);
     };
-  d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
+  std::optional<Jet> jet;
+  if (near_) jet = near_->make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
+  d.jet = jet ? std::move(*jet) : jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
   d.u = d.jet.u.col(0);
   d.v = d.jet.u.col(1);
   d.mode = mode;

@@ -15,6 +15,7 @@
 
 #include "decide/enumeration.hpp"
 #include "decide/touching.hpp"
+#include "motion/near_jets.hpp"
 
 namespace signorini {
 
@@ -23,8 +24,9 @@ namespace signorini {
 
 class Decider {
  public:
-  /// capture_velocity: of rigid contacts that have none of their own.
-  Decider(ModeSystems& systems, int max_rounds, double capture_velocity);
+  /// capture_velocity: of rigid contacts that have none of their own. whole_jets: somebody reads Decision::jet beyond
+  /// accelerations and the rates of forces.
+  Decider(ModeSystems& systems, int max_rounds, double capture_velocity, bool whole_jets = true);
 
   /// `before` and `after`: the forcing on both sides of the instant.
   [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after);
@@ -74,7 +76,8 @@ class Decider {
   const Model& model_;
   ModeSystems& systems_;
   JetMaker jets_;
-  bool decide_alone_;  // no contact is decided with others
+  std::optional<NearJets> near_;  // nothing: jets are made of the whole structure
+  bool decide_alone_;             // no contact is decided with others
   int max_rounds_;
   Touching touching_;
   std::vector<Block> blocks_;

@@ -81,6 +81,36 @@ Forcing Forcing::none(const Model& model) {
   return f;
 }
 
+Forcing Forcing::on_part(const Model& part, const std::vector<int>& dofs,
+                         const std::vector<std::size_t>& loads, const std::vector<std::size_t>& contacts,
+                         const Vector& more) const {
+  Forcing f(part);
+  f.constant_ = constant_(dofs) + more;
+  f.constant_terms_ = constant_terms_(dofs) + more.cwiseAbs();
+  for (const auto& [load, p] : varying_) {
+    const auto at = std::lower_bound(loads.begin(), loads.end(), load);
+    if (at != loads.end() && *at == load)
+      f.varying_.emplace_back(static_cast<std::size_t>(at - loads.begin()), p);
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::size_t k = contacts[i];
+    f.pressing_.push_back(pressing_[k]);
+    f.surface_.push_back(surface_[k]);
+    f.moves_.push_back(moves_[k]);
+    f.presses_.push_back(presses_[k]);
+    f.drives_.push_back(drives_[k]);
+    f.lifted_.push_back(lifted_[k]);
+    f.still_pressing_.push_back(still_pressing_[k]);
+    f.still_surface_.push_back(still_surface_[k]);
+    f.varies_ = f.varies_ || drives_[k];
+    if (!vanishes(*pressing_[k])) f.pressed_.push_back(i);
+    if (!vanishes(*surface_[k])) f.carried_.push_back(i);
+  }
+  f.varies_ = f.varies_ || !f.varying_.empty();
+  f.loaded_ = !f.varying_.empty() || !f.constant_.isZero(0.0);
+  return f;
+}
+
 void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& out) const {
   const auto clear = [&](std::vector<double>& rows, const std::vector<std::size_t>& held) {
     if (out.count != count || rows.size() != pressing_.size() * count)

@@ -26,6 +26,11 @@ class Forcing {
   Forcing(const Model& model, double t, Side side);
   /// Nothing acts and nothing moves.
   [[nodiscard]] static Forcing none(const Model& model);
+  /// The same pieces, on a part of the model: loads[i] and contacts[i] are the numbers in the whole of the part's. `more`, as
+  /// long as the part, acts besides and does not change. Both models must outlive it.
+  [[nodiscard]] Forcing on_part(const Model& part, const std::vector<int>& dofs,
+                                const std::vector<std::size_t>& loads,
+                                const std::vector<std::size_t>& contacts, const Vector& more) const;
 
   /// P += factor times the derivative of the given order of the load vector; length n.
   void add_load(double t, int order, double* P, double factor = 1.0) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "motion/term_size.hpp"
 
 namespace signorini {
 namespace {
@@ -21,30 +22,6 @@ constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the or
 struct Derivatives {
   std::array<double, known> N{}, T{}, gap{}, ut{}, limit{}, gap_terms{}, ut_terms{};
 };
-
-constexpr std::size_t most_plane_terms = 4;  // of a form on the translations of one node, or of two
-
-/// What data that are known to a rounding leave uncertain of form . x, in roundings. In the plane that is
-/// |form| |x|, whatever the angle between them and the axes; components that the form does not have do not
-/// count. Forms on other coordinates are sums of unlike terms.
-template <class Size>
-double size_by(const Model& model, const Combination& form, const Size& x) {
-  double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
-  for (const auto& [dof, factor] : form.terms) {
-    const bool in_plane =
-        form.terms.size() <= most_plane_terms && !model.dofs[static_cast<std::size_t>(dof)].rotation;
-    if (!in_plane) {
-      terms += std::abs(factor * x(dof));
-    } else if (factor != 0.0) {
-      form_squared += factor * factor;
-      x_squared += x(dof) * x(dof);
-    }
-  }
-  return terms + std::sqrt(form_squared * x_squared);
-}
-double size_of(const Model& model, const Combination& form, const double* x) {
-  return size_by(model, form, [x](int dof) { return x[dof]; });
-}
 
 /// Of friction that depends on N: its limit, where N is what g or q says. One order further than the motion, for its rate.
 void fill_limit(const Contact& contact, std::size_t c, const Series& series, std::size_t last,
@@ -116,7 +93,7 @@ JetMaker::JetMaker(ModeSystems& systems)
       levels_(taylor_.massless() ? Jet::orders + 2 : Jet::orders) {}
 
 Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                   const Vector& v, std::vector<MotionJet>& result, const Told& told) {
+                   const Vector& v, std::vector<MotionJet>& result, const Told& told, const Forcing* second) {
   taylor_.expand(system, forcing, t, u, v, levels_, 1.0, series_);
   Jet jet{t, series_.u, series_.forces, taylor_.system()};
   double factorial = 1.0;
@@ -126,13 +103,14 @@ Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t
     if (k <= levels_) jet.forces.col(k) *= factorial;
   }
   const Disturbance disturbance{series_};
-  taylor_.begin(system, forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
+  const Forcing& again = second != nullptr ? *second : forcing;
+  taylor_.begin(system, again, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
   result.resize(model_.contacts.size());
   if (told && !taylor_.massless()) {
-    tell(*jet.system, forcing, disturbance, told, result);
+    tell(*jet.system, again, disturbance, told, result);
     return jet;
   }
-  taylor_.extend(forcing, levels_, disturbed_, &disturbance);
+  taylor_.extend(again, levels_, disturbed_, &disturbance);
   for (std::size_t c = 0; c < result.size(); ++c)
     motions(*jet.system, c, 0, MotionJet::orders - 1, result[c]);
   return jet;

@@ -18,7 +18,7 @@
 namespace signorini {
 namespace {
 
-constexpr int fewest_levels = 12, more_levels = 6;
+constexpr int fewest_levels = 12, more_levels = 3;
 constexpr int probe_levels = 20;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
 constexpr double most_beside =
@@ -26,7 +26,12 @@ constexpr double most_beside =
 constexpr double least_share = 1e-6;    // of the greatest motion, down to which each one keeps its digits
 constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
 constexpr double flights_a_step = 3.0;
-constexpr double most_cancelled = 0.9;            // greatest later term over the greatest first one
+constexpr double longer = 1.5, much_longer = 4.0;  // than the step before
+// With events at random, tau apart, a step h finds one with 1 - exp(-h/tau), and takes 14 levels for half a radian, 18 for
+// one, 30 for four: least work an event is at 2 tau. Below `shortest_turn` rad a step takes 12 levels in any case.
+constexpr double times_pace = 2.0, shortest_turn = 0.3;
+constexpr double fresh = 0.25;          // weight of the last time between events among those before; chosen
+constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr int most_touches = 5;                   // warnings about one and the same thing
 constexpr char overflow[] = "the motion leaves the range of numbers";
@@ -126,16 +131,26 @@ void ExactEngine::start(const Segment& segment) {
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ = std::max({growth_of(decision.system), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
-  last_ = first_step();
+  choose_first_step();
   polynomial_ = segment.forcing->greatest_degree();
   arming_.start(decision.guards);
   turns_.start(decision);
   ++counters.restarts;
 }
 
-/// A first step of a few times the shortest flight that lies ahead, 0: none does. What rounding makes of a
+void ExactEngine::choose_first_step() {
+  if (counters.restarts > 0) pace_ += (pace_ > 0.0 ? fresh : 1.0) * (t_ - begun_ - pace_);
+  begun_ = t_;
+  const double flights = few_flights();
+  paced_ = !(flights > 0.0) && pace_ > 0.0;
+  next_ = flights > 0.0 ? longer * flights
+          : paced_      ? std::max(times_pace * pace_, shortest_turn / growth_now_)
+                        : std::numeric_limits<double>::infinity();
+}
+
+/// A few times the shortest flight that lies ahead, 0: none does. What rounding makes of a
 /// gap grows with the whole step's motion, and must stay small beside the flight's height.
-double ExactEngine::first_step() const {
+double ExactEngine::few_flights() const {
   const Decision& decision = *segment_.decision;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < decision.mode.size(); ++c) {
@@ -351,11 +366,12 @@ void ExactEngine::see_unarmed(double x) {
 Step ExactEngine::advance() {
   const double remaining = segment_.end - t_;
   const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
-  const double scale = std::min({longest, last_ > 0.0 ? 1.5 * last_ : longest, remaining});
+  const double scale = std::min({longest, next_, remaining});
   if (std::string why = hindrance(scale); !why.empty()) return failed(std::move(why));
   ++counters.steps;
   double x = expand(scale);
-  last_ = scale * x;
+  paced_ = paced_ && x == 1.0;
+  next_ = (paced_ ? much_longer : longer) * scale * x;
   double end = t_ + scale * x;
   if (end > segment_.end || segment_.end - end < 0.01 * scale * x) end = segment_.end;
   x = (end - t_) / scale;

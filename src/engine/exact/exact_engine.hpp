@@ -6,7 +6,8 @@
 // Between events the system of a mode is linear with constant coefficients, so its Taylor series has the
 // radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth of the mode.
 // A step is as long as the series still converges to rounding with that bound, and short enough that its
-// terms do not cancel. docs/theory.md gives the argument that no event is missed.
+// terms do not cancel. docs/theory.md gives the argument that no event is missed. What lies behind an event is computed in
+// vain, so that a step which begins at one is no longer than twice the time between events lately.
 //
 // W of a state is found from twenty levels of a series. Of large structures most states differ from one that is known in
 // few soft contacts; in the norm of flow_norm.hpp these add at most
@@ -61,7 +62,8 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] double probed_growth(const ModeSystemPtr& system);
   [[nodiscard]] std::optional<double> growth_beside(const ModeSystem& system);
   [[nodiscard]] double stiffening(const ModeSystem& system, std::size_t contact);
-  [[nodiscard]] double first_step() const;
+  [[nodiscard]] double few_flights() const;
+  void choose_first_step();
   void weigh();
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
@@ -105,7 +107,10 @@ class ExactEngine final : public Stepper {
   int touches_ = 0;
   Point end_;  // of the last step
   double t_ = 0.0, growth_now_ = 0.0;
-  double last_ = 0.0;   // length of the last step of the segment
+  double next_ = 0.0;   // length of the next step of the segment at most
+  double begun_ = 0.0;  // the segment
+  double pace_ = 0.0;   // time between events lately; 0: none was
+  bool paced_ = false;  // no series has been too short yet for the step that pace_ asked for
   double end_x_ = 0.0;  // of the last step in its series
   Step step_;
   SeriesWorks works_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/assembly/parts.hpp"
+#include "model/assembly/restricted.hpp"
 
 namespace signorini {
 namespace {
@@ -63,15 +64,8 @@ class Split {
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
   [[nodiscard]] std::vector<PartModel> models() {
-    for (PartModel& part : parts_) part.model = common();
-    divide_motion();
+    for (PartModel& part : parts_) part.model = restricted(model_, part.dofs, part.contacts);
     divide_loads();
-    for (PartModel& part : parts_) {
-      part.model.mass = block(model_.mass, part.dofs);
-      part.model.damping = block(model_.damping, part.dofs);
-      part.model.stiffness = block(model_.stiffness, part.dofs);
-      for (const std::size_t k : part.contacts) add_contact(k, part.model);
-    }
     for (auto own : model_.columns) {
       std::size_t part = 0;
       if (own.dof >= 0) {
@@ -85,34 +79,6 @@ class Split {
 
  private:
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-  [[nodiscard]] Model common() const {
-    Model model;
-    model.units = model_.units;
-    model.unit = model_.unit;
-    model.machine = model_.machine;
-    model.static_start = model_.static_start;
-    model.scales = model_.scales;
-    model.alpha = model_.alpha;
-    model.beta = model_.beta;
-    model.omega1 = model_.omega1;
-    model.omega_max = model_.omega_max;
-    return model;
-  }
-
-  void divide_motion() {
-    for (PartModel& part : parts_) {
-      const auto n = static_cast<Eigen::Index>(part.dofs.size());
-      part.model.u0.resize(n);
-      part.model.v0.resize(n);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const int from = part.dofs[static_cast<std::size_t>(i)];
-        part.model.dofs.push_back(model_.dofs[static_cast<std::size_t>(from)]);
-        part.model.u0[i] = model_.u0[from];
-        part.model.v0[i] = model_.v0[from];
-      }
-    }
-  }
 
   void divide_loads() {
     std::vector<std::size_t> last(parts_.size(), none);  // load that the part was given
@@ -131,35 +97,6 @@ class Split {
             .direction.terms.emplace_back(place_[static_cast<std::size_t>(dof)], factor);
       if (load.direction.terms.empty()) give(0);
     }
-  }
-
-  [[nodiscard]] static Load without_direction(const Load& load) {
-    return {load.name, {}, load.history, load.is_static, load.kind, load.of_direction, load.of_history};
-  }
-
-  void renumber(Combination& form) const {
-    for (auto& [dof, factor] : form.terms) dof = place_[static_cast<std::size_t>(dof)];
-  }
-
-  void add_contact(std::size_t k, Model& model) const {
-    Contact contact = model_.contacts[k];
-    renumber(contact.normal);
-    renumber(contact.tangent);
-    if (contact.shear) renumber(contact.shear->body);
-    model.contacts.push_back(std::move(contact));
-    if (!model_.continues.empty()) model.continues.push_back(model_.continues[k]);
-  }
-
-  [[nodiscard]] SparseMatrix block(const SparseMatrix& a, const std::vector<int>& dofs) const {
-    const auto n = static_cast<int>(dofs.size());
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int column = 0; column < n; ++column)
-      for (SparseMatrix::InnerIterator it(a, dofs[static_cast<std::size_t>(column)]); it; ++it)
-        if (it.value() != 0.0)
-          entries.emplace_back(place_[static_cast<std::size_t>(it.row())], column, it.value());
-    SparseMatrix result(n, n);
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
   }
 
   const Model& model_;

@@ -216,8 +216,13 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const Compani
   std::vector<std::string> names;
   for (const Contact& contact : model.contacts) names.push_back(contact.name);
   for (TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
-  const Track track{std::move(own.events),      report.outcome.t, "", report.forgiven_at, {},
-                    objection_of(report, model)};
+  const Track track{
+      std::move(own.events),
+      report.outcome.t,
+      "",
+      report.forgiven_at,
+      {},
+      plan.doubt.empty() ? objection_of(report, model) : std::optional(Track::Objection{0.0, plan.doubt})};
   Verdict verdict =
       judge(track, tracks, plan.factor, names, name_of(run.engine).accuracy == Accuracy::rounding);
   BoundSettings settings{plan.factor, tolerance_of(model, run)};

@@ -6,6 +6,7 @@
 
 #include "certify/disturb.hpp"
 #include "engine/tolerance.hpp"
+#include "model/decay.hpp"
 #include "run/engines.hpp"
 #include "run/expected.hpp"
 #include "signorini/error.hpp"
@@ -17,6 +18,10 @@ namespace {
 constexpr double by_exact = 1.5, by_tolerance = 2.0, by_step = 3.0, by_rounding = 5.0;
 constexpr double local_beside_exact = 0.1, local_beside_finer = 0.5;
 constexpr double finer_tolerance = 0.01, finer_step = 0.5;
+constexpr double rtol_beside_steps = 1e-9;  // the error of a step is far greater; chosen
+// dt times the fastest rate of a motion: the amplification (1 - z/2) / (1 + z/2) of average acceleration rings from z = 2 on,
+// and at a frequency z/dt the period is off by z^2/12.
+constexpr double resolved = 1.0;
 
 /// What is the same in all companions.
 CompanionRun companion_of(const Model& model, const RunSpec& run) {
@@ -35,6 +40,30 @@ CompanionPlan exact_plan(const Model& model, const RunSpec& run) {
   plan.runs.push_back(companion_of(model, run));
   plan.runs.back().run.engine = Engine::exact;
   return plan;
+}
+
+CompanionPlan ida_plan(const Model& model, const RunSpec& run) {
+  CompanionPlan plan;
+  plan.factor = by_exact;
+  plan.runs.push_back(companion_of(model, run));
+  RunSpec& own = plan.runs.back().run;
+  own.engine = Engine::ida;
+  own.rtol = std::min(own.rtol, rtol_beside_steps);
+  own.atol = {};
+  plan.name = fmt::format("ida, rtol {:g}", own.rtol);
+  return plan;
+}
+
+/// Why half the step tells nothing about the step.
+std::string unresolved(const Model& model, double dt) {
+  const double decay = fastest_decay(model), rate = std::max(model.omega_max, decay);
+  if (dt * rate <= resolved) return "";
+  return fmt::format(
+      "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so half of it may err alike; companion = "
+      "\"exact\", or a "
+      "dt of {:.2g}, tells more",
+      dt, model.units.time, decay > model.omega_max ? "decay" : "oscillation", rate,
+      decay > model.omega_max ? "1" : "rad", model.units.time, resolved / rate);
 }
 
 /// tolerance_of() takes rtol times the model's scales; what the scene gives is made finer here.
@@ -66,6 +95,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
       plan.factor = by_step;
       companion.run.dt = finer_step * companion.run.dt.value_or(0.0);
       plan.name = fmt::format("{}, dt {:g}", engine.name, *companion.run.dt);
+      plan.doubt = unresolved(model, run.dt.value_or(0.0));
       break;
   }
   plan.runs.push_back(std::move(companion));
@@ -99,7 +129,15 @@ CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
     throw SceneError(
         run.place, "run.companion",
         "\"exact\" does not take this scene (signorini check --engine exact says why); use \"finer\"");
+  const bool steps = name_of(run.engine).accuracy == Accuracy::step;
   const bool may_be_exact = !itself && run.companion != Companion::finer && exact_takes(model, run);
+  if (steps && run.companion == Companion::automatic) {
+    CompanionPlan plan = may_be_exact ? exact_plan(model, run) : ida_plan(model, run);
+    estimate(plan, model, run);
+    plan.choice = fmt::format("auto: half the step may err alike{}",
+                              may_be_exact ? "" : ", and exact does not take the scene");
+    return plan;
+  }
   const bool may_be_finer = itself || run.companion != Companion::exact;
   std::optional<CompanionPlan> exact, finer;
   if (may_be_exact) estimate(exact.emplace(exact_plan(model, run)), model, run);

@@ -3,6 +3,7 @@
 //   run       companion  how                              c    why
 //   not exact exact      as it is                         1.5  the difference is the error
 //   ida       finer      rtol / 100, atol / 100           2    at rtol / 10 errors may be alike
+//   of a dt   ida        rtol 1e-9 at most                1.5  the difference is the error
 //   of a dt   finer      dt / 2                           3    4/3 at order two, 2 at order one
 //   exact     finer      twice, data off by one rounding  5    two draws of a random error
 //
@@ -13,6 +14,9 @@
 // In modes an event's time is known to the rounding of a sum over modes only, tau: a bound that two draws seldom come
 // near. What follows begins at that time, so companions of `exact` move each such event by tau / c, along the motion. Its own
 // row has the time without that; what the motion makes of it later is in D, and c D bounds what it makes of tau.
+//
+// What a step does not resolve, half of it does not resolve either: stiff dashpots ring at both, and contacts with them. So
+// dt / 2 is taken where it is asked for only, and then certifies nothing unless dt max(omega_max, fastest decay) <= 1.
 //
 // What is decided by a tolerance is decided by the run's in all of them: velocities below which
 // rebounds rest, and heights below which ida leaves flights to the series. A finer run that integrated
@@ -42,6 +46,7 @@ struct CompanionPlan {
   std::vector<CompanionRun> runs;
   std::string name;    ///< "exact", "ida, rtol 1e-10"
   std::string choice;  ///< "as given", or "auto: ..."
+  std::string doubt;   ///< why nothing is certain by it; empty: none
   double factor = 1.0;
   double local = 1.0;    ///< part of t_uncertainty that is added: of what the difference has not seen
   double cost = 0.0;     ///< expected, of that of the run; 0: nobody knows

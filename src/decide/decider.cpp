@@ -99,7 +99,9 @@ struct Decider::Course {
   std::vector<MotionJet> so_far = {};       // up to the instant; empty where no limit has rested
   std::optional<std::size_t> touched = {};  // in this round, by parts without mass that move at once
   double touched_ut = 0.0;                  // its ut there, less that at the end of the way
-  Eigen::VectorXd held = {};                // what holds the mode tried last; Decision::captures
+  std::optional<std::vector<std::size_t>> open =
+      {};                     // contacts whose guards are not all clearly positive; else: any
+  Eigen::VectorXd held = {};  // what holds the mode tried last; Decision::captures
 
   /// Where parts without mass begin that move at once.
   [[nodiscard]] const Vector& comes_from() const { return instant.start ? given : instant.u; }
@@ -138,9 +140,15 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
     told = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
       return told_by(model_.contacts[c], c, mode[c], jet, orders, instant, unlucky);
     };
-  std::optional<Jet> jet;
-  if (near_) jet = near_->make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
-  d.jet = jet ? std::move(*jet) : jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
+  std::optional<NearJets::Made> near;
+  if (near_) near = near_->make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
+  course.open.reset();
+  if (near) {
+    d.jet = std::move(near->jet);
+    course.open = std::move(near->open);
+  } else {
+    d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
+  }
   d.u = d.jet.u.col(0);
   d.v = d.jet.u.col(1);
   d.mode = mode;
@@ -186,8 +194,8 @@ bool Decider::held_by_others(std::size_t c, const Course& course) const {
 
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
 void Decider::look(Course& course, bool before) {
-  course.failed =
-      failures(model_, course.jets, course.mode, course.instant, before, course.found.known, course.so_far);
+  course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known,
+                           course.so_far, course.open ? *course.open : every_contact(model_));
   std::erase_if(course.failed, [&](const Failure& f) {
     if (f.guard == Guard::sliding && held_by_others(f.contact, course)) return true;
     return std::find(course.undecided.begin(), course.undecided.end(), block_of_[f.contact]) !=
@@ -478,6 +486,11 @@ bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardSta
          std::abs(course.jets[c].motion[0].T) > guard.noise;
 }
 
+/// All its guards are positive at order 0.
+bool Decider::clearly_holds(const Course& course, std::size_t c) {
+  return course.open && !std::binary_search(course.open->begin(), course.open->end(), c);
+}
+
 /// What an engine and the log want to know of the new mode.
 void Decider::finish(Course& course) const {
   Decision& d = course.decision;
@@ -501,6 +514,11 @@ void Decider::finish(Course& course) const {
       }
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
+        start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
+        if (clearly_holds(course, c)) {
+          d.guards.push_back(std::move(start));
+          continue;
+        }
         const Known known = course.found.known[c].of(guard.kind);
         const MotionJet* base = course.so_far.empty() ? nullptr
                                                       : rested(model_.contacts[c], c, course.mode[c], guard,
@@ -508,7 +526,6 @@ void Decider::finish(Course& course) const {
         const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
         start.at_zero =
             known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
-        start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
         start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
         if (start.at_zero && start.leading < 0)
           for (std::size_t k = 0; k < start.loose.size(); ++k)

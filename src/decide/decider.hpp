@@ -68,6 +68,7 @@ class Decider {
   [[nodiscard]] Refusal leave_circle(Course& course);
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
   [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);
+  [[nodiscard]] static bool clearly_holds(const Course& course, std::size_t c);
   void finish(Course& course) const;
   void note_left(const Course& course, Decision& decision) const;
   [[nodiscard]] Refusal held_at_rest(const Course& course) const;

@@ -132,9 +132,9 @@ double forgiveness(const Form& form, const MotionJet& jet, const Instant& instan
 
 std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets, const Mode& mode,
                               const Instant& instant, bool before, const std::vector<KnownGuards>& known,
-                              const std::vector<MotionJet>& so_far) {
+                              const std::vector<MotionJet>& so_far, const std::vector<std::size_t>& asked) {
   std::vector<Failure> result;
-  for (std::size_t c = 0; c < mode.size(); ++c)
+  for (const std::size_t c : asked)
     if (auto failed = failure_of(model.contacts[c], c, jets[c], mode[c], instant, before, known[c],
                                  so_far.empty() ? nullptr : &so_far[c]))
       result.push_back(std::move(*failed));

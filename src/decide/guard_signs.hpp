@@ -96,10 +96,11 @@ struct Failure {
 
 /// The guard that fails soonest of each contact of which one fails. before: the mode is that of the motion
 /// up to the instant, so what the engine located is zero. known: one a contact. so_far: the motion up to the
-/// instant, one a contact, needed where limits have rested.
+/// instant, one a contact, needed where limits have rested. asked: contacts that may fail, ascending.
 [[nodiscard]] std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
                                             const Mode& mode, const Instant& instant, bool before,
                                             const std::vector<KnownGuards>& known,
-                                            const std::vector<MotionJet>& so_far = {});
+                                            const std::vector<MotionJet>& so_far,
+                                            const std::vector<std::size_t>& asked);
 
 }  // namespace signorini

@@ -5,7 +5,7 @@
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "model/assembly/restricted.hpp"
+#include "linear/restricted.hpp"
 #include "motion/term_size.hpp"
 
 namespace signorini {
@@ -230,7 +230,9 @@ void NearJets::order_one(const ModeSystem& system, const Forcing& forcing, std::
   d.T = -rows.tangent.rate(d) / rows.tangent.T;
 }
 
-/// At most the noise of motion/jet.cpp: there |x - y| shows some roundings of the terms, and the terms count besides.
+/// At most the noise of motion/jet.cpp: there the terms count once, and |x - y| as often as they are disturbed: places and
+/// velocities as data, N in its row besides, T in its own row and through N. The rounding of x and y themselves is less than
+/// one time more.
 void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now,
                               std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];
@@ -243,17 +245,17 @@ void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, 
   terms.vt = size_of(model_, c.tangent, now.v) + std::abs(forcing.surface(contact, series_.t, 1));
   terms.pressing = std::abs(m.pressing);
   terms.pressing_rate = std::abs(m.pressing_rate);
-  constexpr double twice = 2.0 * rounding::of_many;
+  constexpr double once = rounding::of_many;
   terms.N = rows.normal.magnitude(terms) + std::abs(rows.normal.constant) + std::abs(m.N);
   terms.T = rows.tangent.magnitude(terms) + std::abs(rows.tangent.constant) + std::abs(m.T);
-  d.N = twice * terms.N;
-  d.T = twice * terms.T;
-  d.gap = twice * terms.gap;
-  d.ut = twice * terms.ut;
-  d.vn = twice * terms.vn;
-  d.vt = twice * terms.vt + forcing.surface_rounding(contact, series_.t);
-  d.pressing = rounding::of_many * terms.pressing;
-  d.pressing_rate = rounding::of_many * terms.pressing_rate;
+  d.N = 4.0 * once * terms.N;
+  d.T = 5.0 * once * terms.T;
+  d.gap = 3.0 * once * terms.gap;
+  d.ut = 3.0 * once * terms.ut;
+  d.vn = 3.0 * once * terms.vn;
+  d.vt = 3.0 * once * terms.vt + forcing.surface_rounding(contact, series_.t);
+  d.pressing = once * terms.pressing;
+  d.pressing_rate = once * terms.pressing_rate;
 }
 
 /// False: it is not told here.
@@ -286,9 +288,9 @@ bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, co
   return is_told;
 }
 
-std::optional<Jet> NearJets::make(const ModeSystemPtr& system, const Forcing& forcing, double t,
-                                  const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
-                                  const JetMaker::Told& told) {
+std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                             const Vector& u, const Vector& v,
+                                             std::vector<MotionJet>& motions, const JetMaker::Told& told) {
   if (!system->factorised().by_mass) return std::nullopt;
   taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
   taylor_.extend(forcing, 0, series_);
@@ -312,7 +314,7 @@ std::optional<Jet> NearJets::make(const ModeSystemPtr& system, const Forcing& fo
   }
   for (const std::size_t c : open)
     if (!look_near(system, forcing, now, c, told, motions[c])) return std::nullopt;
-  return jet;
+  return Made{std::move(jet), std::move(open)};
 }
 
 }  // namespace signorini

@@ -27,10 +27,14 @@ class NearJets {
 
   /// Whether the model is one for this.
   [[nodiscard]] bool possible() const { return possible_; }
-  /// As JetMaker::make: of the jet the orders 0 to 2 of u, of forces 0 and 1. Nothing: it takes the whole structure.
-  [[nodiscard]] std::optional<Jet> make(const ModeSystemPtr& system, const Forcing& forcing, double t,
-                                        const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
-                                        const JetMaker::Told& told);
+  struct Made {
+    Jet jet;                        ///< the orders 0 to 2 of u, of forces 0 and 1
+    std::vector<std::size_t> open;  ///< contacts that order 0 does not tell
+  };
+  /// As JetMaker::make. Nothing: it takes the whole structure.
+  [[nodiscard]] std::optional<Made> make(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                         const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
+                                         const JetMaker::Told& told);
 
  private:
   struct Neighbourhood;

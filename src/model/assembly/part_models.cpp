@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "linear/restricted.hpp"
 #include "model/assembly/parts.hpp"
-#include "model/assembly/restricted.hpp"
 
 namespace signorini {
 namespace {

@@ -124,24 +124,55 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
   return facts;
 }
 
+namespace {
+
+/// The structure without the points that slide (model/shear.hpp), the last degrees of freedom: in a free motion their springs
+/// do not stretch, so that they say nothing of their own.
+struct WithoutSlipPoints {
+  WithoutSlipPoints(const Model& model, int own) : contacts(model.contacts), size(own) {
+    stiffness = model.stiffness.topLeftCorner(own, own);
+    load = static_load(model.loads, model.size()).head(own);
+    for (Contact& contact : contacts) contact.tangent = contact.body_tangent();
+  }
+  /// A free motion of the structure with its points: each as far as its body, or, where it is measured from that, at rest.
+  [[nodiscard]] Vector with_points(const Model& model, const Vector& motion) const {
+    Vector all = Vector::Zero(model.size());
+    all.head(size) = motion;
+    for (const Contact& contact : model.contacts)
+      if (contact.shear && contact.tangent.terms.size() == 1)
+        all[contact.tangent.terms.front().first] = contact.shear->body.dot(motion);
+    return all;
+  }
+
+  SparseMatrix stiffness;
+  Vector load;
+  std::vector<Contact> contacts;
+  int size;
+};
+
+}  // namespace
+
 std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                       const std::vector<ContactSample>& contacts) {
   if (model.static_start) return model.statics.free_motions;
   const DofMap map = map_of(scene);
-  const Vector load = static_load(model.loads, model.size());
-  const StaticProblem problem{model.stiffness, load, model.contacts, map, firmness_of(model)};
+  const WithoutSlipPoints own(model, std::min(map.size(), model.size()));
+  const StaticProblem problem{own.stiffness, own.load, own.contacts, map, firmness_of(model)};
   const std::vector<bool> closed = closed_ones(model, contacts);
-  const SparseMatrix k = problem.matrix(closed);
+  const Vector load = static_load(model.loads, model.size());
+  const SparseMatrix k =
+      StaticProblem{model.stiffness, load, model.contacts, map, firmness_of(model)}.matrix(closed);
   std::vector<std::string> names;
-  for (const FreeMotion& f : hold_motions(problem, null_motions(k), closed, true)) {
+  for (const FreeMotion& f : hold_motions(problem, null_motions(k).topRows(own.size), closed, true)) {
     // Without friction or a spring a contact follows the motion and does not hold it.
     const Contact* holder = f.holder < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.holder)];
     const bool holds =
         holder != nullptr && closed[static_cast<std::size_t>(f.holder)] && holder->has_friction();
     names.push_back(describe_motion(f.motion, map) +
                     (holds ? fmt::format(", restrained only by friction at contact '{}'", holder->name)
-                     : has_negative_energy(k, f.motion) ? std::string(", unstable")
-                                                        : std::string(", not restrained")));
+                     : has_negative_energy(k, own.with_points(model, f.motion))
+                         ? std::string(", unstable")
+                         : std::string(", not restrained")));
   }
   return names;
 }

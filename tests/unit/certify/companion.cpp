@@ -60,6 +60,24 @@ TEST_CASE("companion: the cheaper where both take the scene, and what is asked f
   CHECK(steps.factor == 3.0);
 }
 
+TEST_CASE(
+    "companion: steps are judged by another method, by half of them on demand, and then only where they "
+    "resolve") {
+  const CompanionPlan steps = plan_of(scene_of("engine = \"newmark\"\ndt = 1e-3"));
+  CHECK(steps.name == "exact");
+  CHECK(steps.choice == "auto: half the step may err alike");
+  CHECK(steps.doubt.empty());
+  // sqrt(1e4) = 100 rad/s
+  const auto half_of = [](const std::string& dt) {
+    return plan_of(scene_of("engine = \"newmark\"\ncompanion = \"finer\"\ndt = " + dt)).doubt;
+  };
+  CHECK(half_of("0.0099").empty());
+  CHECK(half_of("0.0101") ==
+        "dt = 0.0101 s does not resolve the fastest oscillation, 100 rad/s, so half of it may err alike; "
+        "companion = "
+        "\"exact\", or a dt of 0.01, tells more");
+}
+
 TEST_CASE("companion: rebounds rest below the run's own velocity in all") {
   const Scene scene =
       scene_of("engine = \"ida\"\nrtol = 1e-6\natol = { velocity = 1e-3 }\ncompanion = \"finer\"");

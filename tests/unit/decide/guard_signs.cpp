@@ -39,7 +39,7 @@ TEST_CASE(
   for (std::size_t k = 0; k < jet.motion.size(); ++k) jet.noise[k].N = jet.noise[k].T = 1e-12;
   jet.motion[2].N = jet.motion[2].T = 2.0;
   const std::vector<Failure> failed =
-      failures(model, {jet}, {{State::stick}}, Instant{}, false, std::vector<KnownGuards>(1));
+      failures(model, {jet}, {{State::stick}}, Instant{}, false, std::vector<KnownGuards>(1), {}, {0});
   REQUIRE(failed.size() == 1);
   CHECK(failed[0].guard == Guard::separation);
   CHECK(failed[0].sign.order == 2);

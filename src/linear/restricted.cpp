@@ -1,4 +1,4 @@
-#include "model/assembly/restricted.hpp"
+#include "linear/restricted.hpp"
 
 #include <utility>
 

@@ -1,0 +1,170 @@
+// Jets near the contacts that ask beside those of the whole structure.
+#include "motion/near_jets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/rounding.hpp"
+#include "unit/linear/rubbing_row.hpp"
+
+using namespace signorini;
+
+namespace {
+
+constexpr int long_row = 300;
+
+History wave(double amplitude, double omega, double phase) {
+  Piece piece;
+  piece.amplitude = amplitude;
+  piece.omega = omega;
+  piece.phase = phase;
+  return History(std::move(piece));
+}
+
+/// The row with places and velocities that vary along it, a load that swings at three of its masses, and a surface that moves.
+Model lively_row(int masses) {
+  Model model = rubbing_row(masses);
+  for (Eigen::Index i = 0; i < model.u0.size(); ++i) {
+    const auto x = static_cast<double>(i);
+    model.u0[i] = 0.03 * std::sin(0.37 * x + 0.2) + 0.01 * std::cos(1.9 * x);
+    model.v0[i] = 0.5 * std::sin(0.83 * x) - 0.2;
+  }
+  for (const int at : {masses / 5, masses / 2, masses / 2 + 3}) {
+    Load load;
+    load.direction.terms = {{2 * at, 0.6}, {2 * at + 1, -0.8}};
+    load.history = wave(2.0, 3.0, 0.4);
+    model.loads.push_back(load);
+    model.contacts[static_cast<std::size_t>(at)].surface_motion = wave(0.01, 5.0, 0.1);
+  }
+  return model;
+}
+
+struct Bench {
+  explicit Bench(Model row)
+      : model(std::move(row)), structure(model), systems(model, structure), whole(systems) {}
+
+  Model model;
+  Structure structure;
+  ModeSystems systems;
+  JetMaker whole;
+};
+
+void check_same(const ContactMotion& near, const ContactMotion& whole, const ContactMotion& noise) {
+  const auto same = [](double a, double b, double zero) { CHECK(std::abs(a - b) <= zero); };
+  same(near.N, whole.N, noise.N);
+  same(near.T, whole.T, noise.T);
+  same(near.gap, whole.gap, noise.gap);
+  same(near.ut, whole.ut, noise.ut);
+  same(near.vn, whole.vn, noise.vn);
+  same(near.vt, whole.vt, noise.vt);
+  same(near.an, whole.an, noise.an);
+  same(near.at, whole.at, noise.at);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/motion/near_jets");
+
+TEST_CASE("what contacts ask for near them is what the whole structure says, within its rounding") {
+  Bench bench(lively_row(long_row));
+  NearJets jets(bench.systems, 400);
+  REQUIRE(jets.possible());
+  for (const int seed : {5, 77, 1234}) {
+    const ModeSystemPtr system = bench.systems.of(rubbing_mode(bench.model, seed));
+    REQUIRE(system);
+    for (const double t : {0.0, 0.37}) {
+      const Forcing forcing(bench.model, t, Side::after);
+      std::vector<MotionJet> whole, near;
+      const Jet all = bench.whole.make(system, forcing, t, bench.model.u0, bench.model.v0, whole);
+      // Four contacts ask for three orders, at both ends, where a load acts, and beside it.
+      const std::vector<std::size_t> asking = {0, 150, 153, long_row - 1};
+      const auto told = [&](std::size_t c, const MotionJet&, std::size_t orders) {
+        return orders >= 3 || std::find(asking.begin(), asking.end(), c) == asking.end();
+      };
+      const auto made = jets.make(system, forcing, t, bench.model.u0, bench.model.v0, near, told);
+      REQUIRE(made);
+      // Besides: those whose slip rate contains an acceleration, by a dashpot.
+      CHECK(std::includes(made->open.begin(), made->open.end(), asking.begin(), asking.end()));
+      CHECK((made->jet.u.col(2) - all.u.col(2)).cwiseAbs().maxCoeff() <=
+            rounding::of_many * all.u.col(2).cwiseAbs().maxCoeff());
+      for (Eigen::Index i = 0; i < made->jet.forces.rows(); ++i)
+        for (Eigen::Index k = 0; k < 2; ++k)
+          CHECK(made->jet.forces(i, k) == doctest::Approx(all.forces(i, k)).epsilon(1e-12));
+      for (std::size_t c = 0; c < near.size(); ++c) {
+        CAPTURE(c);
+        check_same(near[c].motion[0], whole[c].motion[0], whole[c].noise[0]);
+        const ContactMotion &bound = near[c].noise[0], &noise = whole[c].noise[0];
+        if (std::binary_search(made->open.begin(), made->open.end(), c)) continue;
+        // The bound is one: no less than a sample of rounding, and no more than four times what the terms give.
+        CHECK(bound.N >= noise.N * (1.0 - 1e-12));
+        CHECK(bound.T >= noise.T * (1.0 - 1e-12));
+        CHECK(bound.N <= 4.0 * noise.N + std::numeric_limits<double>::min());
+        CHECK(bound.gap >= noise.gap * (1.0 - 1e-12));
+        CHECK(bound.ut >= noise.ut * (1.0 - 1e-12));
+        CHECK(bound.vn >= noise.vn * (1.0 - 1e-12));
+        CHECK(bound.vt >= noise.vt * (1.0 - 1e-12));
+      }
+      for (const std::size_t c : asking)
+        for (std::size_t k = 1; k < 3; ++k) {
+          CAPTURE(c);
+          CAPTURE(k);
+          check_same(near[c].motion[k], whole[c].motion[k], whole[c].noise[k]);
+          CHECK(near[c].noise[k].N >= 0.25 * whole[c].noise[k].N);
+          CHECK(near[c].noise[k].N <= 4.0 * whole[c].noise[k].N);
+        }
+    }
+  }
+}
+
+TEST_CASE(
+    "a row that is no longer than its neighbourhoods, and one that asks everywhere, take the whole "
+    "structure") {
+  const auto asks = [](std::size_t, const MotionJet&, std::size_t orders) { return orders > 2; };
+  const auto one_asks = [](std::size_t c, const MotionJet&, std::size_t orders) {
+    return c != 3 || orders > 2;
+  };
+  const auto made = [](Bench& bench, const JetMaker::Told& told) {
+    NearJets jets(bench.systems, 20);
+    REQUIRE(jets.possible());
+    std::vector<MotionJet> motions;
+    return jets
+        .make(bench.systems.of(rubbing_mode(bench.model, 7)), Forcing(bench.model, 0.0, Side::after), 0.0,
+              bench.model.u0, bench.model.v0, motions, told)
+        .has_value();
+  };
+  Bench brief(lively_row(40)), large(lively_row(long_row));
+  CHECK_FALSE(made(brief, one_asks));
+  CHECK(made(large, one_asks));
+  CHECK_FALSE(made(large, asks));
+}
+
+TEST_CASE("who is told by nothing but the last order takes the whole structure") {
+  Bench bench(lively_row(long_row));
+  NearJets jets(bench.systems, 400);
+  std::vector<MotionJet> motions;
+  const auto never = [](std::size_t c, const MotionJet&, std::size_t orders) {
+    return c != 40 || orders == MotionJet::orders;
+  };
+  CHECK_FALSE(jets.make(bench.systems.of(rubbing_mode(bench.model, 7)),
+                        Forcing(bench.model, 0.0, Side::after), 0.0, bench.model.u0, bench.model.v0, motions,
+                        never));
+}
+
+TEST_CASE("small, rigid and massless models, and friction that varies, are none for this") {
+  const auto possible = [](const auto& change) {
+    Model model = rubbing_row(long_row);
+    change(model);
+    Bench bench(std::move(model));
+    return NearJets(bench.systems, 400).possible();
+  };
+  CHECK(possible([](Model&) {}));
+  CHECK_FALSE(possible([](Model& m) { m.contacts[200].law = Law::rigid; }));
+  CHECK_FALSE(possible([](Model& m) {
+    m.contacts[0].friction.stribeck_velocity = 0.1, m.contacts[0].friction.static_ = 0.5;
+  }));
+  Bench row(rubbing_row(long_row));
+  CHECK_FALSE(NearJets(row.systems, 2 * long_row + 1).possible());
+}

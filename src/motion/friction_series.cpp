@@ -43,7 +43,7 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const double along =
       s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);  // the body's own
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
-  // A dashpot's part in the growth of |N| is left out: it needs accelerations, and an estimate will do.
+  // A dashpot's part in the growth of |N| needs accelerations (doubtful()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +
                         normal.pressing * per_time * f.pressing[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
@@ -70,6 +70,7 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
       row_ = sliding_row(s, sliding_friction(c, rate));
       return;
     }
+    doubtful_ = normal.vn != 0.0;
     rate = greatest;
     jump_ = length - s * sliding_friction(c, rate) * pressed / element.stiffness;
   }
@@ -79,6 +80,14 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   m.vt = s * rate;
   row_ = sliding_row_tangent(c, s, m);
   row_.constant = -row_.vt * m.vt;
+}
+
+double FrictionSeries::greatest_rate() const { return rate_of_saturation(contact_->friction); }
+
+void FrictionSeries::follow_at_once() {
+  constant_ = true;
+  jump_ = 0.0;
+  row_ = sliding_row(sign_, contact_->friction.kinetic);
 }
 
 /// Coefficient k of it.

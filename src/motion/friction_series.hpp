@@ -33,6 +33,14 @@ class FrictionSeries {
   /// What a point without mass moves by at once where N has fallen so far that friction does not hold it at any rate
   /// near its own; else zero. Unit: length.
   [[nodiscard]] double jump() const { return jump_; }
+  /// Friction is at its greatest, the pull tells no rate, and how fast N grows depends on accelerations, by a dashpot: row() is
+  /// that of a rate at which friction just reaches it.
+  [[nodiscard]] bool doubtful() const { return doubtful_; }
+  /// It follows at once instead: what accelerations say.
+  void follow_at_once();
+  /// Its rate along the slip, of a series in which it follows at once.
+  [[nodiscard]] double rate_in(const Series& series) const { return sign_ * slip_rate(0, series); }
+  [[nodiscard]] double greatest_rate() const;
   /// What else of the row is known; to be called for k = 0, 1, 2, ... in turn.
   [[nodiscard]] double known(int k, const Series& series);
 
@@ -47,6 +55,7 @@ class FrictionSeries {
   Form row_;
   double jump_ = 0.0;
   bool constant_ = false;  // friction's coefficient stays
+  bool doubtful_ = false;
   FrictionRecursion friction_;
   std::optional<LimitSeries> limit_;  // of friction that depends on N
 };

@@ -40,19 +40,46 @@ Taylor::Taylor(ModeSystems& systems)
 }
 
 /// Friction at the beginning of a series is a coefficient of its matrix.
-void Taylor::start_friction(Series& series) {
+void Taylor::start_friction(const Forcing& forcing, Series& series) {
   friction_.clear();
   const std::vector<std::size_t>& by_rate = system_->factorised().by_rate;
-  if (by_rate.empty()) return;
-  std::vector<Form> rows;
-  for (const std::size_t c : by_rate) {
+  for (const std::size_t c : by_rate)
     friction_.emplace_back(model_.contacts[c], c, slip_sign(system_->mode()[c].state),
                            system_->rows()[c].normal, series);
-    rows.push_back(friction_.back().row());
-    for (const auto& [dof, factor] : model_.contacts[c].tangent.terms)
-      series.u(dof, 0) += factor * friction_.back().jump();  // zero where the point has mass
+  if (by_rate.empty()) return;
+  if (std::any_of(friction_.begin(), friction_.end(), [](const FrictionSeries& f) { return f.doubtful(); }))
+    settle_doubts(forcing, series);
+  for (const FrictionSeries& friction : friction_)
+    for (const auto& [dof, factor] : model_.contacts[friction.contact()].tangent.terms)
+      series.u(dof, 0) += factor * friction.jump();  // zero where the point has mass
+  if (ModeSystemPtr at = at_friction()) system_ = std::move(at);
+}
+
+ModeSystemPtr Taylor::at_friction() const {
+  std::vector<Form> rows;
+  for (const FrictionSeries& friction : friction_) rows.push_back(friction.row());
+  return systems_.at_friction(*system_, rows);
+}
+
+/// Points that may follow at once do so, for two levels: that tells accelerations, and so their rates. Those that are as fast
+/// as friction at its greatest go on like this.
+void Taylor::settle_doubts(const Forcing& forcing, Series& series) {
+  const std::vector<FrictionSeries> given = friction_;
+  const ModeSystemPtr own = system_;
+  for (FrictionSeries& friction : friction_)
+    if (friction.doubtful()) friction.follow_at_once();
+  std::vector<FrictionSeries> settled = given;
+  if (ModeSystemPtr at = at_friction()) {
+    const Eigen::MatrixXd before = series.u;
+    system_ = std::move(at);
+    for (int k = 0; k < 2; ++k) level(forcing, k, series, nullptr);
+    for (std::size_t i = 0; i < given.size(); ++i)
+      if (given[i].doubtful() && friction_[i].rate_in(series) >= given[i].greatest_rate())
+        settled[i].follow_at_once();
+    series.u = before;
   }
-  if (ModeSystemPtr at = systems_.at_friction(*system_, rows)) system_ = std::move(at);
+  system_ = own;
+  friction_ = std::move(settled);
 }
 
 /// What curved surfaces do beside K: products of two series.
@@ -346,7 +373,7 @@ void Taylor::begin(const ModeSystemPtr& system, const Forcing& forcing, double t
     while (parts_.size() < data + 2 * n) parts_.push_back(Disturbance::part(parts_.size()));
     for (std::size_t i = 0; i < 2 * n; ++i) out.u.data()[i] *= 1.0 + parts_[data + i];
   }
-  start_friction(out);
+  start_friction(forcing, out);
 }
 
 void Taylor::extend(const Forcing& forcing, int levels, Series& out, const Disturbance* disturbance) {

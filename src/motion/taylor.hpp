@@ -49,7 +49,9 @@ class Taylor {
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
 
  private:
-  void start_friction(Series& series);
+  void start_friction(const Forcing& forcing, Series& series);
+  void settle_doubts(const Forcing& forcing, Series& series);
+  [[nodiscard]] ModeSystemPtr at_friction() const;
   void add_bowls(int k, const Series& series);
   [[nodiscard]] double pinned_value(const Pinned& pinned, int k, const Series& series) const;
   void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;

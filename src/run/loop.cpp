@@ -43,6 +43,7 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
       curves_(model, spec.t_end, recorder, share),
       response_(model, spec.t_end, recorder, name_of(spec.engine).accuracy != Accuracy::step),
       touches_(model.contacts.size()),
+      large_(model),
       standstill_(spec.t_end, spec.max_events_at_once, said_time(model, 1.0)),
       breakpoints_(breakpoints(model, spec.t_end)),
       forcing_(model, 0.0, Side::after),
@@ -206,6 +207,7 @@ void Loop::pass(const Step& step) {
   }
   t_ = step.end;
   engine_->evaluate(t_, point_);
+  large_.see(t_, forcing_, point_);
   if (step.kind != Step::Kind::event && motion_.needs(t_))
     motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
   if (step.kind != Step::Kind::event && curves_.needs(t_)) {
@@ -404,6 +406,7 @@ Ending Loop::end() {
   if (report_.outcome.kind == Outcome::Kind::done) witness_.peaks(t_, report_.peaks);
   report_.witness = std::move(witness_.testimony());
   report_.response = response_.extremes();
+  if (auto told = large_.warning()) report_.warnings.push_back(std::move(*told));
   if (response_.coarse()) report_.warnings.push_back(*response_.coarse());
   if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();
   return {std::move(report_), rounding_of_energy(), !witness_.grave().empty()};

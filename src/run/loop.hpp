@@ -15,6 +15,7 @@
 #include "run/curve_record.hpp"
 #include "run/engines.hpp"
 #include "run/event_log.hpp"
+#include "run/large_motions.hpp"
 #include "run/last_touch.hpp"
 #include "run/meddler.hpp"
 #include "run/motion_record.hpp"
@@ -110,6 +111,7 @@ class Loop {
   CurveRecord curves_;
   ResponseWatch response_;
   LastTouch touches_;
+  LargeMotions large_;
   ZeroSince zero_since_;
   Standstill standstill_;
   std::vector<Breakpoint> breakpoints_;

@@ -17,6 +17,7 @@
 #include "certify/companion.hpp"
 #include "certify/disturb.hpp"
 #include "certify/judge.hpp"
+#include "certify/open_hits.hpp"
 #include "certify/tracker.hpp"
 #include "certify/truncation.hpp"
 #include "motion/clock.hpp"
@@ -78,6 +79,7 @@ class CompanionWatch final : public MotionObserver {
     tracker_.moved = instant.fired.empty() ? 0.0 : by_ / instant.t;
   }
   void graze(const Graze& graze) override { first = graze; }
+  void near_hits(std::vector<NearHit> list) override { near = std::move(list); }
   double moves(const Step& step) override {
     const double length = step.end - step.begin;
     const double hidden = step.resolution - resolution_at(step.end, length);
@@ -87,6 +89,7 @@ class CompanionWatch final : public MotionObserver {
     return by_;
   }
   std::optional<Graze> first;
+  std::vector<NearHit> near;
 
  private:
   Tracker& tracker_;
@@ -133,6 +136,7 @@ class CompanionTask {
     return track;
   }
   [[nodiscard]] Kept kept() const { return {&tracker_.rows, &report_}; }
+  [[nodiscard]] const std::vector<NearHit>& near_hits() const { return watch_.near; }
 
  private:
   CompanionRun run_;
@@ -208,9 +212,14 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const Compani
   result.factor = plan.factor;
   std::vector<Track> tracks;
   std::vector<Kept> kept;
+  const Kept kept_run{&own.rows, &report};
   for (const auto& task : companions.tasks()) {
     tracks.push_back(task->track());
     kept.push_back(task->kept());
+    const auto open = first_open_hit(model, kept_run, kept.back(), task->near_hits(), plan.factor);
+    if (std::optional<Track::Objection>& first = tracks.back().objection;
+        open && (!first || open->t < first->t))
+      first = open;
     result.wall_time += task->wall_time();
   }
   std::vector<std::string> names;
@@ -227,7 +236,6 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const Compani
       judge(track, tracks, plan.factor, names, name_of(run.engine).accuracy == Accuracy::rounding);
   BoundSettings settings{plan.factor, tolerance_of(model, run)};
   if (name_of(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};
-  const Kept kept_run{&own.rows, &report};
   result.history = bound_history(model, kept_run, kept, settings, track.events, verdict);
   result.until = verdict.until;
   result.complete = verdict.reason.empty();

@@ -12,4 +12,12 @@ struct Graze {
   std::string guard;  ///< to_string(Guard): "compression", "slip rate"
 };
 
+/// A least gap of an open contact: around t it is gap + bend (t' - t)^2.
+struct NearHit {
+  double t = 0.0;
+  int contact = -1;
+  double gap = 0.0;  ///< >= 0
+  double bend = 0.0;
+};
+
 }  // namespace signorini

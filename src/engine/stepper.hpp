@@ -114,6 +114,9 @@ class Stepper {
   /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
   [[nodiscard]] virtual std::optional<Graze> graze() const { return std::nullopt; }
 
+  /// Gaps that came near to zero and opened again, where the engine looks for them.
+  [[nodiscard]] virtual std::vector<NearHit> near_hits() const { return {}; }
+
   /// Brings `counters` up to date.
   virtual void count() {}
 

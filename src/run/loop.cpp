@@ -393,6 +393,15 @@ Ending Loop::end() {
     graze.t = said_time(model_, graze.t);
     observer_->graze(graze);
   }
+  if (observer_) {
+    std::vector<NearHit> near = engine_->near_hits();
+    for (NearHit& hit : near) {
+      hit.t = said_time(model_, hit.t);
+      hit.gap = said(model_, hit.gap, unit::length);
+      hit.bend = said(model_, hit.bend, unit::acceleration);
+    }
+    observer_->near_hits(std::move(near));
+  }
   engine_->count();
   report_.counters = engine_->counters;
   log_.finish();

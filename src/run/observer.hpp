@@ -49,6 +49,8 @@ class MotionObserver {
   virtual void end(double /*t*/) {}
   /// After the end: the first of them, its time in the units of the scene.
   virtual void graze(const Graze& /*graze*/) {}
+  /// After the end: gaps that came near to zero and opened again, in the units of the scene.
+  virtual void near_hits(std::vector<NearHit> /*list*/) {}
 };
 
 /// signorini/simulate.hpp, and the observer follows: of any engine.

@@ -106,6 +106,7 @@ void IdaEngine::start(const Segment& segment) {
     levels.push_back(level);
   }
   grazes_.start(decision.guards, levels);
+  near_hits_.start(decision.guards, levels);
   turns_.start(decision, *segment.forcing);
   watch_.start(decision.guards, std::move(levels));
   remember(bdf_.start(segment, watch_));
@@ -174,7 +175,9 @@ Step IdaEngine::advance() {
   ++steps_;
   step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
   const auto event = first_event(bdf, step.resolution);
-  grazes_.see(history_, event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0);
+  const double part = event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0;
+  grazes_.see(history_, part);
+  near_hits_.see(history_, part);
   if (event) {
     fallen_ = {event->slot};
     step.kind = Step::Kind::event;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/falls/grazes.hpp"
+#include "engine/falls/near_hits.hpp"
 #include "engine/falls/step_history.hpp"
 #include "engine/falls/watch.hpp"
 #include "engine/ida/bdf_integrator.hpp"
@@ -36,6 +37,7 @@ class IdaEngine final : public Stepper {
                                    std::size_t contact) const override;
   [[nodiscard]] bool knows_low_flights() const override;
   [[nodiscard]] std::optional<Graze> graze() const override;
+  [[nodiscard]] std::vector<NearHit> near_hits() const override { return near_hits_.list(); }
   [[nodiscard]] const std::vector<double>& turning_points() const override;
   /// BDF's polynomials have the degree 5 at most.
   [[nodiscard]] double turns() const override {
@@ -66,6 +68,7 @@ class IdaEngine final : public Stepper {
   StepHistory history_;
   Watch watch_;
   Grazes grazes_;
+  NearHits near_hits_;
   std::vector<std::size_t> fallen_;  // guards whose falls ended the segment
   ShortFlight flights_;
   std::optional<Step> flight_;  // the step that a short flight has taken

@@ -99,8 +99,10 @@ class Judge {
     if (a == nullptr || b == nullptr) {
       const TimedEvent& alone = a != nullptr ? *a : *b;
       if (alone.t <= std::min(run_.reached, companion.reached))
-        horizon_.at(alone.t, a != nullptr ? describe(*a) + " has no partner in the companion"
-                                          : "the companion has an event more, " + describe(*b));
+        // It may be earlier by its own uncertainty, which is great where a guard grazes.
+        horizon_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
+                    a != nullptr ? describe(*a) + " has no partner in the companion"
+                                 : "the companion has an event more, " + describe(*b));
       return false;
     }
     const double off = b->t - a->t, change = std::abs(off - past.off);

@@ -103,6 +103,10 @@ TEST_CASE("judge: an event without a partner ends it, on either side") {
   CHECK(certain(more) == 3);
   CHECK_FALSE(more.first_uncertain);
   CHECK(more.reason.find("an event more") != std::string::npos);
+  Track grazing = longer;
+  grazing.events[3].uncertainty = 0.125F;  // it may be that much earlier, times c
+  CHECK(judge(shorter, {grazing}, 2.0, names).until == 3.75);
+  CHECK(judge(grazing, {shorter}, 2.0, names).until == 3.75);
 }
 
 TEST_CASE("judge: another state, or a partner that is nearer to its neighbour") {

@@ -53,7 +53,7 @@ void MotionRecord::step(double begin, double end, const std::vector<double>& tur
 std::optional<MotionRecord::Moment> MotionRecord::next() {
   const double never = std::numeric_limits<double>::infinity();
   const double turn = turn_ < turns_.size() ? turns_[turn_] : never;
-  double line = wanted_ ? std::max(at_, last_) + spacing_ : never;
+  double line = wanted_ ? std::max(at_, last_ + spacing_) : never;  // whatever steps lie between
   if (!(line < end_ - 0.5 * spacing_)) line = never;
   if (turn == never && line == never) return std::nullopt;
   at_ = std::min(turn, line);
@@ -73,6 +73,7 @@ bool MotionRecord::needs(double t) const {
 
 void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
                        const Point& point) {
+  last_ = t;
   if (tracks_.empty()) return;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     Track& track = tracks_[k];
@@ -82,7 +83,6 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
     keep(track, row);
     if (track.drawn) asked_ = std::min(asked_, asked_by(track, row));
   }
-  last_ = t;
 }
 
 void MotionRecord::before(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,

@@ -1,6 +1,7 @@
-// What a frictional start does at the limits of friction: the coefficient of slow slips.
+// What a frictional start does at the limits of friction: the coefficient of slow slips, and what no friction could hold.
 //
 //   f(s) = fast + (slow - fast) exp(-s / v): loads that grow slowly slip at a rate of zero, so that |T| = slow |N|
+//   a block of weight W on feet at +-b under a moment M stands for |M| < W b, whatever its friction
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -61,6 +62,35 @@ std::string pad(const Axes& axes) {
 
 double along(const Model& model, const Axes& axes) { return axes.along(model.u0[0], model.u0[1]); }
 
+constexpr double b = 1.0, weight = 300.0;
+
+/// On two feet half a metre below its centre.
+std::string block(const Axes& axes, const std::string& law, const std::string& loads) {
+  return head + run_table(0.2, 0.1, "frictional") +
+         fmt::format("[nodes]\nL = {}\nR = {}\n", axes.at(-b, -0.5), axes.at(b, -0.5)) +
+         "[[rigid]]\nname = \"s\"\ncentre = [0.0, 0.0]\nnodes = [\"L\", \"R\"]\nmass = 30.0\ninertia = "
+         "12.0\n[[contacts]]\nname = \"p\"\nnodes = [\"L\", \"R\"]\nnormal = " +
+         axes.at(0.0, 1.0) + "\n" + law + load(axes, "weight", "s", 0.0, -1.0, weight) + loads;
+}
+
+std::string feet(double friction) {
+  return fmt::format(
+      "law = \"compliant\"\nnormal_stiffness = 1e5\ntangential_stiffness = 3e4\nfriction = {}\n", friction);
+}
+
+std::string moment(double size) { return fmt::format("[[loads]]\nnode = \"s\"\nmoment = {}\n", size); }
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)build_model(parse_scene(text, "test.toml"));
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+bool says(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
+
 }  // namespace
 
 TEST_SUITE_BEGIN("behaviour/frictional_start_limits");
@@ -110,6 +140,36 @@ TEST_CASE("rising friction that sticks again when its load goes back: the spring
                               "test.toml"));
   CHECK(along(model, axes) == doctest::Approx((P - slow * N) / k - 1.1 / (k + 1e3)).epsilon(1e-11));
   CHECK(model.contacts[0].initial_shear == doctest::Approx(slow * N - 1e3 * 1.1 / (k + 1e3)).epsilon(1e-11));
+}
+
+TEST_CASE("a block that its loads overturn or lift is said to be, whatever its friction") {
+  for (const double angle : angles)
+    for (const double friction : {5.0, 0.05}) {
+      CAPTURE(angle);
+      CAPTURE(friction);
+      const Axes axes(angle);
+      for (const double over : {330.0, -301.0}) {
+        const std::string said = refusal(block(axes, feet(friction), moment(over)));
+        CHECK(
+            says(said, over > 0.0 ? "contact 'p-R' would have to pull" : "contact 'p-L' would have to pull"));
+        CHECK(says(said, "overturn"));
+        CHECK(!says(said, "too small"));
+      }
+      const std::string lifted =
+          refusal(block(axes, feet(friction), load(axes, "lift", "s", 0.0, 1.0, 400.0)));
+      CHECK(says(lifted, "contacts 'p-L' and 'p-R' would have to pull"));
+      CHECK(refusal(block(axes, feet(friction), moment(299.0))) == "none");
+    }
+}
+
+TEST_CASE("a block that slides away has too little friction") {
+  for (const double angle : angles) {
+    CAPTURE(angle);
+    const Axes axes(angle);
+    const std::string push = load(axes, "push", "s", 1.0, 0.0, 20.0);
+    CHECK(says(refusal(block(axes, feet(0.05), push)), "the friction there is too small for the load"));
+    CHECK(refusal(block(axes, feet(0.1), push)) == "none");
+  }
 }
 
 TEST_SUITE_END();

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/rounding.hpp"
 #include "contact/bowl.hpp"
 #include "model/assembly/springs.hpp"
 #include "signorini/error.hpp"
@@ -11,8 +11,9 @@
 namespace signorini {
 namespace {
 
-// Forces that an equilibrium gives again to so many roundings are the same. Chosen; each round is one solve with K.
-constexpr double settled = 64.0 * std::numeric_limits<double>::epsilon();
+// Forces that an equilibrium gives again to so many roundings of what they are computed from are the same. Chosen; each
+// round is one solve with K.
+constexpr double settled = rounding::of_many;
 constexpr int rounds = 50;
 
 bool is_pressed_pendulum(const ContactSpec& contact) { return contact.bowl && contact.law == Law::compliant; }
@@ -32,6 +33,22 @@ std::vector<double> first_guess(const Scene& scene, const Model& model) {
                      : !is_pressed_pendulum(contact) || contact.bowl->carried > 0.0 ? contact.bowl->carried
                                                                                     : pushed / bearings);
   return forces;
+}
+
+/// What rounding is relative to in N = kn (g0 + n . u): N itself, its terms, which are far greater where the structure
+/// stands far along the surface and the axes are not those of the surface, and the forces K u that balance it. Unit: force.
+std::vector<double> summed(const Scene& scene, const Model& model) {
+  const Vector forces = model.stiffness.cwiseAbs() * model.u0.cwiseAbs();
+  double greatest = 0.0;
+  for (int i = 0; i < model.size(); ++i)
+    if (!model.dofs[static_cast<std::size_t>(i)].rotation) greatest = std::max(greatest, forces[i]);
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    const double terms = c.normal_stiffness * (std::abs(c.gap) + c.normal.magnitude(model.u0));
+    sizes.push_back(std::max(0.0, model.statics.reactions[k]) + terms + greatest);
+  }
+  return sizes;
 }
 
 }  // namespace
@@ -58,15 +75,15 @@ void start_on_pendulums(const Scene& scene, Model& model, const std::function<Mo
     Model begun = model;
     carry(scene, forces, begun);
     begun = start(std::move(begun));
-    double change = 0.0, size = 0.0;
+    const std::vector<double> sizes = summed(scene, begun);
+    bool same = true;
     for (std::size_t k = 0; k < forces.size(); ++k) {
       if (!is_pressed_pendulum(scene.contacts[k])) continue;
       const double bears = std::max(0.0, begun.statics.reactions[k]);
-      change = std::max(change, std::abs(bears - forces[k]));
-      size = std::max(size, bears);
+      same = same && std::abs(bears - forces[k]) <= settled * sizes[k];
       forces[k] = bears;
     }
-    if (change > settled * size) continue;
+    if (!same) continue;
     model = std::move(begun);
     return;
   }

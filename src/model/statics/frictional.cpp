@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/complementarity.hpp"
 #include "base/listed.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/statics/held_rows.hpp"
@@ -137,6 +138,28 @@ class Path {
     }
   }
 
+  /// Where there is no equilibrium even if nothing slips, however great its friction: with z = 0 of all slips the conditions of
+  /// openings are those of a convex problem, whose method ends in a ray only where they have no solution.
+  void refuse_pulls(const std::vector<Unknown>& unknowns, const Eigen::MatrixXd& m,
+                    const Eigen::VectorXd& q) const {
+    std::vector<Eigen::Index> openings;
+    std::vector<std::string> pulled;
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      if (unknowns[j].kind != Unknown::Kind::opening) continue;
+      const auto row = static_cast<Eigen::Index>(j);
+      openings.push_back(row);
+      if (q[row] < -balanced) pulled.push_back(contacts_[unknowns[j].contact].name);
+    }
+    if (pulled.empty()) return;
+    // What solves lose of forces that are zero is none that pulls.
+    const Eigen::VectorXd pressed = q(openings).array() + balanced;
+    if (solve_complementarity(m(openings, openings), pressed)) return;
+    refuse_stage(fmt::format(
+        "{} {} would have to pull, however great the friction: the loads overturn what stands there, or "
+        "lift it off; check the directions of gravity and of loads and where they act",
+        pulled.size() == 1 ? "contact" : "contacts", listed(pulled)));
+  }
+
   /// K u + sum(N n + T t) = P
   void check_equilibrium() const {
     Vector rest = stiffness_ * u_ - load_, size = stiffness_.cwiseAbs() * u_.cwiseAbs() + load_.cwiseAbs();
@@ -252,6 +275,7 @@ class Path {
       const double size = std::max(q.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
       const auto found = slow_rates(m, q / size, unknowns);
       if (!found) {
+        refuse_pulls(unknowns, m, q / size);
         refuse_shares(rows, unknowns, std::vector<bool>(unknowns.size(), true));
         refuse_stage(
             names_of_unknowns(unknowns) +

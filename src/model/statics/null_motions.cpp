@@ -106,7 +106,7 @@ bool may_have_null_motions(const SparseMatrix& k) {
 
 Eigen::MatrixXd null_motions(const SparseMatrix& k) {
   if (k.rows() == 0) return Eigen::MatrixXd(0, 0);
-  return k.rows() <= dense_up_to ? of_whole(k) : of_parts(k);
+  return of_parts(k);
 }
 
 }  // namespace signorini

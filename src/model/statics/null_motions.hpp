@@ -5,8 +5,8 @@
 // and of a row of zeros x_i^2 in place of its terms, D_ii = 1;
 // that is, no strain energy beyond the roundoff of evaluating it; this needs no stiffness to compare
 // with, and holds for translations and rotations in one matrix. Found as the lowest eigenvectors of
-// D^-1/2 K D^-1/2, D = diag K: by a dense decomposition for small n, else part by part (parts.hpp), large
-// parts by inverse subspace iteration.
+// D^-1/2 K D^-1/2, D = diag K, part by part (parts.hpp), so that a motion of one part is exactly none of the others: of
+// small parts by a dense decomposition, of large ones by inverse subspace iteration.
 #pragma once
 
 #include "signorini/model.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "contact/friction.hpp"
 
 namespace signorini {
 namespace {
@@ -28,8 +29,7 @@ Standing undeformed(const Contact& contact) {
 }
 
 double friction_of(const Contact& contact, const Standing& standing) {
-  const Friction& f = contact.friction;
-  return slip_sign(standing.state) != 0 ? f.kinetic : f.static_;
+  return slip_sign(standing.state) != 0 ? kinetic_friction(contact) : static_friction(contact);
 }
 
 double margin_of(const Contact& contact, const Standing& standing, int s) {

@@ -96,11 +96,37 @@ Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
 
 namespace {
 
+/// Motions that move no node, rotations of hinged ends: apart from others, since no contact feels them. In a mix with others
+/// rounding would leave some translation of them, which a contact would then seem to hold.
+struct Turning {
+  Eigen::MatrixXd others;        ///< motions that move nodes
+  std::vector<int> dofs;         ///< those that no turning motion has
+  std::vector<FreeMotion> free;  ///< those that turn, at 1 where they turn most
+
+  Turning(const Eigen::MatrixXd& motions, const std::vector<int>& all, const DofMap& map) {
+    std::vector<Eigen::Index> moving;
+    std::vector<bool> turns(static_cast<std::size_t>(motions.rows()), false);
+    for (Eigen::Index j = 0; j < motions.cols(); ++j) {
+      if (greatest_translation(motions.col(j), map) > 0.0) {
+        moving.push_back(j);
+        continue;
+      }
+      for (const int i : all)
+        if (motions(i, j) != 0.0) turns[static_cast<std::size_t>(i)] = true;
+      free.push_back({motions.col(j) / motions.col(j).cwiseAbs().maxCoeff(), -1});
+    }
+    others = motions(Eigen::all, moving);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(dofs),
+                 [&](int i) { return !turns[static_cast<std::size_t>(i)]; });
+  }
+};
+
 /// Motions of one part of the structure, and the contacts that may hold them.
 std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::MatrixXd& motions,
                                   const std::vector<int>& dofs, const std::vector<std::size_t>& contacts,
                                   const std::vector<bool>& closed, bool pressed_only) {
-  Eigen::MatrixXd null = simple_motions(motions, problem.map, dofs);
+  Turning turning(motions, dofs, problem.map);
+  Eigen::MatrixXd null = simple_motions(turning.others, problem.map, turning.dofs);
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
     const double size = greatest_translation(null.col(j), problem.map);
     null.col(j) /= size > 0.0 ? size : null.col(j).cwiseAbs().maxCoeff();
@@ -127,13 +153,14 @@ std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::Mat
   for (bool pressed : {true, false})
     for (const std::size_t k : contacts)
       if ((!problem.is_support(k) || closed[k]) == pressed && (pressed || !pressed_only)) consider(k);
+  if (m == 0) return std::move(turning.free);
   std::vector<FreeMotion> result;
-  if (m == 0) return result;
   Eigen::MatrixXd complete(m, m);
   complete << rows, other_motions(rows);
   const Eigen::MatrixXd separate = null * solve_dense(complete, Eigen::MatrixXd::Identity(m, m));
   for (Eigen::Index j = 0; j < m; ++j)
     result.push_back({separate.col(j), j < rows.rows() ? holders[static_cast<std::size_t>(j)] : -1});
+  std::move(turning.free.begin(), turning.free.end(), std::back_inserter(result));
   return result;
 }
 

@@ -22,6 +22,12 @@ double inside_loss(const Contact& contact, State state, double gap_from, double 
   return 0.5 * contact.normal_stiffness * (gap_from - gap_to) * (gap_from + gap_to);
 }
 
+bool slides_at_once(const Contact& contact) {
+  if (!contact.shear) return false;
+  // Beside the point stands the body, where that has no mass (model/shear.cpp).
+  return contact.shear->damping == 0.0 || contact.tangent.terms.size() > 1;
+}
+
 double shear_energy(const Contact& contact, double T) {
   return contact.tangential_stiffness && !contact.own ? T * T / (2.0 * *contact.tangential_stiffness) : 0.0;
 }

@@ -31,6 +31,9 @@ struct ContactWork {
 /// What the dashpot of a contact that is inside takes between two gaps; 0 in any other state.
 [[nodiscard]] double inside_loss(const Contact& contact, State state, double gap_from, double gap_to);
 
+/// Its sliding point jumps where its force does: the dashpot beside it holds no body that follows at once, or there is none.
+[[nodiscard]] bool slides_at_once(const Contact& contact);
+
 /// Of its springs.
 [[nodiscard]] double shear_energy(const Contact& contact, double T);
 [[nodiscard]] double stored_energy(const Contact& contact, State state, const ContactMotion& m);

@@ -16,21 +16,27 @@ void raise(Extreme& extreme, double value, double t, int contact = -1) {
   if (value > extreme.value) extreme = {value, t, contact};
 }
 
-/// Energies of shears that drop, one a contact.
+/// Energies of shears that drop, one a contact. A shear element keeps its own while its point slides: nothing but a share
+/// of what others release is lost there.
 struct Drops {
   std::vector<double> own;
+  std::vector<bool> any;
   double sum = 0.0;
   int count = 0;
 };
 
 Drops drops_of(const Model& model, const Decision& decision) {
-  Drops drops{std::vector<double>(model.contacts.size(), 0.0)};
-  for (std::size_t k = 0; k < drops.own.size(); ++k) {
+  const std::size_t contacts = model.contacts.size();
+  Drops drops{std::vector<double>(contacts, 0.0), std::vector<bool>(contacts, false)};
+  for (std::size_t k = 0; k < contacts; ++k) {
     const double from = decision.before[k].T, to = decision.after[k].T;
     if (!decision.jumped[k] || !(std::abs(to) < std::abs(from))) continue;
-    drops.own[k] = shear_energy(model.contacts[k], from) - shear_energy(model.contacts[k], to);
+    const Contact& contact = model.contacts[k];
+    drops.own[k] = shear_energy(contact, from) - shear_energy(contact, to);
+    const bool holds = decision.mode[k].state == State::stick && !decision.visited[k];
+    drops.any[k] = drops.own[k] > 0.0 || (slides_at_once(contact) && !holds);
     drops.sum += drops.own[k];
-    drops.count += drops.own[k] > 0.0 ? 1 : 0;
+    drops.count += drops.any[k] ? 1 : 0;
   }
   return drops;
 }
@@ -177,7 +183,7 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
       loss = drops.own[k];
     } else if (load_jumps) {  // parts without mass move at once; what slips does so at its limit
       loss = a.T * (slip_of(contact, a) - slip_of(contact, b));
-    } else if (drops.own[k] > 0.0) {  // parts without mass follow: friction takes all that is released
+    } else if (drops.any[k]) {  // parts without mass follow: friction takes all that is released
       loss = drops.own[k] + (released - drops.sum) / drops.count;
     } else if (drops.count == 0 && contact.tangential_stiffness) {
       loss = released - lost;

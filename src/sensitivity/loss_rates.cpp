@@ -33,12 +33,15 @@ void LossRates::add_impact(const Sides& s, WorkRates& works) const {
       energy.kinetic(s.motion.before.v, s.Dv_before) - energy.kinetic(s.motion.after.v, s.Dv_after) + driven;
 }
 
-/// Of the energy that the shear of a contact loses as its force drops; nothing: it does not.
+/// Of the energy that the shear of a contact loses as its force drops, as the audit has it; nothing: it does not.
 std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &b = s.motion.motion_before[c], &a = s.motion.motion_after[c];
   const double kt = contact.own ? 0.0 : contact.tangential_stiffness.value_or(0.0);
-  if (!s.motion.instant.after.jumped[c] || !(kt > 0.0 && std::abs(a.T) < std::abs(b.T))) return std::nullopt;
+  const Decision& now = s.motion.instant.after;
+  if (!now.jumped[c] || !(std::abs(a.T) < std::abs(b.T))) return std::nullopt;
+  if (slides_at_once(contact) && (now.mode[c].state != State::stick || now.visited[c])) return 0.0;
+  if (!(kt > 0.0)) return std::nullopt;
   return (b.T * s.D_before[c].T - a.T * s.D_after[c].T) / kt -
          (b.T * b.T - a.T * a.T) * derivative_.contacts[c].tangential_stiffness / (2.0 * kt * kt);
 }

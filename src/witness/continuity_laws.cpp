@@ -130,12 +130,19 @@ bool Finder::lets_massless_jump() const {
   return any;
 }
 
+/// Beside a dashpot it is the body that follows at once.
+bool Finder::body_follows(std::size_t k) const {
+  const std::vector<std::pair<int, double>>& terms = model_.contacts[k].body_tangent().terms;
+  return std::any_of(terms.begin(), terms.end(),
+                     [&](const auto& term) { return !bench_.has_mass(term.first); });
+}
+
 /// It stuck at its static limit, which is above the kinetic one, and slides, or is open, or has slid and stopped at once: a
 /// row of slip from stick to stick.
 bool Finder::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (c.own || c.shear || c.friction.varies() || !c.friction.drops()) return false;
+  if (c.own || (c.shear && !body_follows(k)) || c.friction.varies() || !c.friction.drops()) return false;
   const RecordedEvent* event = event_of(k);
   if (event == nullptr || event->t_uncertainty < 0.0) return false;
   const bool stopped = kind_of(now.state) == State::stick && event->type == "slip";

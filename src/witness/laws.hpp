@@ -153,6 +153,7 @@ class Finder {
   [[nodiscard]] const RecordedEvent* event_of(std::size_t k) const;
   /// Displacements without mass may jump.
   [[nodiscard]] bool lets_massless_jump() const;
+  [[nodiscard]] bool body_follows(std::size_t k) const;
   [[nodiscard]] bool lets_go(std::size_t k) const;
   void slide_at_once(std::size_t k);
   /// Rounding of forces that hold accelerations.

@@ -128,7 +128,12 @@ namespace {
 
 /// A point without mass on a slider and a spring of 40 N/m, drawn by 12 N/s; a mass stands beside it. Turned; `way`: which way
 /// it is drawn.
-std::string drawn_point(double degrees, double way) {
+struct Drawing {
+  double dashpot = 0.0;
+  std::string friction = "{ static = 0.5, kinetic = 0.3 }";
+  std::string history = "history = { type = \"polynomial\", coefficients = [0.0, 12.0] }";
+};
+std::string drawn_point(double degrees, double way, const Drawing& drawing = {}) {
   const double a = degrees * std::numbers::pi / 180.0, c = std::cos(a), s = std::sin(a);
   return fmt::format(
       R"(schema = 1
@@ -149,14 +154,15 @@ law = "slider"
 tangent = [{0:.17g}, {1:.17g}]
 normal_force = 10.0
 tangential_stiffness = 200.0
-friction = {{ static = 0.5, kinetic = 0.3 }}
+tangential_damping = {4}
+friction = {5}
 [[loads]]
 node = "Q"
 direction = [{0:.17g}, {1:.17g}]
 amplitude = {2}
-history = {{ type = "polynomial", coefficients = [0.0, 12.0] }}
+{6}
 )",
-      c, s, way, -s);
+      c, s, way, -s, drawing.dashpot, drawing.friction, drawing.history);
 }
 
 }  // namespace
@@ -188,6 +194,42 @@ TEST_CASE("static friction lets go of a point without mass: it jumps by (fs - fk
         // The load's work: 12 t along u, and 6 N over the jump.
         const double stuck = 0.5 * 6.0 * 0.025, sliding = 0.5 * (6.0 + 12.0) * (0.225 - 0.075);
         CHECK(result.rows.back().energy.loads == doctest::Approx(stuck + 6.0 * 0.05 + sliding).epsilon(1e-8));
+      }
+}
+
+TEST_CASE(
+    "a point without mass beside a dashpot jumps as static friction lets go, and friction takes what that "
+    "releases") {
+  // Stuck: 12 t = (k + kt) u + ct u', T = 12 t - k u. At T = 5 N u jumps to (12 t - 3)/k; the element e = u - p stays, and
+  // then relaxes from u to 3 N / kt as exp(-kt t/ct).
+  constexpr double k = 40.0, kt = 200.0, ct = 10.0, tau = ct / (k + kt);
+  const auto stuck = [&](double t) { return 12.0 / (k + kt) * (t - tau * (1.0 - std::exp(-t / tau))); };
+  double t = 0.1, above = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (t + above);
+    (12.0 * middle - k * stuck(middle) < 5.0 ? t : above) = middle;
+  }
+  const double from = stuck(t), load = 12.0 * t, to = (load - 3.0) / k;
+  const double jump = load * (to - from) - 0.5 * k * (to * to - from * from);
+  const double relaxed = (from - 3.0 / kt) * (1.0 - std::exp(-kt * (1.0 - t) / ct));
+  const double slide = 3.0 * ((12.0 - 3.0) / k - to + relaxed);
+  REQUIRE(jump > 0.05);
+  for (const double degrees : {0.0, 33.7, 161.3})
+    for (const double way : {1.0, -1.0})
+      for (const std::string engine : {"exact", "ida"}) {
+        CAPTURE(degrees);
+        CAPTURE(way);
+        CAPTURE(engine);
+        const Scene scene = parse_scene(drawn_point(degrees, way, {ct}), "test.toml",
+                                        {{"run.engine", engine}, {"run.rtol", "1e-10"}});
+        const Result result = simulate(scene);
+        INFO(result.report.outcome.reason);
+        REQUIRE(result.events.size() == 1);
+        CHECK(result.events[0].t == doctest::Approx(t).epsilon(1e-8));
+        CHECK(result.events[0].T_after * way == doctest::Approx(3.0).epsilon(1e-9));
+        CHECK(result.report.witness.violations.empty());
+        CHECK(result.report.audit.energy.value < 1e-8 * result.report.audit.energy_scale);
+        CHECK(result.rows.back().energy.friction == doctest::Approx(jump + slide).epsilon(1e-7));
       }
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "contact/bowl.hpp"
 #include "contact/law.hpp"
 #include "engine/exact/gauss_rule.hpp"
 
 namespace signorini {
-namespace {}  // namespace
 
 SeriesWorks::SeriesWorks(const Model& model, const Structure& structure)
     : model_(model),
@@ -56,6 +56,11 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& se
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactState& state = mode[c];
+    if (contact.bowl) add_bowl(c, forcing, series, contacts[c], degree, from, to, works);
+    if (contact.own) {
+      add_own(c, forcing, series, contacts[c], from, to, works);
+      continue;
+    }
     if (state.state == State::inside) {
       const auto gap = [&](double t) {
         return contacts[c].value(ContactSeries::gap, (t - series.t) / series.scale);
@@ -85,6 +90,42 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& se
         path.gap = path.gap_rate = contacts[c].value(ContactSeries::vn, x[i]);
       works.add(c, work_on(contact, state.state, 0.0, T, path), weight);
     }
+  }
+}
+
+/// A law of one's own takes power in every state.
+void SeriesWorks::add_own(std::size_t c, const Forcing& forcing, const Series& series,
+                          const ContactSeries& contact, double from, double to, Works& works) const {
+  const GaussRule& rule = gauss_rule();
+  const double h = to - from;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const double t = from + h * rule.x[i], x = (t - series.t) / series.scale;
+    const auto value = [&](ContactSeries::Field field) { return contact.value(field, x); };
+    const double rate = value(ContactSeries::vn);
+    const ContactPath path{value(ContactSeries::vt), forcing.surface(c, t, 1), rate, rate, 1.0};
+    works.add(
+        c, work_on(model_.contacts[c], State::open, value(ContactSeries::N), value(ContactSeries::T), path),
+        h * rule.w[i]);
+  }
+}
+
+/// What a curved surface returns beside its spring is work of the loads, off the surface too.
+void SeriesWorks::add_bowl(std::size_t c, const Forcing& forcing, const Series& series,
+                           const ContactSeries& path, std::size_t degree, double from, double to,
+                           Works& works) {
+  const Contact& contact = model_.contacts[c];
+  const GaussRule& rule = gauss_rule();
+  const double h = to - from;
+  slide_rate_.resize(degree + 1);
+  for (std::size_t k = 0; k <= degree; ++k)
+    slide_rate_[k] = static_cast<double>(k + 1) / series.scale *
+                     contact.body_tangent().dot(series.u.col(static_cast<Eigen::Index>(k + 1)).data());
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const double t = from + h * rule.x[i], x = (t - series.t) / series.scale;
+    const double rate = value_at(slide_rate_.data(), degree, x) - forcing.surface(c, t, 1);
+    const double force =
+        bowl_force(contact, path.value(ContactSeries::N, x), path.value(ContactSeries::slide, x));
+    works.loads -= h * rule.w[i] * force * rate;
   }
 }
 

@@ -1,4 +1,4 @@
-// series_works.hpp: works and dissipations on a step of the exact flow.
+// series_works.hpp: works and dissipations on a step of the exact flow, and of flights that `ida` takes by series.
 //
 //   integral of P . v, v^T C v, T p', -T s'    Gauss-Legendre on the step's polynomials (motion/powers.hpp)
 #pragma once
@@ -25,6 +25,10 @@ class SeriesWorks {
  private:
   using Nodes = std::array<double, nodes>;
   void velocities_at(const Nodes& x, const Series& series, std::size_t degree);
+  void add_own(std::size_t c, const Forcing& forcing, const Series& series, const ContactSeries& contact,
+               double from, double to, Works& works) const;
+  void add_bowl(std::size_t c, const Forcing& forcing, const Series& series, const ContactSeries& path,
+                std::size_t degree, double from, double to, Works& works);
 
   const Model& model_;
   const Structure& structure_;

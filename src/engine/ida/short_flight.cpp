@@ -9,10 +9,14 @@ namespace {
 
 constexpr int looks = 16;  // at the height of a flight
 
-/// A series of a mode whose friction depends on the slip rate has no known radius.
+/// A series of a mode whose friction depends on the slip rate has no known radius; the limit of friction that depends on N
+/// is no polynomial where it sticks.
 bool is_linear(const Model& model, const Mode& mode) {
-  for (std::size_t c = 0; c < mode.size(); ++c)
-    if (slips_nonlinearly(model.contacts[c], mode[c].state)) return false;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    if (slips_nonlinearly(contact, mode[c].state)) return false;
+    if (contact.friction.by_force() && !mode[c].is_open()) return false;
+  }
   return true;
 }
 

@@ -111,7 +111,10 @@ void MotionRecord::after(double t, const Auditor& auditor, const Forcing& forcin
     keep(track, row);
     track.last[1] = row;
     track.lasts = 1;
-    if (track.drawn && reached_[track.part]) spacing_ = closest_rows * t_end_;
+    if (track.drawn && reached_[track.part]) {
+      spacing_ = closest_rows * t_end_;
+      adapted_ = t;  // it grows from here on
+    }
   }
   if (all) last_ = t;
 }

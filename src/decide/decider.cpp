@@ -53,7 +53,15 @@ Refusal no_system(const Model& model, const Mode& mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (!mode[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
       held.push_back(c);
-  if (!held.empty()) return dependent_rows(std::move(held));
+  if (!held.empty()) {
+    Refusal why = dependent_rows(held);
+    for (const std::size_t c : held)
+      if (const std::string alone = holds_no_mass(model, model.contacts[c]); !alone.empty()) {
+        why.reason += ": " + alone;
+        break;
+      }
+    return why;
+  }
   return {
       Refusal::Kind::singular,
       "the equations of motion are singular: the least stiffnesses and masses are below the rounding of the "

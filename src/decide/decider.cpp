@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "contact/work.hpp"
 #include "decide/driven_states.hpp"
 #include "decide/places.hpp"
 #include "decide/release.hpp"
@@ -52,7 +53,15 @@ Refusal no_system(const Model& model, const Mode& mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (!mode[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
       held.push_back(c);
-  if (!held.empty()) return dependent_rows(std::move(held));
+  if (!held.empty()) {
+    Refusal why = dependent_rows(held);
+    for (const std::size_t c : held)
+      if (const std::string alone = holds_no_mass(model, model.contacts[c]); !alone.empty()) {
+        why.reason += ": " + alone;
+        break;
+      }
+    return why;
+  }
   return {
       Refusal::Kind::singular,
       "the equations of motion are singular: the least stiffnesses and masses are below the rounding of the "
@@ -99,6 +108,7 @@ struct Decider::Course {
   std::vector<MotionJet> so_far = {};       // up to the instant; empty where no limit has rested
   std::optional<std::size_t> touched = {};  // in this round, by parts without mass that move at once
   double touched_ut = 0.0;                  // its ut there, less that at the end of the way
+  std::vector<std::size_t> slid = {};       // contacts that have slid at once and stopped
   std::optional<std::vector<std::size_t>> open =
       {};                     // contacts whose guards are not all clearly positive; else: any
   Eigen::VectorXd held = {};  // what holds the mode tried last; Decision::captures
@@ -254,6 +264,21 @@ void Decider::arrive_first(Course& course) const {
     std::erase_if(course.failed, [&](const Failure& f) { return f.guard == Guard::sliding && carried(f); });
 }
 
+/// A part without mass that friction lets go slides at once to where it balances. What stops there is held where it has come
+/// to by the dashpot beside it, not where it came from. Once a contact: then it is another way.
+void Decider::stop_there(const Failure& f, Course& course) const {
+  const Contact& contact = model_.contacts[f.contact];
+  if (f.guard != Guard::sliding || !slides_at_once(contact)) return;
+  const ContactMotion& noise = course.jets[f.contact].noise[0];
+  const double way = contact.tangent.dot(course.decision.u) - contact.tangent.dot(course.instant.u);
+  if (!(slip_sign(course.mode[f.contact].state) * way > 2.0 * noise.ut)) return;
+  std::vector<std::size_t>& before = course.slid;
+  if (std::find(before.begin(), before.end(), f.contact) != before.end()) return;
+  before.push_back(f.contact);
+  course.instant.u = course.decision.u;
+  course.seen.clear();
+}
+
 /// Contacts that decide alone take their next states. Returns the blocks that must be decided together.
 std::vector<Block> Decider::react(Course& course) const {
   Findings& found = course.found;
@@ -278,6 +303,7 @@ std::vector<Block> Decider::react(Course& course) const {
       if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
+      stop_there(f, course);
       course.mode[c] = next_state(contact, course.mode[c], f.guard, course.jets[c]);
       if (course.touched == c)  // elastic first; its limit decides whether it slips
         course.mode[c] = {state_at_rest(contact), course.jets[c].motion[0].ut + course.touched_ut};

@@ -56,6 +56,7 @@ class Decider {
   [[nodiscard]] std::optional<double> touched_at(const Failure& f, const Course& course) const;
   void touch_first(Course& course) const;
   void arrive_first(Course& course) const;
+  void stop_there(const Failure& f, Course& course) const;
   [[nodiscard]] std::vector<Block> react(Course& course) const;
   void stop(const std::vector<std::size_t>& turning, Course& course) const;
   [[nodiscard]] Refusal enumerate(std::size_t block, Course& course);

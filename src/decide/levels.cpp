@@ -118,6 +118,16 @@ Refusal dependent_rows(std::vector<std::size_t> contacts) {
           std::move(contacts), std::numeric_limits<double>::infinity()};
 }
 
+std::string holds_no_mass(const Model& model, const Contact& contact) {
+  if (contact.has_gap() || !contact.sticks_rigidly()) return {};
+  const auto moves_mass = [&](const auto& term) {
+    return term.second != 0.0 && !model.dofs[static_cast<std::size_t>(term.first)].massless;
+  };
+  if (std::any_of(contact.tangent.terms.begin(), contact.tangent.terms.end(), moves_mass)) return {};
+  return "contact '" + contact.name +
+         "' sticks rigidly to a point without mass; give it a tangential_stiffness, or the point a mass";
+}
+
 CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t) const {
   const std::size_t c = entry.who.contact;
   const Contact& contact = model_.contacts[c];

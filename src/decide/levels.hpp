@@ -76,5 +76,7 @@ class Levels {
 
 /// Of contacts that stick, no forces are the only ones.
 [[nodiscard]] Refusal dependent_rows(std::vector<std::size_t> contacts = {});
+/// Why a contact that sticks rigidly has no force of its own, where no mass is behind its tangent; else empty.
+[[nodiscard]] std::string holds_no_mass(const Model& model, const Contact& contact);
 
 }  // namespace signorini

@@ -233,6 +233,44 @@ TEST_CASE(
       }
 }
 
+TEST_CASE(
+    "a load that jumps on a point without mass beside a dashpot: it slides at once, stops there and creeps") {
+  // 7 N: u jumps to (7 - f N)/k and the dashpot takes over; then 7 = k u + kt (u - p) + ct u' with p where it stopped.
+  constexpr double k = 40.0, kt = 200.0, ct = 10.0, P = 7.0;
+  for (const double kinetic : {0.3, 0.5})
+    for (const double begins : {0.0, 0.1})
+      for (const double degrees : {0.0, 33.7, 161.3})
+        for (const double way : {1.0, -1.0})
+          for (const std::string engine : {"exact", "ida"}) {
+            CAPTURE(kinetic);
+            CAPTURE(begins);
+            CAPTURE(degrees);
+            CAPTURE(way);
+            CAPTURE(engine);
+            const double p = (P - 10.0 * kinetic) / k, rest = (P + kt * p) / (k + kt);
+            const Drawing drawing{
+                ct, fmt::format("{{ static = 0.5, kinetic = {} }}", kinetic),
+                begins > 0.0 ? fmt::format("history = {{ type = \"step\", start = {} }}", begins) : ""};
+            const Scene scene = parse_scene(drawn_point(degrees, way * P, drawing), "test.toml",
+                                            {{"run.engine", engine}, {"run.rtol", "1e-10"}});
+            const Result result = simulate(scene);
+            INFO(result.report.outcome.reason);
+            REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+            CHECK(result.report.witness.violations.empty());
+            CHECK(result.report.audit.energy.value < 1e-8 * result.report.audit.energy_scale);
+            if (begins > 0.0) {
+              const double lost = 10.0 * kinetic * p;
+              CHECK(result.rows.back().energy.friction == doctest::Approx(lost).epsilon(1e-8));
+            }
+            for (const auto& row : result.rows) {
+              if (row.t < begins + 1e-9) continue;
+              const double u = rest + (p - rest) * std::exp(-(k + kt) * (row.t - begins) / ct);
+              CHECK(row.contacts[0].state == State::stick);
+              CHECK(row.contacts[0].T * way == doctest::Approx(P - k * u).epsilon(1e-7));
+            }
+          }
+}
+
 TEST_CASE("the loss of a point without mass that static friction lets go, and its derivatives") {
   // As above, by fs and fk.
   const auto loss = [](double fs, double fk) {

@@ -301,6 +301,56 @@ TEST_CASE("friction at its greatest takes the work of the whole slip, however fa
   }
 }
 
+// A weight on soft springs hangs metres from where these are at rest, so that the stiff spring of its bearing is a difference
+// of displacements ten thousand times as large. Without its weight it moves the same way about zero.
+TEST_CASE("a bearing far from where the structure began slips as it does at home") {
+  const char* const scene = R"(schema = 1
+units = { force = "kN", mass = "t", length = "m", time = "s" }
+run = { t_end = 0.3, initial = "static", engine = "ida" }
+damping = { alpha = 0.2, beta = 1e-4 }
+nodes = { m0 = [0.0, 0.0], m1 = [1.7, 0.3] }
+masses = [{ node = "m1", mass = 1.1804287735436891 }]
+springs = [
+  { node = "m0", direction = [-0.9290991939535066, -0.36983062041283765], stiffness = 100.0, damping = 0.4 },
+  { node = "m1", direction = [0.34984280870291945, 0.9368084164859176], stiffness = 5.0 },
+  { node = "m1", against = "m0", direction = [1.7, 0.3], stiffness = 1000.0 },
+  { node = "m1", against = "m0", direction = [0.40137209104191385, -0.9159150858745813], stiffness = 200.0 },
+]
+[[contacts]]
+name = "k0"
+node = "m1"
+law = "slider"
+normal = [0.0017812573947953696, 0.9999984135597884]
+friction = { slow = 0.05, fast = 0.2, velocity = 0.01 }
+normal_force = 13.915133470993059
+tangential_stiffness = 100000.0
+[[loads]]
+node = "m0"
+direction = [0.20040733943032074, 0.9797126610912305]
+amplitude = 20.0
+history = { type = "polynomial", coefficients = [0.7083, 0.0625, 18.0764], start = 0.0867, end = 0.1991 }
+)";
+  const auto run = [&](const char* rtol, const char* gravity) {
+    const Scene read = parse_scene(scene, "test.toml", {{"run.rtol", rtol}, {"gravity", gravity}});
+    return simulate(build_model(read), read.run);
+  };
+  const Result home = run("1e-11", "[0.0, 0.0]");
+  REQUIRE(home.report.outcome.kind == Outcome::Kind::done);
+  REQUIRE(home.events.size() >= 7);
+  for (const char* rtol :
+       {"5e-8", "2e-8", "1e-8", "8e-9", "5e-9", "3e-9", "2e-9", "1e-9", "1e-10", "1e-11"}) {
+    CAPTURE(rtol);
+    const Result far = run(rtol, "[0.0, -9.81]");
+    INFO(far.report.outcome.reason);
+    REQUIRE(far.report.outcome.kind == Outcome::Kind::done);
+    REQUIRE(far.events.size() == home.events.size());
+    for (std::size_t i = 0; i < home.events.size(); ++i) {
+      CHECK(far.events[i].to == home.events[i].to);
+      CHECK(std::abs(far.events[i].t - home.events[i].t) < 1e-6);
+    }
+  }
+}
+
 TEST_SUITE_END();
 
 }  // namespace signorini::tests::rising

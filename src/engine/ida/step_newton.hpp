@@ -44,6 +44,7 @@ class StepNewton {
   int answer(N_Vector e);
   /// From e = 0. setup: J first.
   int iterate(N_Vector e, N_Vector weights, double tolerance, bool setup, bool doubtful, void* memory);
+  [[nodiscard]] bool is_rounding(N_Vector weights, double tolerance) const;
 
   IdaProblem& problem_;
   void* ida_;

@@ -6,6 +6,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/listed.hpp"
+#include "decide/levels.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "signorini/simulate.hpp"
@@ -51,10 +52,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
   for (const std::size_t k : contacts) {
     const Contact& c = model.contacts[k];
     const Vector t = heavy_part(model, c.tangent);
-    if (t.norm() == 0.0)
-      return Ambiguity{k, fmt::format("contact '{}' sticks rigidly to a point without mass; give it a "
-                                      "tangential_stiffness, or the point a mass",
-                                      c.name)};
+    if (std::string why = holds_no_mass(model, c); !why.empty()) return Ambiguity{k, std::move(why)};
     bool share = may_share(model, c);
     if (held.cols() > 0) {
       const Eigen::MatrixXd x = solve_dense(held.transpose() * held, held.transpose() * t);
@@ -108,7 +106,9 @@ Start start(const Scene& scene, const Model& model) {
         fmt::format("the run cannot start, t = {:g}: {}", report.outcome.t, report.outcome.reason);
     if (const auto found = ambiguous_contacts(model)) {
       const ContactSpec& contact = scene.contacts[found->contact];
-      throw SceneError(contact.place, "contacts." + contact.name, reason + ": " + found->reason);
+      const bool said = reason.find(found->reason) != std::string::npos;
+      throw SceneError(contact.place, "contacts." + contact.name,
+                       said ? reason : reason + ": " + found->reason);
     }
     const std::vector<std::size_t>& named = report.outcome.refusal.contacts;
     if (!named.empty()) {

@@ -1,6 +1,7 @@
 #include "engine/exact/modal/damped_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base/eigen_dense.hpp"
@@ -23,33 +24,59 @@ struct Damping {
   std::vector<std::pair<double, Vector>> dampers;
 };
 
-std::optional<Damping> dampers_of(const Model& model, double alpha, double beta) {
-  const SparseMatrix rest = model.damping - alpha * model.mass - beta * model.stiffness;
+/// What C is more than alpha M + beta K, and the sums of the terms it is the difference of, on the degrees of freedom where
+/// rounding of these does not explain it.
+struct Rest {
   std::vector<int> dofs;
-  for (int j = 0; j < rest.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(rest, j); it; ++it) {
-      const double terms = std::abs(model.damping.coeff(it.row(), it.col())) +
-                           std::abs(alpha * model.mass.coeff(it.row(), it.col())) +
-                           std::abs(beta * model.stiffness.coeff(it.row(), it.col()));
-      if (std::abs(it.value()) <= rounding::of_many * terms) continue;
+  Eigen::MatrixXd more, terms;
+};
+
+Rest rest_of(const Model& model, double alpha, double beta) {
+  const SparseMatrix more = model.damping - alpha * model.mass - beta * model.stiffness;
+  const auto terms = [&](Index i, Index j) {
+    return std::abs(model.damping.coeff(i, j)) + std::abs(alpha * model.mass.coeff(i, j)) +
+           std::abs(beta * model.stiffness.coeff(i, j));
+  };
+  Rest rest;
+  for (int j = 0; j < more.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(more, j); it; ++it) {
+      if (std::abs(it.value()) <= rounding::of_many * terms(it.row(), it.col())) continue;
       for (const auto dof : {static_cast<int>(it.row()), static_cast<int>(it.col())})
-        if (std::find(dofs.begin(), dofs.end(), dof) == dofs.end()) dofs.push_back(dof);
+        if (std::find(rest.dofs.begin(), rest.dofs.end(), dof) == rest.dofs.end()) rest.dofs.push_back(dof);
     }
-  if (static_cast<Index>(dofs.size()) > most_damper_dofs) return std::nullopt;
-  Damping result{alpha, beta, {}};
-  const auto m = static_cast<Index>(dofs.size());
-  Eigen::MatrixXd small(m, m);
+  const auto m = static_cast<Index>(rest.dofs.size());
+  if (m > most_damper_dofs) return rest;
+  rest.more.resize(m, m);
+  rest.terms.resize(m, m);
   for (Index i = 0; i < m; ++i)
-    for (Index j = 0; j < m; ++j)
-      small(i, j) = rest.coeff(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)]);
-  if (m == 0) return result;
-  const EigenPairs pairs = symmetric_eigen(small);
-  const double most = pairs.values.cwiseAbs().maxCoeff();
-  for (Index k = 0; k < m; ++k) {
-    if (std::abs(pairs.values[k]) <= rounding::of_many * most) continue;
+    for (Index j = 0; j < m; ++j) {
+      const int row = rest.dofs[static_cast<std::size_t>(i)], column = rest.dofs[static_cast<std::size_t>(j)];
+      rest.more(i, j) = more.coeff(row, column);
+      rest.terms(i, j) = terms(row, column);
+    }
+  return rest;
+}
+
+/// R = sum of r d d^T over eigenvectors of D^-1/2 R D^-1/2, d = D^1/2 x, D: the diagonal of the terms, so that forces and moments
+/// have one unit. An eigenvalue moves by no more than the norm of what rounding leaves in the matrix (Weyl): beside stiff
+/// members a damper that is not along the axes has eigenvalues of that size, of either sign, which are none.
+std::optional<Damping> dampers_of(const Model& model, double alpha, double beta) {
+  const Rest rest = rest_of(model, alpha, beta);
+  if (static_cast<Index>(rest.dofs.size()) > most_damper_dofs) return std::nullopt;
+  Damping result{alpha, beta, {}};
+  if (rest.dofs.empty()) return result;
+  const Eigen::VectorXd root = rest.terms.diagonal().cwiseSqrt();
+  if (!(root.minCoeff() > 0.0)) return std::nullopt;  // a row without a diagonal is of no damper
+  const Eigen::VectorXd inverse = root.cwiseInverse();
+  const double rounded =
+      rounding::of_many * (inverse.asDiagonal() * rest.terms * inverse.asDiagonal()).norm();
+  const EigenPairs pairs = symmetric_eigen(inverse.asDiagonal() * rest.more * inverse.asDiagonal());
+  for (Index k = 0; k < pairs.values.size(); ++k) {
+    if (std::abs(pairs.values[k]) <= rounded) continue;
     if (pairs.values[k] < 0.0) return std::nullopt;
     Vector direction = Vector::Zero(model.size());
-    for (Index i = 0; i < m; ++i) direction[dofs[static_cast<std::size_t>(i)]] = pairs.vectors(i, k);
+    for (Index i = 0; i < root.size(); ++i)
+      direction[rest.dofs[static_cast<std::size_t>(i)]] = root[i] * pairs.vectors(i, k);
     result.dampers.emplace_back(pairs.values[k], std::move(direction));
   }
   return result;

@@ -91,6 +91,28 @@ TEST_SUITE("unit/study/check/check") {
     CHECK(r.mass->moving_y < 1.2);
   }
 
+  TEST_CASE("free motions of what stands on points that slide are those of the structure") {
+    // Two masses that nothing couples, each on a pad with slow and fast friction beside a spring; and with a dashpot.
+    for (const std::string pad : {"friction = { slow = 0.04, fast = 0.1, velocity = 0.02 }\n",
+                                  "friction = 0.1\ntangential_damping = 3.0\n"}) {
+      CAPTURE(pad);
+      std::string text =
+          "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\n[run]\nt_end "
+          "= "
+          "1.0\nengine = \"ida\"\n[nodes]\na = [0.0, 0.0]\nb = [1.0, 0.3]\n";
+      for (const std::string node : {"a", "b"})
+        text += "[[masses]]\nnode = \"" + node + "\"\nmass = 1.0\n[[supports]]\nnode = \"" + node +
+                "\"\nfix = [\"uy\"]\n[[contacts]]\nname = \"on " + node + "\"\nnode = \"" + node +
+                "\"\nlaw = \"slider\"\ntangent = [1.0, 0.0]\nnormal_force = 10.0\ntangential_stiffness = "
+                "4000.0\n" +
+                pad;
+      CHECK(checked(parse_scene(text, "test.toml")).free_motions ==
+            std::vector<std::string>{
+                "horizontal motion of node 'a', restrained only by friction at contact 'on a'",
+                "horizontal motion of node 'b', restrained only by friction at contact 'on b'"});
+    }
+  }
+
   TEST_CASE("free motions of a given start, and what holds them") {
     Scene s = empty_scene();
     s.nodes = {{"a", 0.0, 0.0, {}}};

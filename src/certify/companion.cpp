@@ -59,9 +59,8 @@ std::string unresolved(const Model& model, double dt) {
   const double decay = fastest_decay(model), rate = std::max(model.omega_max, decay);
   if (dt * rate <= resolved) return "";
   return fmt::format(
-      "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so half of it may err alike; companion = "
-      "\"exact\", or a "
-      "dt of {:.2g}, tells more",
+      "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so half of it may err alike; "
+      "companion = \"exact\", or a dt of {:.2g}, tells more",
       dt, model.units.time, decay > model.omega_max ? "decay" : "oscillation", rate,
       decay > model.omega_max ? "1" : "rad", model.units.time, resolved / rate);
 }

@@ -121,6 +121,7 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, 
     : model_(systems.model()),
       systems_(systems),
       jets_(systems),
+      every_(every_contact(model_)),
       decide_alone_(std::none_of(
           model_.contacts.begin(), model_.contacts.end(),
           [](const Contact& contact) { return contact.takes_impulses() || contact.sticks_rigidly(); })),
@@ -188,7 +189,7 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
   if (instant.start) course.given = instant.u;
   instant.u = d.u;
   instant.v = d.v;
-  course.found.capture(every_contact(model_), std::exchange(course.held, {}));
+  course.found.capture(every_, std::exchange(course.held, {}));
   course.mode = instant.mode;
   if (!instant.jump) return {};
   follow_forcing(model_, instant, before, course.after, d.before, course.mode);
@@ -205,7 +206,7 @@ bool Decider::held_by_others(std::size_t c, const Course& course) const {
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
 void Decider::look(Course& course, bool before) {
   course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known,
-                           course.so_far, course.open ? *course.open : every_contact(model_));
+                           course.so_far, course.open ? *course.open : every_);
   std::erase_if(course.failed, [&](const Failure& f) {
     if (f.guard == Guard::sliding && held_by_others(f.contact, course)) return true;
     return std::find(course.undecided.begin(), course.undecided.end(), block_of_[f.contact]) !=
@@ -521,7 +522,7 @@ bool Decider::clearly_holds(const Course& course, std::size_t c) {
 void Decider::finish(Course& course) const {
   Decision& d = course.decision;
   d.consistent = true;
-  course.found.capture(every_contact(model_), course.held);
+  course.found.capture(every_, course.held);
   d.captures = course.found.captures;
   d.departures = course.found.departures;
   d.unresolved = course.found.unresolved;

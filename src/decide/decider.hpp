@@ -78,8 +78,9 @@ class Decider {
   const Model& model_;
   ModeSystems& systems_;
   JetMaker jets_;
-  std::optional<NearJets> near_;  // nothing: jets are made of the whole structure
-  bool decide_alone_;             // no contact is decided with others
+  std::optional<NearJets> near_;          // nothing: jets are made of the whole structure
+  const std::vector<std::size_t> every_;  // contact
+  bool decide_alone_;                     // no contact is decided with others
   int max_rounds_;
   Touching touching_;
   std::vector<Block> blocks_;

@@ -63,7 +63,7 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   if (const auto found = massless_slip_rate(c.friction, pull, element.damping, pressed)) {
     rate = *found;
   } else {
-    const double greatest = rate_of_saturation(c.friction);
+    const double greatest = greatest_rate();
     rate = along - c.friction.kinetic * growth / element.stiffness;
     if (rate >= greatest) {
       constant_ = true;

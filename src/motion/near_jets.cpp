@@ -24,15 +24,10 @@ bool is_plain(const Contact& c) {
   return !c.own && !c.bowl && !c.shear && !c.takes_impulses() && !c.sticks_rigidly() && !friction_varies(c);
 }
 
-template <class Visit>
-void visit_dofs(const Contact& contact, const Visit& visit) {
-  for (const Combination* form : {&contact.normal, &contact.tangent})
-    for (const auto& term : form->terms) visit(term.first);
-}
-
 std::vector<int> dofs_of(const Contact& contact) {
   std::vector<int> dofs;
-  visit_dofs(contact, [&](int dof) { dofs.push_back(dof); });
+  for (const Combination* form : {&contact.normal, &contact.tangent})
+    for (const auto& term : form->terms) dofs.push_back(term.first);
   return dofs;
 }
 
@@ -202,7 +197,7 @@ NearJets::Neighbourhood* NearJets::around(std::size_t contact, const ModeSystem&
   if (looked_for_[contact]) return of_contact_[contact];
   const std::vector<int> distance = distances(dofs_of(model_.contacts[contact]));
   const int radius = reach(contact, system, distance) + spread, shared = radius / sharing;
-  Neighbourhood* near = (made_[contact] = neighbourhood(distance, radius + shared)).get();
+  Neighbourhood* near = made_.emplace_back(neighbourhood(distance, radius + shared)).get();
   for (std::size_t i = 0; i < distance.size(); ++i)
     for (const std::size_t c : contacts_at_[i])
       if (!looked_for_[c] &&

@@ -11,7 +11,6 @@
 // For states whose forces follow from places and velocities alone (linear/mass_factors.hpp), in large structures.
 #pragma once
 
-#include <map>
 #include <memory>
 
 #include "motion/jet.hpp"
@@ -59,8 +58,8 @@ class NearJets {
   Series series_;
   std::vector<std::vector<int>> neighbours_;           // of a degree of freedom, by M, C, K or a contact
   std::vector<std::vector<std::size_t>> contacts_at_;  // of a degree of freedom
-  std::map<std::size_t, std::unique_ptr<Neighbourhood>> made_;  // by the first contact
-  std::vector<Neighbourhood*> of_contact_;                      // once looked for
+  std::vector<std::unique_ptr<Neighbourhood>> made_;
+  std::vector<Neighbourhood*> of_contact_;  // once looked for
   std::vector<bool> looked_for_;
 };
 

@@ -110,7 +110,9 @@ struct Decider::Course {
   double touched_ut = 0.0;                  // its ut there, less that at the end of the way
   std::vector<std::size_t> slid = {};       // contacts that have slid at once and stopped
   std::optional<std::vector<std::size_t>> open =
-      {};                     // contacts whose guards are not all clearly positive; else: any
+      {};  // contacts whose guards are not all clearly positive; else: any
+  const Forcing* forcing = nullptr;  // under which the mode tried last was evaluated,
+  double blur = 0.0;                 // how blurred
   Eigen::VectorXd held = {};  // what holds the mode tried last; Decision::captures
 
   /// Where parts without mass begin that move at once.
@@ -152,7 +154,14 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
       return told_by(model_.contacts[c], c, mode[c], jet, orders, instant, unlucky);
     };
   std::optional<NearJets::Made> near;
-  if (near_) near = near_->make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
+  if (near_) {
+    const bool same = course.open && course.forcing == &forcing && course.blur == instant.blur &&
+                      d.u == d.jet.u.col(0) && d.v == d.jet.u.col(1);
+    near = near_->make(d.system, forcing, instant.t, d.u, d.v, course.jets, told,
+                       same ? std::optional<NearJets::Beside>({d.jet, *course.open}) : std::nullopt);
+    course.forcing = &forcing;
+    course.blur = instant.blur;
+  }
   course.open.reset();
   if (near) {
     d.jet = std::move(near->jet);
@@ -168,6 +177,7 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
 
 std::vector<BodySlide> Decider::slides(const Forcing& forcing, const Decision& decision) const {
   std::vector<BodySlide> result;
+  result.reserve(model_.contacts.size());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     result.push_back(slide_of(model_.contacts[k], k, forcing, decision.jet.t, decision.u, decision.v));
   return result;
@@ -178,6 +188,8 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
   Instant& instant = course.instant;
   Decision& d = course.decision;
   if (!evaluate(before, instant.mode, course)) return no_system(model_, instant.mode);
+  d.before.reserve(course.jets.size());
+  course.noise_before.reserve(course.jets.size());
   for (const MotionJet& jet : course.jets) {
     d.before.push_back(jet.motion[0]);
     course.noise_before.push_back(jet.noise[0]);
@@ -527,6 +539,8 @@ void Decider::finish(Course& course) const {
   d.departures = course.found.departures;
   d.unresolved = course.found.unresolved;
   d.slides_after = slides(course.after, d);
+  d.after.reserve(course.mode.size());
+  d.guards.reserve(guard_count(course.mode.size()));
   for (std::size_t c = 0; c < course.mode.size(); ++c) {
     const MotionJet& jet = course.jets[c];
     const ContactMotion& now = jet.motion[0];

@@ -126,10 +126,19 @@ void ModeSystems::invert(const std::vector<Rows>& rows, FactorisedMode& mode) {
   }
 }
 
+/// Those of the last mode, but of contacts that have changed.
+std::vector<Rows> ModeSystems::rows_beside(const Mode& mode) const {
+  if (!last_) return rows_of(model_, mode);
+  std::vector<Rows> result = last_->rows();
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (mode[c] != last_->mode()[c]) result[c] = rows(model_.contacts[c], mode[c]);
+  return result;
+}
+
 ModeSystemPtr ModeSystems::of(const Mode& mode) {
   if (last_ && last_->mode() == mode)
     return last_;  // a decision begins with the mode that the last one ended with
-  std::vector<Rows> rows = rows_of(model_, mode);
+  std::vector<Rows> rows = rows_beside(mode);
   const std::vector<State> states = states_of(mode);
   std::shared_ptr<const FactorisedMode> factorised;
   if (const auto* known = cache_.find(states)) {

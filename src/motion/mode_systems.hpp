@@ -57,6 +57,7 @@ class ModeSystems {
   [[nodiscard]] long made() const { return made_; }
 
  private:
+  [[nodiscard]] std::vector<Rows> rows_beside(const Mode& mode) const;
   [[nodiscard]] FactorisedMode describe(const Mode& mode, const std::vector<Rows>& rows) const;
   void factorise(const std::vector<Rows>& rows, FactorisedMode& mode);
   [[nodiscard]] bool by_mass(const std::vector<Rows>& rows, FactorisedMode& mode) const;

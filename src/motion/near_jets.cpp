@@ -283,9 +283,21 @@ bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, co
   return is_told;
 }
 
+/// Order 0 told it, and tells the same to the last bit: forces follow from its own rows, places and velocities.
+bool NearJets::stays(std::size_t contact, const Jet& jet, const Beside& beside) const {
+  if (jet.system->mode()[contact] != beside.jet.system->mode()[contact] ||
+      std::binary_search(beside.open.begin(), beside.open.end(), contact))
+    return false;
+  const auto same = [&](const auto& term) { return jet.u(term.first, 2) == beside.jet.u(term.first, 2); };
+  const Contact& c = model_.contacts[contact];
+  return std::all_of(c.normal.terms.begin(), c.normal.terms.end(), same) &&
+         std::all_of(c.tangent.terms.begin(), c.tangent.terms.end(), same);
+}
+
 std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const Forcing& forcing, double t,
                                              const Vector& u, const Vector& v,
-                                             std::vector<MotionJet>& motions, const JetMaker::Told& told) {
+                                             std::vector<MotionJet>& motions, const JetMaker::Told& told,
+                                             const std::optional<Beside>& beside) {
   if (!system->factorised().by_mass) return std::nullopt;
   taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
   taylor_.extend(forcing, 0, series_);
@@ -298,12 +310,15 @@ std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const 
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < count; ++c) {
     MotionJet& motion = motions[c];
-    motion.motion[0] = motion_of(model_.contacts[c], c, forcing, t, now);
-    order_one(*system, forcing, c, motion);
-    bound_rounding(*system, forcing, now, c, motion);
+    const bool known = beside && stays(c, jet, *beside);
+    if (!known) {
+      motion.motion[0] = motion_of(model_.contacts[c], c, forcing, t, now);
+      order_one(*system, forcing, c, motion);
+      bound_rounding(*system, forcing, now, c, motion);
+    }
     jet.forces(static_cast<Eigen::Index>(normal_slot(c)), 1) = motion.motion[1].N;
     jet.forces(static_cast<Eigen::Index>(tangent_slot(c)), 1) = motion.motion[1].T;
-    if (!accelerates(model_.contacts[c], system->mode()[c]) && told(c, motion, 1)) continue;
+    if (known || (!accelerates(model_.contacts[c], system->mode()[c]) && told(c, motion, 1))) continue;
     open.push_back(c);
     if (open.size() > most_open) return std::nullopt;
   }

@@ -30,10 +30,17 @@ class NearJets {
     Jet jet;                        ///< the orders 0 to 2 of u, of forces 0 and 1
     std::vector<std::size_t> open;  ///< contacts that order 0 does not tell
   };
-  /// As JetMaker::make. Nothing: it takes the whole structure.
+  /// What was made last at the same instant, under the same forcing, for the same question, in other states perhaps.
+  struct Beside {
+    const Jet& jet;
+    const std::vector<std::size_t>& open;
+  };
+  /// As JetMaker::make. Nothing: it takes the whole structure. beside: `motions` are still those of it, and stay where other
+  /// states change neither row nor acceleration.
   [[nodiscard]] std::optional<Made> make(const ModeSystemPtr& system, const Forcing& forcing, double t,
                                          const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
-                                         const JetMaker::Told& told);
+                                         const JetMaker::Told& told,
+                                         const std::optional<Beside>& beside = {});
 
  private:
   struct Neighbourhood;
@@ -48,6 +55,7 @@ class NearJets {
                  MotionJet& motion) const;
   void bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now, std::size_t contact,
                       MotionJet& motion) const;
+  [[nodiscard]] bool stays(std::size_t contact, const Jet& jet, const Beside& beside) const;
   [[nodiscard]] bool look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
                                std::size_t contact, const JetMaker::Told& told, MotionJet& motion);
 

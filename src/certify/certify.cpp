@@ -22,6 +22,7 @@
 #include "certify/truncation.hpp"
 #include "motion/clock.hpp"
 #include "run/choose_engine.hpp"
+#include "run/effort.hpp"
 #include "run/engines.hpp"
 #include "run/expected.hpp"
 #include "run/observer.hpp"
@@ -191,17 +192,21 @@ class Companions {
 /// Whether a run is certified without being asked for it.
 bool is_cheap(const CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
 
-/// Why it is not. Of one engine the ratio is known well. Of two it is not, but what the run took is known by then.
-std::string why_not(const RunSpec& run, const CompanionPlan& plan, double wall_time) {
+/// Why it is not. Of one engine the ratio is known well. Of two it is not, but what the run took is known by then, and how often
+/// it began anew.
+std::string why_not(const Model& model, const RunSpec& run, const CompanionPlan& plan, const Report& report) {
   if (!(plan.cost > 0.0))
     return "the cost of a companion run cannot be estimated for this scene; --certify starts one";
   if (plan.runs.front().run.engine == run.engine)
     return fmt::format(
         "a companion run would take about {:.2g} times as long as the run; --certify starts one", plan.cost);
+  double seconds = plan.seconds;
+  if (plan.runs.front().run.engine == Engine::exact)
+    seconds += static_cast<double>(report.counters.restarts) * seconds_of_event(model);
   return fmt::format(
       "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "
       "--certify starts one",
-      plan.name, about_seconds(plan.seconds), wall_time);
+      plan.name, about_seconds(seconds), report.wall_time);
 }
 
 Certificate certificate_of(const Model& model, const RunSpec& run, const CompanionPlan& plan,
@@ -276,7 +281,7 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   CompanionPlan plan = plan_companion(model, run);
   if (run.certify != Certify::yes && !is_cheap(plan)) {
     plain();
-    result.why_not = why_not(run, plan, result.report.wall_time);
+    result.why_not = why_not(model, run, plan, result.report);
     return result;
   }
   const double most_steps = run.certify == Certify::yes ? std::numeric_limits<double>::infinity()

@@ -147,7 +147,7 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
   if (!d.system) return false;
   d.u = instant.u;
   d.v = instant.v;
-  course.held = hold(model_, *d.system, forcing, instant.t, d.u, d.v);
+  course.held = near_ ? Eigen::VectorXd() : hold(model_, *d.system, forcing, instant.t, d.u, d.v);
   JetMaker::Told told;
   if (decide_alone_)
     told = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {

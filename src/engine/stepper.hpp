@@ -25,6 +25,7 @@ struct Segment {
   double end = 0.0;
   const Decision* decision = nullptr;  ///< state, mode, jet and guards at the beginning
   const Forcing* forcing = nullptr;
+  bool same_forcing = false;  ///< it is that of the stretch before, which ended here
 };
 
 struct Step {

@@ -1,12 +1,14 @@
 #include "motion/contact_series.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace signorini {
 
 void ContactSeries::fill(const Contact& contact, std::size_t index, const Series& series,
                          std::size_t degree) {
   degree_ = degree;
+  rates_ = unbounded();
   values_.resize(fields * (degree + 1));
   normal_.resize(degree + 3);
   tangent_.resize(degree + 3);
@@ -30,6 +32,15 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
     place(pressing_rate)[k] = rate * pressing[k + 1];
     place(slide)[k] =
         contact.shear ? contact.shear->body.dot(series.u.col(e).data()) - surface[k] : tangent_[k];
+  }
+}
+
+void ContactSeries::bound_rates(double x) {
+  for (const Field field : {N, T, gap, slide}) {
+    const double* a = of(field);
+    double rate = 0.0;
+    for (std::size_t k = degree_; k >= 1; --k) rate = rate * x + static_cast<double>(k) * std::abs(a[k]);
+    rates_[field] = rate;
   }
 }
 

@@ -5,6 +5,9 @@
 // A guard is a linear form on these, so it is a polynomial too.
 #pragma once
 
+#include <array>
+#include <limits>
+
 #include "motion/taylor.hpp"
 
 namespace signorini {
@@ -14,6 +17,12 @@ namespace signorini {
   double sum = a[degree];
   for (std::size_t k = degree; k-- > 0;) sum = sum * x + a[k];
   return sum;
+}
+
+/// Its coefficients about x from those about 0.
+inline void shift(double* a, std::size_t degree, double x) {
+  for (std::size_t j = 0; j < degree; ++j)
+    for (std::size_t k = degree; k-- > j;) a[k] += x * a[k + 1];
 }
 
 /// Polynomials of one contact; rows of `degree + 1` coefficients.
@@ -30,19 +39,36 @@ class ContactSeries {
   [[nodiscard]] double* place(Field field) { return values_.data() + field * (degree_ + 1); }
   [[nodiscard]] std::size_t degree() const { return degree_; }
   [[nodiscard]] const double* of(Field field) const { return values_.data() + field * (degree_ + 1); }
-  /// out[0 .. degree]: coefficients of the form.
+  /// Where x is 0 for its coefficients, in the series of the structure: value() and integral() take x there.
+  void set_origin(double origin) { origin_ = origin; }
+  [[nodiscard]] double origin() const { return origin_; }
+  /// Bounds the rates of what turns are sought of, up to x from the origin.
+  void bound_rates(double x);
+  /// At most |f'| there; infinite where nobody has bounded it since fill().
+  [[nodiscard]] double rate(Field field) const { return rates_[field]; }
+  /// out[0 .. degree]: coefficients of the form, about the origin.
   void combine(const Form& form, double* out) const;
-  [[nodiscard]] double value(Field field, double x) const { return value_at(of(field), degree_, x); }
-  /// Integral from 0 to x.
+  [[nodiscard]] double value(Field field, double x) const {
+    return value_at(of(field), degree_, x - origin_);
+  }
+  /// Integral from the origin to x.
   [[nodiscard]] double integral(Field field, double x) const {
     const double* a = of(field);
+    x -= origin_;
     double sum = 0.0;
     for (std::size_t k = degree_ + 1; k-- > 0;) sum = sum * x + a[k] / static_cast<double>(k + 1);
     return sum * x;
   }
 
  private:
+  [[nodiscard]] static constexpr std::array<double, fields> unbounded() {
+    std::array<double, fields> rates{};
+    rates.fill(std::numeric_limits<double>::infinity());
+    return rates;
+  }
   std::size_t degree_ = 0;
+  double origin_ = 0.0;
+  std::array<double, fields> rates_ = unbounded();
   std::vector<double> values_;
   std::vector<double> normal_, tangent_;
 };

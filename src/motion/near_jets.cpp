@@ -4,32 +4,15 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "contact/friction.hpp"
-#include "linear/restricted.hpp"
 #include "motion/term_size.hpp"
 
 namespace signorini {
 namespace {
 
-/// Of the greatest entry of a column of M^-1: below, it is rounding.
-constexpr double of_nothing = rounding::eps / 16.0;
 /// Each order spreads what is done by one more element, by M^-1 and by K.
 constexpr int spread = 2 * (Jet::orders + 1);
-/// Contacts up to this part of the radius away share a neighbourhood. Of the structure it is a quarter at most: chosen.
-constexpr int sharing = 4, least_gain = 4;
 /// So many contacts are looked at near, one by one; more of them take the whole structure. Chosen.
 constexpr std::size_t most_open = 6;
-
-bool is_plain(const Contact& c) {
-  return !c.own && !c.bowl && !c.shear && !c.takes_impulses() && !c.sticks_rigidly() && !friction_varies(c);
-}
-
-std::vector<int> dofs_of(const Contact& contact) {
-  std::vector<int> dofs;
-  for (const Combination* form : {&contact.normal, &contact.tangent})
-    for (const auto& term : form->terms) dofs.push_back(term.first);
-  return dofs;
-}
 
 /// Has some guard an acceleration, of which order 1 is not known here?
 bool accelerates(const Contact& contact, const ContactState& state) {
@@ -38,175 +21,23 @@ bool accelerates(const Contact& contact, const ContactState& state) {
   return false;
 }
 
+/// What the rest does to it at order 0.
+Vector from_outside(const Neighbourhood& near, const Point& now) {
+  Vector P = Vector::Zero(near.model.size());
+  for (const Neighbourhood::Tie& tie : near.ties)
+    P[tie.at] -= tie.m * now.a[tie.dof] + tie.c * now.v[tie.dof] + tie.k * now.u[tie.dof];
+  for (const Neighbourhood::Pull& pull : near.pulls)
+    P[pull.at] -= pull.factor * now.forces[static_cast<Eigen::Index>(pull.force)];
+  return P;
+}
+
 }  // namespace
 
-struct NearJets::Neighbourhood {
-  Neighbourhood(Model part, std::vector<int> dofs_, std::vector<std::size_t> contacts_,
-                std::vector<std::size_t> loads_)
-      : model(std::move(part)),
-        structure(model),
-        systems(model, structure),
-        jets(systems),
-        dofs(std::move(dofs_)),
-        contacts(std::move(contacts_)),
-        loads(std::move(loads_)) {}
-
-  Model model;
-  Structure structure;
-  ModeSystems systems;
-  JetMaker jets;
-  std::vector<int> dofs;                     // in the whole, ascending
-  std::vector<std::size_t> contacts, loads;  // the same
-  /// What ties row `at` here to column `dof` outside.
-  struct Tie {
-    int at, dof;
-    double m, c, k;
-  };
-  std::vector<Tie> ties;
-  /// Contacts that reach across the boundary: their forces act on `at`.
-  struct Pull {
-    int at;
-    Eigen::Index force;
-    double factor;
-  };
-  std::vector<Pull> pulls;
-  std::vector<MotionJet> motions;
-
-  /// What the rest does to it at order 0.
-  [[nodiscard]] Vector from_outside(const Point& now) const {
-    Vector P = Vector::Zero(model.size());
-    for (const Tie& tie : ties)
-      P[tie.at] -= tie.m * now.a[tie.dof] + tie.c * now.v[tie.dof] + tie.k * now.u[tie.dof];
-    for (const Pull& pull : pulls) P[pull.at] -= pull.factor * now.forces[pull.force];
-    return P;
-  }
-};
-
 NearJets::NearJets(ModeSystems& systems, int least)
-    : systems_(systems),
-      model_(systems.model()),
-      possible_(model_.size() >= least && !has_massless(model_) &&
-                std::all_of(model_.contacts.begin(), model_.contacts.end(), is_plain)),
-      taylor_(systems),
-      of_contact_(model_.contacts.size(), nullptr),
-      looked_for_(model_.contacts.size(), false) {
-  if (!possible_) return;
-  const Structure& structure = systems.structure();
-  neighbours_.resize(static_cast<std::size_t>(structure.size));
-  contacts_at_.resize(neighbours_.size());
-  for (std::size_t j = 0; j < neighbours_.size(); ++j)
-    for (auto p = static_cast<std::size_t>(structure.column_start[j]);
-         p < static_cast<std::size_t>(structure.column_start[j + 1]); ++p)
-      if (static_cast<std::size_t>(structure.row[p]) != j) neighbours_[j].push_back(structure.row[p]);
-  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    const std::vector<int> dofs = dofs_of(model_.contacts[c]);
-    for (const int i : dofs) {
-      if (auto& at = contacts_at_[static_cast<std::size_t>(i)]; at.empty() || at.back() != c) at.push_back(c);
-      for (const int j : dofs)
-        if (i != j) neighbours_[static_cast<std::size_t>(i)].push_back(j);
-    }
-  }
-}
-
-NearJets::~NearJets() = default;
-
-/// In elements, of each degree of freedom; -1: no way leads there.
-std::vector<int> NearJets::distances(const std::vector<int>& from) const {
-  std::vector<int> distance(neighbours_.size(), -1), queue = from;
-  for (const int dof : from) distance[static_cast<std::size_t>(dof)] = 0;
-  for (std::size_t i = 0; i < queue.size(); ++i)
-    for (const int next : neighbours_[static_cast<std::size_t>(queue[i])])
-      if (int& d = distance[static_cast<std::size_t>(next)]; d < 0) {
-        d = distance[static_cast<std::size_t>(queue[i])] + 1;
-        queue.push_back(next);
-      }
-  return distance;
-}
-
-/// To where M^-1 n and M^-1 t are felt, each entry as a part of what its own mass makes of it.
-int NearJets::reach(std::size_t contact, const ModeSystem& system, const std::vector<int>& distance) const {
-  int farthest = 0;
-  const Contact& c = model_.contacts[contact];
-  std::vector<double> x(system.unknowns().size()), work(x.size());
-  for (const Combination* form : {&c.normal, &c.tangent}) {
-    std::fill(x.begin(), x.end(), 0.0);
-    form->add_to(x, 1.0);
-    system.solve(x.data(), work.data());
-    const auto felt = [&](std::size_t i) { return std::abs(x[i]) / std::sqrt(taylor_.mobility()[i]); };
-    double most = 0.0;
-    for (std::size_t i = 0; i < distance.size(); ++i) most = std::max(most, felt(i));
-    for (std::size_t i = 0; i < distance.size(); ++i)
-      if (felt(i) > of_nothing * most) farthest = std::max(farthest, distance[i]);
-  }
-  return farthest;
-}
-
-std::unique_ptr<NearJets::Neighbourhood> NearJets::neighbourhood(const std::vector<int>& distance,
-                                                                 int radius) const {
-  std::vector<int> dofs, place(distance.size(), -1);
-  for (std::size_t i = 0; i < distance.size(); ++i)
-    if (distance[i] >= 0 && distance[i] <= radius) {
-      place[i] = static_cast<int>(dofs.size());
-      dofs.push_back(static_cast<int>(i));
-    }
-  if (least_gain * dofs.size() > distance.size()) return nullptr;
-  const auto inside = [&](int dof) { return place[static_cast<std::size_t>(dof)] >= 0; };
-  std::vector<std::size_t> contacts, across;
-  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    const std::vector<int> own = dofs_of(model_.contacts[c]);
-    if (std::all_of(own.begin(), own.end(), inside))
-      contacts.push_back(c);
-    else if (std::any_of(own.begin(), own.end(), inside))
-      across.push_back(c);
-  }
-  Model part = restricted(model_, dofs, contacts);
-  std::vector<std::size_t> loads;
-  for (std::size_t i = 0; i < model_.loads.size(); ++i) {
-    Load load;  // its history is the forcing's
-    for (const auto& [dof, factor] : model_.loads[i].direction.terms)
-      if (inside(dof)) load.direction.terms.emplace_back(place[static_cast<std::size_t>(dof)], factor);
-    if (load.direction.terms.empty()) continue;
-    loads.push_back(i);
-    part.loads.push_back(std::move(load));
-  }
-  for (Contact& contact : part.contacts) contact.normal_force = contact.surface_motion = {};
-  auto near = std::make_unique<Neighbourhood>(std::move(part), dofs, contacts, loads);
-  const Structure& structure = systems_.structure();
-  for (std::size_t j = 0; j < distance.size(); ++j) {
-    if (place[j] >= 0) continue;
-    for (auto p = static_cast<std::size_t>(structure.column_start[j]);
-         p < static_cast<std::size_t>(structure.column_start[j + 1]); ++p)
-      if (inside(structure.row[p]))
-        near->ties.push_back({place[static_cast<std::size_t>(structure.row[p])], static_cast<int>(j),
-                              structure.m[p], structure.c[p], structure.k[p]});
-  }
-  const auto pull = [&](const Combination& form, std::size_t force) {
-    for (const auto& [dof, factor] : form.terms)
-      if (inside(dof))
-        near->pulls.push_back(
-            {place[static_cast<std::size_t>(dof)], static_cast<Eigen::Index>(force), factor});
-  };
-  for (const std::size_t c : across) {
-    pull(model_.contacts[c].normal, normal_slot(c));
-    pull(model_.contacts[c].tangent, tangent_slot(c));
-  }
-  return near;
-}
-
-NearJets::Neighbourhood* NearJets::around(std::size_t contact, const ModeSystem& system) {
-  if (looked_for_[contact]) return of_contact_[contact];
-  const std::vector<int> distance = distances(dofs_of(model_.contacts[contact]));
-  const int radius = reach(contact, system, distance) + spread, shared = radius / sharing;
-  Neighbourhood* near = made_.emplace_back(neighbourhood(distance, radius + shared)).get();
-  for (std::size_t i = 0; i < distance.size(); ++i)
-    for (const std::size_t c : contacts_at_[i])
-      if (!looked_for_[c] &&
-          (c == contact || (near != nullptr && distance[i] >= 0 && distance[i] <= shared))) {
-        looked_for_[c] = true;
-        of_contact_[c] = near;
-      }
-  looked_for_[contact] = true;  // it may act on nothing
-  return near;
+    : model_(systems.model()),
+      possible_(model_.size() >= least && follows_from_motion(model_)),
+      taylor_(systems) {
+  if (possible_) near_.emplace(systems, spread);
 }
 
 /// The rate of the motion but for g''' and ut'''. Forces by their own rows.
@@ -256,22 +87,26 @@ void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, 
 /// False: it is not told here.
 bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
                          std::size_t contact, const JetMaker::Told& told, MotionJet& motion) {
-  Neighbourhood* near = around(contact, *system);
-  if (near == nullptr) return false;
-  Mode mode;
-  for (const std::size_t c : near->contacts) mode.push_back(system->mode()[c]);
-  const ModeSystemPtr own = near->systems.of(mode);
+  Neighbourhood* near = near_->around(contact, *system);
+  if (near == nullptr) {
+    possible_ = !near_->hopeless();
+    return false;
+  }
+  const ModeSystemPtr own = near->systems.of(near->mode_of(system->mode()));
   if (!own) return false;
   const auto at = static_cast<std::size_t>(
       std::lower_bound(near->contacts.begin(), near->contacts.end(), contact) - near->contacts.begin());
-  const Vector outside = near->from_outside(now);
+  while (work_.size() < near_->size()) work_.emplace_back();
+  std::unique_ptr<Work>& work = work_[near->number];
+  if (!work) work = std::make_unique<Work>(near->systems);
+  const Vector outside = from_outside(*near, now);
   const auto with = [&](const Vector& more) {
     return forcing.on_part(near->model, near->dofs, near->loads, near->contacts, more);
   };
   const Forcing given = with(outside), alone = with(Vector::Zero(outside.size()));
   bool is_told = false;
-  (void)near->jets.make(
-      own, given, series_.t, now.u(near->dofs), now.v(near->dofs), near->motions,
+  (void)work->jets.make(
+      own, given, series_.t, now.u(near->dofs), now.v(near->dofs), work->motions,
       [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
         if (c != at) return true;
         const bool enough = told(contact, jet, orders);
@@ -279,7 +114,7 @@ bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, co
         return enough;
       },
       &alone);
-  motion = near->motions[at];
+  motion = work->motions[at];
   return is_told;
 }
 
@@ -298,7 +133,7 @@ std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const 
                                              const Vector& u, const Vector& v,
                                              std::vector<MotionJet>& motions, const JetMaker::Told& told,
                                              const std::optional<Beside>& beside) {
-  if (!system->factorised().by_mass) return std::nullopt;
+  if (!possible_ || !system->factorised().by_mass) return std::nullopt;
   taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
   taylor_.extend(forcing, 0, series_);
   const std::size_t count = model_.contacts.size();

@@ -4,8 +4,7 @@
 //   |guard| > rounding + resolution |guard'|       most contacts are told by that
 //   derivatives of higher order                    of the others each on a neighbourhood W of its own (motion/jet.hpp)
 //
-// M^-1 decays with the distance, and so does what is done to a contact from far away at an instant. W reaches to where
-// M^-1 is below rounding. Of what lies beyond, it is given what that does at order 0, and its noise the difference that this
+// W: motion/neighbourhoods.hpp. Of what lies beyond, it is given what that does at order 0, and its noise the difference that this
 // makes: the second time a jet is made (motion/jet.hpp) without. Where the noise then does not tell, nothing here tells.
 //
 // For states whose forces follow from places and velocities alone (linear/mass_factors.hpp), in large structures.
@@ -14,6 +13,7 @@
 #include <memory>
 
 #include "motion/jet.hpp"
+#include "motion/neighbourhoods.hpp"
 #include "motion/point.hpp"
 
 namespace signorini {
@@ -21,10 +21,9 @@ namespace signorini {
 class NearJets {
  public:
   /// least: fewest degrees of freedom for which it is worth while. All must outlive it.
-  explicit NearJets(ModeSystems& systems, int least = 400);
-  ~NearJets();
+  explicit NearJets(ModeSystems& systems, int least = large_structure);
 
-  /// Whether the model is one for this.
+  /// Whether the model is one for this, as far as is known: where M^-1 is seen to decay nowhere, it is not.
   [[nodiscard]] bool possible() const { return possible_; }
   struct Made {
     Jet jet;                        ///< the orders 0 to 2 of u, of forces 0 and 1
@@ -43,14 +42,6 @@ class NearJets {
                                          const std::optional<Beside>& beside = {});
 
  private:
-  struct Neighbourhood;
-  /// Of contacts close to each other; null: M^-1 does not decay within a quarter of the structure.
-  [[nodiscard]] Neighbourhood* around(std::size_t contact, const ModeSystem& system);
-  [[nodiscard]] std::vector<int> distances(const std::vector<int>& from) const;
-  [[nodiscard]] int reach(std::size_t contact, const ModeSystem& system,
-                          const std::vector<int>& distance) const;
-  [[nodiscard]] std::unique_ptr<Neighbourhood> neighbourhood(const std::vector<int>& distance,
-                                                             int radius) const;
   void order_one(const ModeSystem& system, const Forcing& forcing, std::size_t contact,
                  MotionJet& motion) const;
   void bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now, std::size_t contact,
@@ -59,16 +50,17 @@ class NearJets {
   [[nodiscard]] bool look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
                                std::size_t contact, const JetMaker::Told& told, MotionJet& motion);
 
-  ModeSystems& systems_;
   const Model& model_;
   bool possible_;
   Taylor taylor_;
   Series series_;
-  std::vector<std::vector<int>> neighbours_;           // of a degree of freedom, by M, C, K or a contact
-  std::vector<std::vector<std::size_t>> contacts_at_;  // of a degree of freedom
-  std::vector<std::unique_ptr<Neighbourhood>> made_;
-  std::vector<Neighbourhood*> of_contact_;  // once looked for
-  std::vector<bool> looked_for_;
+  std::optional<Neighbourhoods> near_;
+  struct Work {  // at one of them
+    explicit Work(ModeSystems& systems) : jets(systems) {}
+    JetMaker jets;
+    std::vector<MotionJet> motions;
+  };
+  std::vector<std::unique_ptr<Work>> work_;
 };
 
 }  // namespace signorini

@@ -171,7 +171,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
 }
 
 void Taylor::level(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
-  if (massless_ || disturbance != nullptr || !bowls_.empty() || !system_->factorised().dense())
+  if (massless_ || disturbance != nullptr || besides_ || !bowls_.empty() || !system_->factorised().dense())
     return level_any(forcing, order, series, disturbance);
   const std::size_t masses = known_u_.size(), unknowns = x_.size();
   if (masses == 1 && unknowns == 3) return level_dense<1, 3>(forcing, order, series);
@@ -318,6 +318,7 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
   know_motion(order, series);
   std::fill(x_.begin(), x_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   forcing.add_load(series.forcing, static_cast<std::size_t>(order), x_.data());
+  if (besides_) besides_(order, x_.data());
   for (std::size_t j = 0; j < n; ++j) {
     const double uj = known_u_[j], vj = known_v_[j];
     const auto end = static_cast<std::size_t>(structure_.column_start[j + 1]);

@@ -10,6 +10,8 @@
 // nonsymmetric by friction, singular by free motions, with massless parts or rigid sticking.
 #pragma once
 
+#include <functional>
+
 #include "motion/friction_series.hpp"
 #include "motion/mode_systems.hpp"
 #include "motion/point.hpp"
@@ -38,6 +40,10 @@ class Taylor {
   void begin(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
              int levels, double scale, Series& out, const Disturbance* disturbance = nullptr);
   void extend(const Forcing& forcing, int levels, Series& out, const Disturbance* disturbance = nullptr);
+
+  /// What acts on the structure at a level besides the forcing, of series from here on; it must live as long.
+  using Besides = std::function<void(int level, double* P)>;
+  void act_besides(Besides besides) { besides_ = std::move(besides); }
 
   /// 1 over the mass of each degree of freedom alone, 0 where it has none.
   [[nodiscard]] const std::vector<double>& mobility() const { return mobility_; }
@@ -71,6 +77,7 @@ class Taylor {
   const Structure& structure_;
   const bool massless_;
   ModeSystemPtr system_;
+  Besides besides_;                       // empty: nothing
   std::vector<std::size_t> bowls_;        // contacts on curved surfaces under forces that vary
   std::vector<FrictionSeries> friction_;  // of contacts whose friction depends on their slip rates
   std::vector<double> x_, work_, known_u_, known_v_, mobility_, parts_;

@@ -35,5 +35,7 @@ struct EffortParts {
 /// Of the whole run; and of complex modes of the states that its contacts may come into.
 [[nodiscard]] double seconds_of_series(const Model& model, const RunSpec& run);
 [[nodiscard]] double seconds_of_damped_states(const Model& model);
+/// Of `exact` by its series: the decision, and a series that begins anew.
+[[nodiscard]] double seconds_of_event(const Model& model);
 
 }  // namespace signorini

@@ -30,6 +30,7 @@ struct EngineParts {
   int max_order;
   ModalShare* share = nullptr;  ///< of `exact` in modes with the observer; null: none
   bool peaks = true;            ///< somebody asks for the turning points of contacts
+  bool alone = false;           ///< no observer reads its steps
 };
 
 /// An engine that does not take the scene: why, without what to use instead.

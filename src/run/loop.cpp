@@ -32,7 +32,8 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
       decider_(systems_, spec.max_events_at_once, tolerance_.capture_velocity(),
                engine.whole_jets || observer_ != nullptr),
       engine_(engine.make({model, structure_, systems_, spec, tolerance_, method.max_order,
-                           observer_ ? observer_->modal() : nullptr, !observer_ || observer_->asks_peaks()})),
+                           observer_ ? observer_->modal() : nullptr, !observer_ || observer_->asks_peaks(),
+                           observer_ == nullptr})),
       truth_(meddler_ ? std::make_unique<Model>(model) : nullptr),
       witness_(corrected(), witnessed_engine(spec, tolerance_, method.flow, engine_->knows_low_flights()),
                recorder),
@@ -115,7 +116,7 @@ bool Loop::start() {
 /// From a restart to the next discontinuity, at `end`, or to an event before.
 void Loop::open_stretch(double end) {
   if (meddler_) meddler_->watch(decision_.guards);
-  engine_->start({end, &decision_, &forcing_});
+  engine_->start({end, &decision_, &forcing_, same_forcing_});
   stretch_end_ = end;
   under_way_ = true;
 }
@@ -251,6 +252,7 @@ bool Loop::instant(std::vector<Fired> fired, std::optional<Mode> adopted) {
   if (stands) *stands += "; last: " + names_of(model_, now.fired);
   std::optional<Forcing> before;
   const bool all = now.jump;
+  same_forcing_ = !all;
   if (all) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
   const Mode old_mode = decision_.mode;
   std::vector<double> unseen = zero_since_.before(t_, now.fired);

@@ -129,6 +129,7 @@ class Loop {
   bool begun_ = false, going_ = false;
   double stretch_end_ = 0.0;  // of the stretch that is under way
   bool under_way_ = false;
+  bool same_forcing_ = false;  // the last instant has changed none
   bool residual_due_ = false;  // at the end of the step: once for every row
 };
 

@@ -7,17 +7,15 @@
 // radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth of the mode.
 // A step is as long as the series still converges to rounding with that bound, and short enough that its
 // terms do not cancel. docs/theory.md gives the argument that no event is missed. What lies behind an event is computed in
-// vain, so that a step which begins at one is no longer than twice the time between events lately.
-//
-// W of a state is found from twenty levels of a series. Of large structures most states differ from one that is known in
-// few soft contacts; in the norm of flow_norm.hpp these add at most
-//   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
-// and that is taken as long as it adds little.
+// vain, so that a step which begins at one is no longer than twice the time between events lately. On large structures an event
+// in compliant contacts changes the motion near them alone for as long as the series reaches: there it is made anew, falls
+// that were found elsewhere stand (motion/near_series.hpp), and a series is as long as some events.
 #pragma once
 
 #include <numbers>
 
-#include "engine/exact/flow_norm.hpp"
+#include "engine/exact/flow_growth.hpp"
+#include "engine/exact/pieced_series.hpp"
 #include "engine/exact/series_works.hpp"
 #include "engine/falls/arming.hpp"
 #include "engine/falls/first_fall.hpp"
@@ -29,13 +27,12 @@ namespace signorini {
 
 /// Terms of a series at most.
 inline constexpr int most_levels = 30;
-/// Growths of modes are kept longer than their systems: one takes a series to find and 8 bytes to keep.
-inline constexpr CacheBounds most_growths{16384, std::size_t{1} << 20};
 
 class ExactEngine final : public Stepper {
  public:
-  /// All but t_end must outlive it.
-  ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
+  /// All but t_end must outlive it. pieces: the motion may be put together from pieces, since nobody asks for expansion().
+  ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
+              bool pieces = false);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -52,57 +49,74 @@ class ExactEngine final : public Stepper {
   }
   [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
-  [[nodiscard]] double turns() const override { return std::numbers::pi * static_cast<double>(degree_); }
+  [[nodiscard]] double turns() const override {
+    return std::numbers::pi * static_cast<double>(motion_.degree());
+  }
   [[nodiscard]] Expansion expansion() const override {
-    return {&series_, degree_, end_x_, taylor_.system().get()};
+    return {&motion_.whole, motion_.degree(), end_x_, taylor_.system().get()};
   }
 
  private:
-  [[nodiscard]] double growth_of(const ModeSystemPtr& system);
-  [[nodiscard]] double probed_growth(const ModeSystemPtr& system);
-  [[nodiscard]] std::optional<double> growth_beside(const ModeSystem& system);
-  [[nodiscard]] double stiffening(const ModeSystem& system, std::size_t contact);
   [[nodiscard]] double few_flights() const;
   void choose_first_step();
   void weigh();
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
-  [[nodiscard]] bool stands(double x) const;
+  [[nodiscard]] bool stands(const std::vector<double>& sizes, const ForcingSeries& forcing, double x) const;
   [[nodiscard]] double expand(double scale);
+  void begin_series(double scale);
+  [[nodiscard]] bool goes_on(const Decision& decision, bool same_forcing) const;
+  [[nodiscard]] bool go_on(const Mode& before);
+  [[nodiscard]] double reach_near(const NearSeries::Made& near, double x);
+  [[nodiscard]] double rest_near(const NearSeries::Made& near, double x);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double rest_of_series(double x);
   [[nodiscard]] double drift_of(const GuardStart& guard, double x) const;
-  [[nodiscard]] FirstFall fall_of(std::size_t slot, double x, double rest);
-  /// Of all guards on [0, x]: the one that falls first, and in which part of the step.
+  [[nodiscard]] FirstFall fall_of(std::size_t slot);
+  /// Of all guards: the one that falls first, and where in the series.
   struct Earliest {
     std::optional<std::size_t> slot;
     double at = 1.0;
     bool lost = false;  // a motion that is no number
   };
-  [[nodiscard]] Earliest earliest_fall(double x);
+  [[nodiscard]] Earliest earliest_fall();
   void warn_of_touch(std::size_t slot, double t);
   void see_unarmed(double x);
   [[nodiscard]] std::string hindrance(double scale) const;
   [[nodiscard]] Step failed(std::string reason);
-  void evaluate_at(double x, Point& point) const;
-  void place_at(double x, Point& point) const;
+  [[nodiscard]] double x_of(double t) const { return (t - motion_.whole.t) / motion_.whole.scale; }
 
   const Model& model_;
   const Structure& structure_;
   Taylor taylor_;
   const double t_end_;
   FlowNorm norm_;
+  FlowGrowth growth_;
   std::size_t degree_ = 0;  // of all polynomials on the last step
-  BoundedCache<std::vector<State>, double> growth_{most_growths};
-  std::vector<State> near_;  // the last states whose growth was found from a series; empty: none
-  double near_growth_ = 0.0;
-  std::vector<double> stiffenings_;  // one a contact; negative: not known yet
   Segment segment_;
-  Series series_;
-  std::vector<ContactSeries> contacts_;
+  PiecedSeries motion_;
+  std::optional<NearSeries> beside_;  // nothing: each event makes the series of the whole structure anew
+  Mode mode_;                         // of the segment
+  bool went_on_ = false;              // the segment begins within motion_
+  double begin_x_ = 0.0;              // of the step in motion_, up to
+  double reach_ = 0.0;                // the end of what it holds,
+  double reach_time_ = 0.0;           // at this time
+  /// What the polynomials of a contact leave out of displacements, in norm_, and how far these go from their origin.
+  struct Reached {
+    double rest = 0.0, x = 0.0;
+  };
+  std::vector<Reached> reached_;
+  /// The first fall of a guard in motion_, once looked for.
+  struct Fall {
+    FirstFall::Kind kind = FirstFall::Kind::none;
+    bool stands = false;  // it was looked for, of this guard, and the guard was positive
+    double at = 0.0;
+  };
+  std::vector<Fall> falls_;
   Arming arming_;
-  std::vector<double> scales_, weights_, sizes_, guard_;
-  double fastest_ = 0.0;        // bound on all rates of the structure, for scaling
+  std::vector<double> scales_, weights_, sizes_, guard_, near_sizes_;
+  Vector near_column_;
+  double greatest_ = 0.0;       // motion, by scales_
   std::size_t polynomial_ = 0;  // greatest degree in the forcing
   int touches_ = 0;
   Point end_;  // of the last step

@@ -1,6 +1,9 @@
 // gauss_rule.hpp: Gauss-Legendre quadrature on [0, 1].
 //
-//   int_0^1 f = sum_i w_i f(x_i), exact for polynomials of degree 23
+//   int_0^1 f = sum_i w_i f(x_i), exact for polynomials of degree 2 count - 1
+//
+// What is left is (count!)^4 / ( (2 count + 1) (2 count)!^3 ) f^(2 count): of powers of motions that turn by half a radian, whose
+// rates are up to 1 rad, 2e-16 with six nodes.
 #pragma once
 
 #include <array>
@@ -10,8 +13,12 @@ namespace signorini {
 
 struct GaussRule {
   static constexpr std::size_t nodes = 12;
+  std::size_t count = nodes;
   std::array<double, nodes> x{}, w{};
 };
 [[nodiscard]] const GaussRule& gauss_rule();
+/// Of six nodes: for stretches on which the motion turns by `short_turn` at most. Unit: rad.
+[[nodiscard]] const GaussRule& short_gauss_rule();
+inline constexpr double short_turn = 0.5;
 
 }  // namespace signorini

@@ -2,18 +2,61 @@
 
 #include <algorithm>
 
+#include "base/wide_lanes.hpp"
 #include "contact/bowl.hpp"
 #include "contact/law.hpp"
 #include "engine/exact/gauss_rule.hpp"
 
 namespace signorini {
+namespace {
+
+constexpr std::size_t block = 16;  // degrees of freedom whose coefficients stay at hand for all times
+
+/// Velocities of up to a block of them at some times; at: the places there, room for a block each; a: coefficients of order 0,
+/// those of the next one `stride` further.
+SIGNORINI_WIDE_LANES void velocities_of_block(const double* a, std::size_t stride, std::size_t degree,
+                                              double scale, const double* at, std::size_t times, double* v) {
+  constexpr std::size_t lanes = 4;
+  for (std::size_t i = 0; i < times * block; ++i) v[i] = 0.0;
+  for (std::size_t k = degree + 1; k >= 1; --k) {
+    const double factor = static_cast<double>(k) / scale;
+    double scaled[block];
+    for (std::size_t j = 0; j < block; ++j) scaled[j] = factor * a[k * stride + j];
+    for (std::size_t i = 0; i < times * block; i += block)
+      for (std::size_t j = 0; j < block; j += lanes)
+        lanes_at<Four>(v + i + j) =
+            lanes_at<Four>(v + i + j) * lanes_at<Four>(at + i + j) + lanes_at<Four>(scaled + j);
+  }
+}
+
+}  // namespace
 
 SeriesWorks::SeriesWorks(const Model& model, const Structure& structure)
     : model_(model),
       structure_(structure),
       damped_(std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; })) {}
 
-void SeriesWorks::velocities_at(const Nodes& x, const Series& series, std::size_t degree) {
+/// Each degree of freedom about its own origin.
+void SeriesWorks::velocities_of_pieces(const Nodes& x, std::size_t count, const PiecedSeries& motion) {
+  const Eigen::MatrixXd& u = motion.whole.u;
+  const auto n = static_cast<std::size_t>(u.rows());
+  std::array<double, block * nodes> at{}, v{};
+  for (std::size_t done = 0; done < n; done += block) {
+    const std::size_t first =
+        n < block ? 0 : std::min(done, n - block);  // the last one overlaps the one before
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < block; ++j) at[i * block + j] = x[i] - motion.origins()[first + j];
+    velocities_of_block(u.data() + first, n, motion.degree(), motion.whole.scale, at.data(), count, v.data());
+    for (std::size_t i = 0; i < count; ++i)
+      std::copy_n(v.data() + i * block, block, velocities_.col(static_cast<Eigen::Index>(i)).data() + first);
+  }
+}
+
+void SeriesWorks::velocities_at(const Nodes& x, std::size_t times, const PiecedSeries& motion) {
+  velocities_.resize(motion.whole.u.rows(), nodes);
+  if (!motion.origins().empty()) return velocities_of_pieces(x, times, motion);
+  const Series& series = motion.whole;
+  const std::size_t degree = motion.degree();
   const auto count = static_cast<Eigen::Index>(degree + 1);
   const Eigen::Index n = series.u.rows();
   if (n < 4) {
@@ -37,17 +80,20 @@ void SeriesWorks::velocities_at(const Nodes& x, const Series& series, std::size_
   }
 }
 
-void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& series,
-                      const std::vector<ContactSeries>& contacts, std::size_t degree, double from, double to,
-                      Works& works) {
-  const GaussRule& rule = gauss_rule();
+void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const PiecedSeries& motion, double growth,
+                      double from, double to, Works& works) {
+  const Series& series = motion.whole;
+  const std::vector<ContactSeries>& contacts = motion.contacts();
+  const std::size_t degree = motion.degree();
   const double h = to - from;
   if (!(h > 0.0)) return;
+  const bool is_short = !motion.origins().empty() && growth * h <= short_turn;
+  const GaussRule& rule = is_short ? short_gauss_rule() : gauss_rule();
   Nodes x{};
-  for (std::size_t i = 0; i < nodes; ++i) x[i] = (from + h * rule.x[i] - series.t) / series.scale;
+  for (std::size_t i = 0; i < rule.count; ++i) x[i] = (from + h * rule.x[i] - series.t) / series.scale;
   const bool loaded = forcing.loaded();
-  if (damped_ || loaded) velocities_at(x, series, degree);
-  for (std::size_t i = 0; i < nodes && (damped_ || loaded); ++i) {
+  if (damped_ || loaded) velocities_at(x, rule.count, motion);
+  for (std::size_t i = 0; i < rule.count && (damped_ || loaded); ++i) {
     const double* v = velocities_.col(static_cast<Eigen::Index>(i)).data();
     const double weight = h * rule.w[i];
     if (loaded) works.loads += weight * forcing.power(from + h * rule.x[i], v);
@@ -79,12 +125,12 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& se
     if (s == 0 && !moved && contact.normal_damping == 0.0) continue;
     slide_rate_.resize(degree + 1);
     if (s != 0) contacts[c].combine(slip_rate(contact, s), slide_rate_.data());
-    for (std::size_t i = 0; i < nodes; ++i) {
+    for (std::size_t i = 0; i < rule.count; ++i) {
       const double weight = h * rule.w[i];
       ContactPath path;
       double T = 0.0;
       if (s != 0 || moved) T = contacts[c].value(ContactSeries::T, x[i]);
-      if (s != 0) path.slip = value_at(slide_rate_.data(), degree, x[i]);
+      if (s != 0) path.slip = value_at(slide_rate_.data(), degree, x[i] - contacts[c].origin());
       if (moved) path.surface = forcing.surface(c, from + h * rule.x[i], 1);
       if (contact.normal_damping != 0.0)
         path.gap = path.gap_rate = contacts[c].value(ContactSeries::vn, x[i]);

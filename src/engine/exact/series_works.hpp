@@ -6,7 +6,7 @@
 #include <array>
 
 #include "engine/exact/gauss_rule.hpp"
-#include "motion/contact_series.hpp"
+#include "engine/exact/pieced_series.hpp"
 #include "motion/powers.hpp"
 
 namespace signorini {
@@ -17,14 +17,14 @@ class SeriesWorks {
 
   static constexpr std::size_t nodes = GaussRule::nodes;
 
-  /// Adds the integrals over [from, to] of the series, whose contacts are given as polynomials.
-  void add(const Mode& mode, const Forcing& forcing, const Series& series,
-           const std::vector<ContactSeries>& contacts, std::size_t degree, double from, double to,
-           Works& works);
+  /// Adds the integrals over [from, to] of the series. growth: of the motion, rad per time at most.
+  void add(const Mode& mode, const Forcing& forcing, const PiecedSeries& motion, double growth, double from,
+           double to, Works& works);
 
  private:
   using Nodes = std::array<double, nodes>;
-  void velocities_at(const Nodes& x, const Series& series, std::size_t degree);
+  void velocities_at(const Nodes& x, std::size_t count, const PiecedSeries& motion);
+  void velocities_of_pieces(const Nodes& x, std::size_t count, const PiecedSeries& motion);
   void add_own(std::size_t c, const Forcing& forcing, const Series& series, const ContactSeries& contact,
                double from, double to, Works& works) const;
   void add_bowl(std::size_t c, const Forcing& forcing, const Series& series, const ContactSeries& path,

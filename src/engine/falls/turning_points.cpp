@@ -24,11 +24,13 @@ double turn_from(const double* a, std::size_t degree, double at, double low, dou
 }  // namespace
 
 void TurningPoints::start(const Decision& decision) {
+  values_.resize(ranges_.size());
   for (std::size_t c = 0; c < decision.after.size(); ++c) {
     const ContactMotion& m = decision.after[c];
     const std::array<double, 4> now{m.N, m.T, m.gap, decision.slides_after[c].ut};
     for (std::size_t i = 0; i < now.size(); ++i) {
       Range& range = ranges_[watched.size() * c + i];
+      values_[watched.size() * c + i] = now[i];
       // Each landing has a peak of its own.
       const bool lands = watched[i] == ContactSeries::N && began_ && decision.before[c].N == 0.0;
       if (lands) range = {now[i], now[i]};
@@ -55,20 +57,37 @@ void TurningPoints::close() {
   std::sort(times_.begin(), times_.end());
 }
 
-void TurningPoints::find(const std::vector<ContactSeries>& contacts, const Series& series, double x_end,
-                         Ends ends) {
+void TurningPoints::find(const std::vector<ContactSeries>& contacts, const Series& series, double x_begin,
+                         double x_end, Ends ends) {
   open();
-  const Samples x = samples_to(x_end);
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (std::size_t f = 0; f < watched.size(); ++f)
-      find_of({contacts[c].of(watched[f]), contacts[c].degree(), series.t, series.scale},
-              watched.size() * c + f, x, ends);
+  double origin = 0.0;
+  Samples x = samples_of(x_begin, x_end);
+  const auto stays_by_rate = [&](std::size_t place, double rate) {
+    if (values_.empty()) return false;
+    const double value = values_[place], change = (1.0 + rounding::of_many) * rate * (x_end - x_begin),
+                 rounding = rounding::of_many * (std::abs(value) + change);
+    const Range& range = ranges_[place];
+    return value + change + rounding < range.greatest && value - change - rounding > range.least;
+  };
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].origin() != origin) {
+      origin = contacts[c].origin();
+      x = samples_of(x_begin - origin, x_end - origin);
+    }
+    const double begin = series.t + origin * series.scale;
+    for (std::size_t f = 0; f < watched.size(); ++f) {
+      const std::size_t place = watched.size() * c + f;
+      if (stays_by_rate(place, contacts[c].rate(watched[f]))) continue;
+      find_of({contacts[c].of(watched[f]), contacts[c].degree(), begin, series.scale}, place, x, ends);
+    }
+  }
+  values_.clear();
   close();
 }
 
 void TurningPoints::find(std::size_t contact, ContactSeries::Field field, const double* a, std::size_t degree,
                          double x_end, double begin, double scale) {
-  find_of({a, degree, begin, scale}, place_of(contact, field), samples_to(x_end), Ends::observed);
+  find_of({a, degree, begin, scale}, place_of(contact, field), samples_of(0.0, x_end), Ends::observed);
 }
 
 std::optional<TurningPoints::Turn> TurningPoints::begins(std::size_t contact, ContactSeries::Field field,
@@ -81,10 +100,10 @@ std::optional<TurningPoints::Turn> TurningPoints::begins(std::size_t contact, Co
   return Turn{2 * place + (above ? 1 : 0), time};
 }
 
-TurningPoints::Samples TurningPoints::samples_to(double x_end) {
+TurningPoints::Samples TurningPoints::samples_of(double x_begin, double x_end) {
   Samples x{};
   for (std::size_t i = 0; i <= turn_samples; ++i)
-    x[i] = x_end * static_cast<double>(i) / static_cast<double>(turn_samples);
+    x[i] = x_begin + (x_end - x_begin) * static_cast<double>(i) / static_cast<double>(turn_samples);
   return x;
 }
 
@@ -118,20 +137,28 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
   record(path, place, at);
 }
 
-/// The sums of the magnitudes of its terms show that it stays within all that it was before.
-bool TurningPoints::stays(const Path& path, const Range& range, double x_end) {
-  double reach = 0.0, power = 1.0;
+/// The sums of the magnitudes of its terms show that it stays within all that it was before: of those of f itself from the
+/// origin, of those of its slope from the middle.
+bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x) {
+  const double x_end = x[turn_samples];
+  double reach = 0.0, slope = 0.0, power = 1.0;
   for (std::size_t k = 1; k <= path.degree; ++k) {
+    slope += static_cast<double>(k) * std::abs(path.a[k]) * power;
     power *= x_end;
     reach += std::abs(path.a[k]) * power;
   }
   const double a = path.a[0], rounding = rounding::of_many * (std::abs(a) + reach);
-  return a + reach + rounding < range.greatest && a - reach - rounding > range.least;
+  const auto within = [&](double value, double change) {
+    return value + change + rounding < range.greatest && value - change - rounding > range.least;
+  };
+  if (within(a, reach)) return true;
+  if (x[0] == 0.0) return false;
+  return within(value_at(path.a, path.degree, 0.5 * (x[0] + x_end)), 0.5 * (x_end - x[0]) * slope);
 }
 
 void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& x, Ends ends) {
   Range& range = ranges_[place];
-  if (stays(path, range, x[turn_samples])) return;
+  if (stays(path, range, x)) return;
   Samples value{};
   value.fill(path.a[path.degree]);
   for (std::size_t k = path.degree; k-- > 0;)

@@ -24,8 +24,8 @@ class TurningPoints {
   /// observed: somebody looks at the values at the ends of a step. At those of its parts nobody does, but where the first
   /// one begins.
   enum class Ends : unsigned char { observed, first_part, part };
-  /// On [0, x_end] of a series.
-  void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_end,
+  /// On [x_begin, x_end] of a series.
+  void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_begin, double x_end,
             Ends ends = Ends::observed);
   /// The same, quantity by quantity: a_0 + a_1 x + ... on [0, x_end], t = begin + scale x. Between open() and close().
   void open();
@@ -69,14 +69,14 @@ class TurningPoints {
     const auto place = std::find(watched.begin(), watched.end(), field) - watched.begin();
     return watched.size() * contact + static_cast<std::size_t>(place);
   }
-  [[nodiscard]] static Samples samples_to(double x_end);
+  [[nodiscard]] static Samples samples_of(double x_begin, double x_end);
   /// A polynomial on a step, t = begin + scale x.
   struct Path {
     const double* a;
     std::size_t degree;
     double begin, scale;
   };
-  [[nodiscard]] static bool stays(const Path& path, const Range& range, double x_end);
+  [[nodiscard]] static bool stays(const Path& path, const Range& range, const Samples& x);
   /// place: of the range.
   void find_of(const Path& path, std::size_t place, const Samples& x, Ends ends);
   void find_beside(std::size_t end, const Path& path, std::size_t place, const Samples& x,
@@ -84,7 +84,8 @@ class TurningPoints {
   /// A turn, if it exceeds all before.
   void record(const Path& path, std::size_t place, double at);
 
-  std::vector<Range> ranges_;  // so far
+  std::vector<Range> ranges_;   // so far
+  std::vector<double> values_;  // at the last instant; empty: the motion has gone on
   std::vector<Turn> turns_;
   std::vector<double> times_;
   bool began_ = false;

@@ -48,7 +48,7 @@ void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& 
     clock.t = begin + done;
     clock.scale = proof.unit();
     const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
-    turning.find(proof.series(point), clock, step / proof.unit(), ends);
+    turning.find(proof.series(point), clock, 0.0, step / proof.unit(), ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
     go(step);
   }

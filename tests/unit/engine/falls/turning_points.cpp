@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace signorini;
 
@@ -33,7 +34,7 @@ struct OneForce {
     turns.start(decision);
   }
   const std::vector<double>& times() {
-    turns.find(contacts, series, 1.0);
+    turns.find(contacts, series, 0.0, 1.0);
     return turns.times();
   }
 };
@@ -77,14 +78,14 @@ TEST_CASE("a peak beside an end of a step is found, though all samples go one wa
 
 TEST_CASE("a part of a step that begins at a peak has it, for nobody looks there") {
   OneForce rising({0.0, 1.0});
-  rising.turns.find(rising.contacts, rising.series, 1.0, TurningPoints::Ends::part);
+  rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, TurningPoints::Ends::part);
   CHECK(rising.turns.times().empty());
   for (const double slope : {-1e-3, 0.0, 1e-3}) {  // the peak was a little before, or is a little after
     CAPTURE(slope);
     OneForce peak({0.0, slope, -1.0});
     peak.series.forces(0, 0) = 1.0;
     peak.contacts[0].fill(Contact{}, 0, peak.series, 2);
-    peak.turns.find(peak.contacts, peak.series, 1.0, TurningPoints::Ends::part);
+    peak.turns.find(peak.contacts, peak.series, 0.0, 1.0, TurningPoints::Ends::part);
     REQUIRE(peak.turns.times().size() == 1);
     CHECK(peak.turns.times()[0] == doctest::Approx(1.0 + std::max(0.0, slope)).epsilon(1e-12));
   }
@@ -113,7 +114,7 @@ TEST_CASE("a peak between two parts of a step is the beginning of the second, an
   for (const double sign : {1.0, -1.0}) {
     CAPTURE(sign);
     OneForce rising({0.0, sign});
-    rising.turns.find(rising.contacts, rising.series, 1.0, TurningPoints::Ends::first_part);
+    rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, TurningPoints::Ends::first_part);
     CHECK(rising.turns.times().empty());
     TurningPoints& turns = rising.turns;
     CHECK_FALSE(turns.begins(0, ContactSeries::N, sign, 0.5 * sign, 3.0));  // it rises on
@@ -122,6 +123,49 @@ TEST_CASE("a peak between two parts of a step is the beginning of the second, an
     CHECK(peak->time == 3.0);
     CHECK_FALSE(turns.begins(0, ContactSeries::N, sign, -0.5 * sign, 5.0));        // as high as before
     CHECK_FALSE(turns.begins(0, ContactSeries::N, 0.5 * sign, -0.5 * sign, 5.0));  // lower
+  }
+}
+
+TEST_CASE("a step that is a part of its series, about an origin of its own, turns where the series does") {
+  const std::vector<double> N{-3.0 * 0.37 * 0.37, 6.0 * 0.37, -3.0};  // -3 (x - 0.37)^2
+  for (const double origin : {0.0, 0.2}) {
+    CAPTURE(origin);
+    const double turn = 1.0 + 2.0 * (origin + 0.37);
+    OneForce before(N), over(N), after(N);
+    for (OneForce* peak : {&before, &over, &after}) peak->contacts[0].set_origin(origin);
+    before.turns.find(before.contacts, before.series, origin, origin + 0.3);
+    CHECK(before.turns.times().empty());
+    over.turns.find(over.contacts, over.series, origin + 0.3, origin + 0.9);
+    REQUIRE(over.turns.times().size() == 1);
+    CHECK(over.turns.times()[0] == doctest::Approx(turn).epsilon(1e-12));
+    after.turns.find(after.contacts, after.series, origin + 0.5, origin + 0.9);
+    CHECK(std::none_of(after.turns.times().begin(), after.turns.times().end(),
+                       [&](double t) { return std::abs(t - turn) < 0.1; }));
+  }
+}
+
+TEST_CASE("what its rate keeps within all that was before is not looked at, and what leaves it is found") {
+  // From 0 up to 2 at x = 1; then, after an instant, a bow of height `rise` over the value 1 that it begins with.
+  for (const double rise : {0.5, 0.99, 1.3}) {
+    CAPTURE(rise);
+    OneForce path({0.0, 2.0, 0.0});
+    CHECK(path.times().empty());
+    Decision decision;
+    ContactMotion m;
+    m.N = 1.0;
+    decision.after = decision.before = {m};
+    decision.slides_after.resize(1);
+    path.turns.start(decision);
+    path.series.forces << 1.0, 4.0 * rise, -4.0 * rise, 0.0, 0.0, 0.0;
+    path.contacts[0].fill(Contact{}, 0, path.series, 2);
+    path.contacts[0].bound_rates(1.0);
+    path.turns.find(path.contacts, path.series, 0.0, 1.0);
+    if (rise < 1.0) {
+      CHECK(path.turns.times().empty());
+    } else {
+      REQUIRE(path.turns.times().size() == 1);
+      CHECK(path.turns.times()[0] == doctest::Approx(2.0));
+    }
   }
 }
 

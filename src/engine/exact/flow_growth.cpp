@@ -1,0 +1,97 @@
+#include "engine/exact/flow_growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "contact/friction.hpp"
+#include "model/decay.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int probe_levels = 20;
+constexpr double most_beside =
+    0.1;  // of the square of a growth: steps are five in a hundred shorter at most; chosen
+
+}  // namespace
+
+FlowGrowth::FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, double t_end)
+    : model_(model),
+      taylor_(taylor),
+      norm_(norm),
+      fastest_(std::max(
+          {model.omega_max, 1.0 / t_end,
+           diagonal_decay(model.mass.diagonal(), model.damping.diagonal(), model.stiffness.diagonal())})) {}
+
+double FlowGrowth::of(const ModeSystemPtr& system) {
+  std::vector<State> states = states_of(system->mode());
+  if (const double* known = known_.find(states)) return *known;
+  if (const auto near = beside(*system)) return *near;
+  nearest_ = probed(system);
+  known_.insert(states, nearest_, states.size() * sizeof(State));
+  near_ = std::move(states);
+  return nearest_;
+}
+
+/// What a contact adds at most to the square of the growth, by closing, sticking or slipping.
+double FlowGrowth::stiffening(const ModeSystem& system, std::size_t c) {
+  double& known = stiffenings_[c];
+  if (known >= 0.0) return known;
+  const Contact& contact = model_.contacts[c];
+  Vector x(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
+  const auto effect = [&](const Combination& form) {
+    x.setZero();
+    form.add_to(x, 1.0);
+    system.solve(x.data(), work.data());
+    return norm_.of(x.head(model_.size()));
+  };
+  const double n = effect(contact.normal), t = effect(contact.tangent);
+  const double kn = contact.normal_stiffness, kt = contact.tangential_stiffness.value_or(0.0);
+  const double friction = std::max(static_friction(contact), kinetic_friction(contact));
+  return known = kn * (n + friction * t) * norm_.normal(c) + kt * t * norm_.tangent(c);
+}
+
+/// The growth of states that differ from the nearest known ones in few soft contacts. Nothing: in more than that.
+std::optional<double> FlowGrowth::beside(const ModeSystem& system) {
+  if (near_.empty() || !system.factorised().by_mass) return std::nullopt;
+  stiffenings_.resize(near_.size(), -1.0);
+  const double square = nearest_ * nearest_;
+  double more = 0.0;
+  for (std::size_t c = 0; c < near_.size(); ++c) {
+    if (system.mode()[c].state == near_[c]) continue;
+    const Contact& contact = model_.contacts[c];
+    // Rows on accelerations, dashpots and forces that are no product of these stiffnesses change the growth otherwise.
+    if (contact.normal_damping > 0.0 || contact.own || contact.takes_impulses() || contact.sticks_rigidly() ||
+        contact.friction.varies() || contact.bowl)
+      return std::nullopt;
+    more += margin * margin * stiffening(system, c);
+    if (!(more <= most_beside * square)) return std::nullopt;
+  }
+  return std::sqrt(square + more);
+}
+
+/// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
+double FlowGrowth::probed(const ModeSystemPtr& system) {
+  const Eigen::Index n = model_.size();
+  Vector u(n), v(n);
+  std::mt19937_64 random(1);  // the same motion in every run
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Dof& dof = model_.dofs[static_cast<std::size_t>(i)];
+    const double scale = 1.0 / (dof.rotation ? model_.scales.rotation : model_.scales.displacement);
+    u[i] = uniform(random) / scale;
+    v[i] = fastest_ * uniform(random) / scale;
+  }
+  Series series;
+  taylor_.expand(system, Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
+  double greatest = 0.0;
+  for (Eigen::Index k = probe_levels / 2; k + 2 <= probe_levels - 2; ++k) {
+    const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
+    if (a > 0.0)
+      greatest = std::max(greatest, fastest_ * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
+  }
+  return margin * greatest;
+}
+
+}  // namespace signorini

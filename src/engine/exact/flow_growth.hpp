@@ -1,0 +1,44 @@
+// flow_growth.hpp: how fast the motion of a contact state grows or swings.
+//
+//   |x_(k+1)| <= W s/(k+1) |x_k|      of a Taylor series of scale s, k large, in the norm of flow_norm.hpp
+//
+// W of a state is found from twenty levels of a series. Of large structures most states differ from one that is known in
+// few soft contacts; in that norm these add at most
+//   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
+// and that is taken as long as it adds little.
+#pragma once
+
+#include "engine/exact/flow_norm.hpp"
+#include "motion/taylor.hpp"
+
+namespace signorini {
+
+/// Growths of modes are kept longer than their systems: one takes a series to find and 8 bytes to keep.
+inline constexpr CacheBounds most_growths{16384, std::size_t{1} << 20};
+
+class FlowGrowth {
+ public:
+  static constexpr double margin = 1.25;  ///< on a growth that is computed from twenty powers of the flow
+
+  /// All but t_end must outlive it.
+  FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, double t_end);
+
+  /// W, with its margin. Unit: 1/time.
+  [[nodiscard]] double of(const ModeSystemPtr& system);
+
+ private:
+  [[nodiscard]] double probed(const ModeSystemPtr& system);
+  [[nodiscard]] std::optional<double> beside(const ModeSystem& system);
+  [[nodiscard]] double stiffening(const ModeSystem& system, std::size_t contact);
+
+  const Model& model_;
+  Taylor& taylor_;
+  FlowNorm& norm_;
+  const double fastest_;  // bound on all rates of the structure, for scaling
+  BoundedCache<std::vector<State>, double> known_{most_growths};
+  std::vector<State> near_;          // the last states whose growth was found from a series; empty: none
+  double nearest_ = 0.0;             // its
+  std::vector<double> stiffenings_;  // one a contact; negative: not known yet
+};
+
+}  // namespace signorini

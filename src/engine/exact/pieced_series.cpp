@@ -1,0 +1,156 @@
+#include "engine/exact/pieced_series.hpp"
+
+#include <algorithm>
+
+#include "base/wide_lanes.hpp"
+
+namespace signorini {
+namespace {
+
+/// sum := sum x + factor a, by entries.
+SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, double factor,
+                                 std::size_t n) {
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4)
+    lanes_at<Four>(sum + i) =
+        lanes_at<Four>(sum + i) * lanes_at<Four>(x + i) + factor * lanes_at<Four>(a + i);
+  for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
+}
+
+void copy_shifted(const Eigen::MatrixXd& from, Eigen::Index row, std::size_t count, double x, double* out) {
+  for (std::size_t k = 0; k < count; ++k) out[k] = from(row, static_cast<Eigen::Index>(k));
+  if (x != 0.0) shift(out, count - 1, x);
+}
+
+}  // namespace
+
+PiecedSeries::PiecedSeries(const Model& model) : model_(model), contacts_(model.contacts.size()) {}
+
+void PiecedSeries::taken(std::size_t degree) {
+  degree_ = degree;
+  origins_.clear();
+  force_origins_.clear();
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    contacts_[c].fill(model_.contacts[c], c, whole, degree_);
+    contacts_[c].set_origin(0.0);
+  }
+}
+
+void PiecedSeries::take_over(const NearSeries::Made& near, double x, double reach) {
+  origins_.resize(static_cast<std::size_t>(whole.u.rows()), 0.0);
+  force_origins_.resize(static_cast<std::size_t>(whole.forces.rows()), 0.0);
+  const std::vector<int>& dofs = near.where->dofs;
+  for (Eigen::Index k = 0; k < near.series->u.cols(); ++k) {
+    const double* from = near.series->u.col(k).data();
+    double* to = whole.u.col(k).data();
+    for (std::size_t i = 0; i < dofs.size(); ++i) to[dofs[i]] = from[i];
+  }
+  for (const int dof : dofs) origins_[static_cast<std::size_t>(dof)] = x;
+  const std::size_t count = whole.forcing.count, known = near.series->forcing.count;
+  for (std::size_t i = 0; i < near.where->contacts.size(); ++i) {
+    const std::size_t c = near.where->contacts[i];
+    for (const std::size_t side : {0U, 1U}) {
+      const std::size_t slot = normal_slot(c) + side;
+      whole.forces.row(static_cast<Eigen::Index>(slot)).head(near.series->forces.cols()) =
+          near.series->forces.row(static_cast<Eigen::Index>(normal_slot(i) + side));
+      force_origins_[slot] = x;
+    }
+    std::copy_n(near.series->forcing.pressing.data() + i * known, known,
+                whole.forcing.pressing.data() + c * count);
+    std::copy_n(near.series->forcing.surface.data() + i * known, known,
+                whole.forcing.surface.data() + c * count);
+    contacts_[c].fill(model_.contacts[c], c, whole, degree_);
+    contacts_[c].set_origin(x);
+    contacts_[c].bound_rates(reach);
+  }
+}
+
+void PiecedSeries::displacement(int dof, double x, double* out) const {
+  copy_shifted(whole.u, dof, static_cast<std::size_t>(whole.levels) + 3,
+               x - origin_of(static_cast<std::size_t>(dof)), out);
+}
+
+void PiecedSeries::force(std::size_t slot, double x, double* out) const {
+  copy_shifted(whole.forces, static_cast<Eigen::Index>(slot), static_cast<std::size_t>(whole.levels) + 1,
+               x - (force_origins_.empty() ? 0.0 : force_origins_[slot]), out);
+}
+
+void PiecedSeries::pieces_at(double x, Point& point) const {
+  const std::size_t n = origins_.size(), forces = force_origins_.size();
+  of_dofs_.resize(n);
+  of_forces_.resize(forces);
+  for (std::size_t i = 0; i < n; ++i) of_dofs_[i] = x - origins_[i];
+  for (std::size_t i = 0; i < forces; ++i) of_forces_[i] = x - force_origins_[i];
+  for (std::size_t k = degree_ + 1; k-- > 0;) {
+    const double* u = whole.u.data() + k * n;
+    horner(point.u.data(), of_dofs_.data(), u, 1.0, n);
+    horner(point.v.data(), of_dofs_.data(), u + n, static_cast<double>(k + 1) / whole.scale, n);
+    horner(point.forces.data(), of_forces_.data(), whole.forces.data() + k * forces, 1.0, forces);
+  }
+}
+
+void PiecedSeries::place_at(double x, Point& point) const {
+  const auto n = static_cast<std::size_t>(whole.u.rows());
+  point.u.setZero(whole.u.rows());
+  point.v.setZero(whole.u.rows());
+  point.forces.setZero(whole.forces.rows());
+  if (!origins_.empty()) return pieces_at(x, point);
+  double *u = point.u.data(), *v = point.v.data(), *f = point.forces.data();
+  const auto forces = static_cast<std::size_t>(whole.forces.rows());
+  for (std::size_t k = degree_ + 1; k-- > 0;) {
+    const double* c0 = whole.u.data() + k * n;
+    const double* c1 = c0 + n;
+    const double first = static_cast<double>(k + 1) / whole.scale;
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] = u[i] * x + c0[i];
+      v[i] = v[i] * x + first * c1[i];
+    }
+    const double* g = whole.forces.data() + k * forces;
+    for (std::size_t i = 0; i < forces; ++i) f[i] = f[i] * x + g[i];
+  }
+}
+
+void PiecedSeries::evaluate_at(double x, Point& point) const {
+  place_at(x, point);
+  const auto n = static_cast<std::size_t>(whole.u.rows());
+  point.a.setZero(whole.u.rows());
+  double* a = point.a.data();
+  for (std::size_t k = degree_ + 1; k-- > 0;) {
+    const double* c2 = whole.u.data() + (k + 2) * n;
+    const double first = static_cast<double>(k + 1) / whole.scale;
+    const double second = first * static_cast<double>(k + 2) / whole.scale;
+    if (!origins_.empty()) {
+      horner(a, of_dofs_.data(), c2, second, n);
+      continue;
+    }
+    for (std::size_t i = 0; i < n; ++i) a[i] = a[i] * x + second * c2[i];
+  }
+}
+
+void PiecedSeries::place_at(double x, std::size_t contact, Point& point) const {
+  point.u.resize(whole.u.rows());
+  point.v.resize(whole.u.rows());
+  point.forces.resize(whole.forces.rows());
+  const Contact& c = model_.contacts[contact];
+  for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
+    for (const auto& term : form->terms) {
+      const auto i = static_cast<Eigen::Index>(term.first);
+      const double at = x - origin_of(static_cast<std::size_t>(term.first));
+      double u = 0.0, v = 0.0;
+      for (auto k = static_cast<Eigen::Index>(degree_) + 1; k-- > 0;) {
+        u = u * at + whole.u(i, k);
+        v = v * at + static_cast<double>(k + 1) / whole.scale * whole.u(i, k + 1);
+      }
+      point.u[i] = u;
+      point.v[i] = v;
+    }
+  for (const std::size_t slot : {normal_slot(contact), tangent_slot(contact)}) {
+    const auto i = static_cast<Eigen::Index>(slot);
+    const double at = x - (force_origins_.empty() ? 0.0 : force_origins_[slot]);
+    double f = 0.0;
+    for (auto k = static_cast<Eigen::Index>(degree_) + 1; k-- > 0;) f = f * at + whole.forces(i, k);
+    point.forces[i] = f;
+  }
+}
+
+}  // namespace signorini

@@ -116,10 +116,15 @@ void ExactEngine::choose_first_step() {
   const double flights = few_flights();
   paced_ = !(flights > 0.0) && pace_ > 0.0;
   next_ = flights > 0.0 ? longer * flights
-          : paced_ && beside_
-              ? std::clamp(events_a_series * pace_, shortest_turn / growth_now_, longest_turn / growth_now_)
-          : paced_ ? std::max(times_pace * pace_, shortest_turn / growth_now_)
-                   : std::numeric_limits<double>::infinity();
+          : paced_      ? paced_length()
+                        : std::numeric_limits<double>::infinity();
+}
+
+double ExactEngine::paced_length() const {
+  const double shortest = shortest_turn / growth_now_, longest = longest_turn / growth_now_;
+  if (beside_ && beside_->possible() && pace_ < longest)
+    return std::clamp(events_a_series * pace_, shortest, longest);
+  return std::max(times_pace * pace_, shortest);
 }
 
 /// A few times the shortest flight that lies ahead, 0: none does. What rounding makes of a

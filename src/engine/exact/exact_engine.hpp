@@ -59,6 +59,7 @@ class ExactEngine final : public Stepper {
  private:
   [[nodiscard]] double few_flights() const;
   void choose_first_step();
+  [[nodiscard]] double paced_length() const;
   void weigh();
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;

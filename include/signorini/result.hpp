@@ -270,7 +270,7 @@ struct Report {
   std::vector<OutputExtremes> response;        ///< one an output
   std::map<std::string, long> events_by_type;
   long undecided = 0;  ///< decisions that rounding left open: the states that fail least were taken
-  /// When the first of them took states that fail by more than their rounding; empty: never.
+  /// When rounding first left states open on which what follows hangs; empty: never.
   std::optional<double> forgiven_at;
   Testimony witness;
   std::vector<std::string> warnings;  ///< one sentence each

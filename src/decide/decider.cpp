@@ -525,6 +525,15 @@ bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardSta
          std::abs(course.jets[c].motion[0].T) > guard.noise;
 }
 
+/// Does it stop at its static limit, to rounding, where kinetic friction is less? Beyond it slips at once, and not by some
+/// roundings. At a start the way of the loads led to the limit, not beyond it.
+bool Decider::meets_static_limit(const Course& course, std::size_t c, const GuardStart& guard) const {
+  const bool asked = course.decision.visited[c] || course.found.decided[c];
+  return model_.contacts[c].friction.drops() && is_friction_limit(guard.kind) && asked &&
+         !course.instant.start && guard.at_zero && guard.leading > 0 &&
+         std::abs(course.jets[c].motion[0].T) > guard.noise;
+}
+
 /// All its guards are positive at order 0.
 bool Decider::clearly_holds(const Course& course, std::size_t c) {
   return course.open && !std::binary_search(course.open->begin(), course.open->end(), c);
@@ -571,10 +580,13 @@ void Decider::finish(Course& course) const {
         if (start.at_zero && start.leading < 0)
           for (std::size_t k = 0; k < start.loose.size(); ++k)
             start.loose[k] = course.instant.blur * guard.form.magnitude(jet.noise[k + 2]);
+        const bool rests = rests_at_limit(course, c, start);
+        d.undecided = d.undecided || rests;
+        if (rests || (known.zeros == 0 && meets_static_limit(course, c, start)))
+          d.at_limit.push_back({c, guard.form.value(now), start.noise});
         // What the decision took for zero is rounding to an engine, too.
         if (start.at_zero && (start.leading < 0 || base != nullptr))
           start.noise = std::max(start.noise, std::abs(guard.form.value(now)));
-        d.undecided = d.undecided || rests_at_limit(course, c, start);
       }
       d.guards.push_back(std::move(start));
     }

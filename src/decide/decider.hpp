@@ -69,6 +69,7 @@ class Decider {
   [[nodiscard]] Refusal leave_circle(Course& course);
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
   [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);
+  [[nodiscard]] bool meets_static_limit(const Course& course, std::size_t c, const GuardStart& guard) const;
   [[nodiscard]] static bool clearly_holds(const Course& course, std::size_t c);
   void finish(Course& course) const;
   void note_left(const Course& course, Decision& decision) const;

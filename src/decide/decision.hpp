@@ -37,6 +37,13 @@ struct Crossing {
   double noise = 0.0;                                       ///< rounding of its value
 };
 
+/// A contact that sticks from an instant on, where rounding cannot tell whether it does.
+struct AtLimit {
+  std::size_t contact = 0;
+  double below = 0.0;  ///< the limit of friction less |T|, as computed; force
+  double noise = 0.0;  ///< rounding of that
+};
+
 struct Decision {
   bool consistent = false;
   Refusal refusal;  ///< why not
@@ -60,6 +67,8 @@ struct Decision {
   /// Rounding could not tell: the states that fail least were taken, or rest goes on at the limit of
   /// friction.
   bool undecided = false;
+  /// Those that rest there, or whose friction drops to the kinetic one if they do not.
+  std::vector<AtLimit> at_limit;
   /// A flight faster than capture_velocity was taken as rest, since the clock does not resolve it, or as landed, since
   /// it is lower than the rounding of its data.
   bool unresolved = false;

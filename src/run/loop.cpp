@@ -15,7 +15,8 @@ namespace {
 
 // A stretch h in which nothing moves: engines divide by h^2, which must not overflow. In any unit of time.
 constexpr double shortest_stretch = 1e-100;
-constexpr int most_gains = 5;  // warnings about impacts that gain energy, and about contacts left at once
+// Warnings about impacts that gain energy, about contacts left at once, and about rest at a limit of friction.
+constexpr int most_gains = 5;
 
 }  // namespace
 
@@ -33,7 +34,7 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
                engine.whole_jets || observer_ != nullptr),
       engine_(engine.make({model, structure_, systems_, spec, tolerance_, method.max_order,
                            observer_ ? observer_->modal() : nullptr, !observer_ || observer_->asks_peaks(),
-                           observer_ == nullptr})),
+                           observer_ == nullptr, observer_ ? observer_->step_seed() : 0})),
       truth_(meddler_ ? std::make_unique<Model>(model) : nullptr),
       witness_(corrected(), witnessed_engine(spec, tolerance_, method.flow, engine_->knows_low_flights()),
                recorder),
@@ -93,6 +94,7 @@ bool Loop::start() {
   now.start = true;
   now.knows_low_flights = engine_->knows_low_flights();
   now.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
+  now.fired = fell_at_start(model_, model_.u0, model_.v0, now.mode);
   const Mode guessed = now.mode;
   decision_ = decider_.decide(std::move(now), forcing_, forcing_);
   if (!decision_.consistent) return refuse(decision_.refusal);
@@ -341,7 +343,8 @@ Point Loop::decided_point() const {
 /// changed: contacts whose states or velocities have; absent: perhaps all.
 void Loop::take_decision(const std::optional<std::vector<std::size_t>>& changed) {
   if (decision_.undecided) ++report_.undecided;
-  if ((decision_.forgiven > 0.0 || decision_.unresolved) && !report_.forgiven_at) report_.forgiven_at = t_;
+  const bool open = decision_.forgiven > 0.0 || decision_.unresolved || !decision_.at_limit.empty();
+  if (open && !report_.forgiven_at) report_.forgiven_at = t_;
   point_ = decided_point();
   auditor_.observe(forcing_, t_, decision_.mode, point_);
   last_energy_ = auditor_.energy(t_, decision_.mode, point_);
@@ -382,6 +385,9 @@ void Loop::warn_of_decision() {
       report_.warnings.push_back(std::move(*told));
       shares_ = true;
     }
+  for (const AtLimit& found : decision_.at_limit)
+    if (++at_limit_ <= most_gains)
+      report_.warnings.push_back(rest_at_limit(model_, found, said_time(model_, t_)));
   if (decision_.impact_gains && ++gains_ <= most_gains)
     report_.warnings.push_back(
         impact_gain(said_time(model_, t_), said(model_, -decision_.impact_loss, unit::energy)));

@@ -125,7 +125,7 @@ class Loop {
   LoadChanges changes_;
   LoadChanges::Change change_;  // of the loads, at t_
   bool shares_ = false;         // it was said
-  int gains_ = 0, releases_ = 0;
+  int gains_ = 0, releases_ = 0, at_limit_ = 0;
   bool begun_ = false, going_ = false;
   double stretch_end_ = 0.0;  // of the stretch that is under way
   bool under_way_ = false;

@@ -75,6 +75,17 @@ std::string left_at_once(const Model& model, std::size_t c, double t) {
       model.contacts[c].name, t);
 }
 
+std::string rest_at_limit(const Model& model, const AtLimit& found, double t) {
+  const Contact& c = model.contacts[found.contact];
+  return fmt::format(
+      "contact '{}' sticks at its limit of friction from t = {:.9g} on: the force that it needs is {:.2g} {} "
+      "{} the limit, and rounding may hide {:.2g} {}, so that no double tells whether it slips{}; it counts "
+      "as sticking",
+      c.name, t, said(model, std::abs(found.below), unit::force), model.units.force,
+      found.below < 0.0 ? "above" : "below", said(model, found.noise, unit::force), model.units.force,
+      c.friction.drops() ? ", and there friction drops to the kinetic one" : "");
+}
+
 std::optional<std::string> energy_lost(const Audit& audit, const Method& method, double rounding,
                                        bool other) {
   const double off = audit.energy.value;

@@ -17,6 +17,9 @@ namespace signorini {
 /// Parts without mass have left contact c at once. t: in the scene's unit.
 [[nodiscard]] std::string left_at_once(const Model& model, std::size_t c, double t);
 
+/// Rounding cannot tell whether a contact sticks. t: in the scene's unit.
+[[nodiscard]] std::string rest_at_limit(const Model& model, const AtLimit& found, double t);
+
 /// Contacts hold one motion together, if some do. t: in the scene's unit.
 [[nodiscard]] std::optional<std::string> shared_motion(const Model& model, const Decision& decision,
                                                        double t);

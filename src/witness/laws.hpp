@@ -140,6 +140,7 @@ class Finder {
   [[nodiscard]] Sight touching(std::size_t k, const WitnessedSide& side) const;
   void row_of(const RecordedEvent& event);
   [[nodiscard]] bool is_released(std::size_t k) const;
+  [[nodiscard]] double left_terms(const Contact& c) const;
   /// A contact in its old state, and by how much rounding of accelerations moves its forces.
   struct Old {
     Sight m;

@@ -39,6 +39,20 @@ void Finder::releases() {
   }
 }
 
+/// The terms of the gap and slip of a contact that was left. At an event a structure may pass its place at rest: its
+/// displacements are the difference of a motion and itself there, known to the rounding of what it went through, and gaps
+/// that this hides are closed, which turns and shifts the body. So none counts as less than the scene's own.
+double Finder::left_terms(const Contact& c) const {
+  double sum = 0.0;
+  for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
+    for (const auto& [dof, factor] : form->terms) {
+      const bool turns = model_.dofs[static_cast<std::size_t>(dof)].rotation;
+      const double own = turns ? model_.scales.rotation : model_.scales.displacement;
+      sum += std::abs(factor) * std::max(own, record_.before.u_reach[turns]);
+    }
+  return sum;
+}
+
 /// A run that goes on from another has its contacts where that one left them.
 void Finder::continuation() {
   if (!record_.start || !record_.continues) return;
@@ -46,7 +60,7 @@ void Finder::continuation() {
     const Contact& c = model_.contacts[k];
     const SavedState::Left& left = model_.continues[k];
     const Sight m = see(c, k, record_.before);
-    const double limit = rounding::of_elimination * m.place;
+    const double limit = rounding::of_elimination * (m.place + left_terms(c));
     const auto check = [&](double was, double is) {
       if (const double off = std::abs(was - is); off > limit)
         add(static_cast<int>(k), "continuation", off, limit, seen::length, true);

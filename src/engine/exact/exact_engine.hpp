@@ -12,7 +12,10 @@
 // that were found elsewhere stand (motion/near_series.hpp), and a series is as long as some events.
 #pragma once
 
+#include <cstdint>
 #include <numbers>
+#include <optional>
+#include <random>
 
 #include "engine/exact/flow_growth.hpp"
 #include "engine/exact/pieced_series.hpp"
@@ -28,11 +31,17 @@ namespace signorini {
 /// Terms of a series at most.
 inline constexpr int most_levels = 30;
 
+/// What its steps are used for.
+struct SeriesUse {
+  bool pieces = false;  ///< the motion may be put together from pieces, since nobody asks for expansion()
+  std::uint64_t step_seed = 0;  ///< not 0: steps are shorter by chance (share_of_step)
+};
+
 class ExactEngine final : public Stepper {
  public:
-  /// All but t_end must outlive it. pieces: the motion may be put together from pieces, since nobody asks for expansion().
+  /// All but t_end must outlive it.
   ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-              bool pieces = false);
+              const SeriesUse& use = {});
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -60,6 +69,7 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] double few_flights() const;
   void choose_first_step();
   [[nodiscard]] double paced_length() const;
+  [[nodiscard]] double share_of_step();
   void weigh();
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
@@ -120,7 +130,8 @@ class ExactEngine final : public Stepper {
   double greatest_ = 0.0;       // motion, by scales_
   std::size_t polynomial_ = 0;  // greatest degree in the forcing
   int touches_ = 0;
-  Point end_;  // of the last step
+  std::optional<std::mt19937_64> chance_;  // of the lengths of steps
+  Point end_;                              // of the last step
   double t_ = 0.0, growth_now_ = 0.0;
   double next_ = 0.0;   // length of the next step of the segment at most
   double begun_ = 0.0;  // the segment

@@ -1,0 +1,81 @@
+// Runs that end at the time of one of their events, and others that go on from there: together they have the events of one
+// run, each once.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <map>
+
+#include "behaviour/halves.hpp"
+#include "own_folder.hpp"
+#include "result/run_directory.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::tests::going_on_at_events {
+namespace {
+
+/// How many events each contact has.
+using EventCount = std::map<int, std::size_t>;
+
+void count_events(const std::vector<Event>& events, EventCount& count) {
+  for (const Event& e : events)
+    if (e.type != EventType::time) ++count[e.contact];
+}
+
+/// Splits the run to t_end at each of its events.
+void check_splits_at_events(const char* name, const char* engine, double t_end) {
+  CAPTURE(name);
+  CAPTURE(engine);
+  const std::string file = fmt::format(SIGNORINI_MODELS "/{}.toml", name);
+  Scene scene = read_scene(file, {{"run.engine", engine}});
+  scene.run.t_end = t_end;
+  const Result whole = simulate(build_model(scene), scene.run);
+  EventCount expected;
+  count_events(whole.events, expected);
+  REQUIRE(!expected.empty());
+  for (const Event& event : whole.events) {
+    const double t = event.t;
+    CAPTURE(t);
+    const OwnFolder own;
+    const auto folder = own.path() / "first";
+    Scene first = read_scene(file, {{"run.engine", engine}});
+    first.run.t_end = t;
+    first.run.output_dt.reset();
+    first.run.output_times.reset();
+    first.run.frames.clear();
+    const Model model = build_model(first);
+    halves::Kept kept(folder, first, model);
+    kept.report = simulate(model, first.run, kept);
+    kept.finish();
+    Scene second = read_scene(
+        file, {{"run.engine", engine}, {"run.initial", fmt::format("{{ run = \"{}\" }}", folder.string())}});
+    halves::shift(second, t);
+    second.run.t_end = t_end - t;
+    second.run.output_dt.reset();
+    second.run.output_times.reset();
+    second.run.frames.clear();
+    const Result rest = simulate(build_model(second), second.run);
+    INFO(rest.report.outcome.reason);
+    CHECK(rest.report.outcome.kind == Outcome::Kind::done);
+    CHECK(rest.report.witness.violations.empty());
+    EventCount found;
+    count_events(kept.events, found);
+    count_events(rest.events, found);
+    CHECK(found == expected);
+  }
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/rounding/going_on_at_events");
+
+TEST_CASE("a block that rocks goes on from each of its events") {
+  check_splits_at_events("rocking", "exact", 0.98);
+}
+
+TEST_CASE("a frame that lifts off and lands has each event once") {
+  for (const char* engine : {"ida", "exact"}) check_splits_at_events("lift-off", engine, 1.5);
+}
+
+TEST_SUITE_END();
+}  // namespace signorini::tests::going_on_at_events

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [wheel] [calculix] [install] [cluster];
+# What is too long to run at every change. deep.sh [tests] [sanitize] [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [wheel] [calculix] [install] [cluster];
 # without arguments all of them.
+#   tests    the suites deep/...: longer studies of claims that .ci/run tests with less, and a test that waits for a minute
+#   sanitize all tests but slow and deep ones under ASan and UBSan, their own code and what .ci/run leaves out of it included
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
 #   threads  simulations side by side under ThreadSanitizer
@@ -21,12 +23,24 @@ cd "$root"
 source scripts/configure.sh
 exec </dev/null
 
+deep_tests() {
+  configure ci
+  cmake --build build/ci -j "$(nproc)"
+  ctest --test-dir build/ci --output-on-failure --no-tests=error -L '^deep' -j 2
+}
+
+sanitize() {
+  configure sanitize-all
+  cmake --build build/sanitize-all -j "$(nproc)"
+  ctest --test-dir build/sanitize-all --output-on-failure --no-tests=error -LE '^(slow|deep)' -j 2
+}
+
 build_with_clang() {
   scripts/setup.sh clang
   configure clang
   cmake --build build/clang -j "$(nproc)" -t all signorini_differential signorini_overhead signorini_exact_cost \
     signorini_newmark_errors signorini_reduction signorini_hard_cases
-  ctest --test-dir build/clang --output-on-failure --no-tests=error -LE '^slow' -j 2
+  ctest --test-dir build/clang --output-on-failure --no-tests=error -LE '^(slow|deep)' -j 2
 }
 
 tidy() {
@@ -104,10 +118,12 @@ cluster() {
 }
 
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page python wheel calculix install cluster
+[[ $# -gt 0 ]] || set -- tests sanitize clang tidy threads kill names fuzz schema page python wheel calculix install cluster
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
+    tests) deep_tests ;;
+    sanitize) sanitize ;;
     clang) build_with_clang ;;
     tidy) tidy ;;
     threads) threads ;;
@@ -120,7 +136,7 @@ for what in "$@"; do
     calculix) calculix ;;
     install) installed ;;
     cluster) cluster ;;
-    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, python, wheel, calculix, install, cluster" >&2; exit 2 ;;
+    *) echo "deep.sh: no part is called '$what': tests, sanitize, clang, tidy, threads, kill, names, fuzz, schema, page, python, wheel, calculix, install, cluster" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

@@ -27,9 +27,14 @@ foreach(case IN LISTS cases)
   endif()
   set(suite "${CMAKE_MATCH_3}")
   unescape("${CMAKE_MATCH_1}" name)
+  # Long ones first: at the end one of them would leave the other processor idle.
+  set(cost 0)
+  if(suite MATCHES "^(slow|deep)")
+    set(cost 1)
+  endif()
   string(REPLACE "," "\\," filter "${name}")
   string(APPEND script "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[--test-case=${filter}]==])\n"
                        "set_tests_properties([==[${name}]==] PROPERTIES WORKING_DIRECTORY [==[${FOLDER}]==] "
-                       "TIMEOUT 900 LABELS [==[${suite}]==])\n")
+                       "TIMEOUT 900 COST ${cost} LABELS [==[${suite}]==])\n")
 endforeach()
 file(WRITE "${OUTPUT}" "${script}")

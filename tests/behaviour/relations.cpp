@@ -148,6 +148,14 @@ TEST_SUITE("slow/behaviour/relations") {
 
   TEST_CASE("random structures beside related ones: bodies, bends, hangers, pendulums, P-delta") {
     RelationTally tally;
+    compare_pairs(8, draw_structure_scene, tally);
+    CHECK(tally.events() > 30);
+  }
+}
+
+TEST_SUITE("deep/behaviour/relations") {
+  TEST_CASE("two dozen random structures beside related ones") {
+    RelationTally tally;
     compare_pairs(24, draw_structure_scene, tally);
     CHECK(tally.events() > 100);
   }

@@ -18,6 +18,8 @@
 #include <thread>
 #include <vector>
 
+#include "this_build.hpp"
+
 namespace signorini::cli_test {
 
 struct Ending {
@@ -70,7 +72,7 @@ class Shell {
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(".err", O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    execv(SIGNORINI_PROGRAM, argv.data());
+    execv(tests::program, argv.data());
     _exit(125);
   }
   [[nodiscard]] Ending wait(pid_t child) const {
@@ -91,7 +93,7 @@ class Shell {
 /// A shell line in the folder; the program is $SIGNORINI. The exit code.
 inline int line(const Shell& shell, const std::string& text) {
   const std::string command =
-      "cd '" + (shell / "").string() + "' && SIGNORINI='" + SIGNORINI_PROGRAM + "' && " + text;
+      "cd '" + (shell / "").string() + "' && SIGNORINI='" + tests::program + "' && " + text;
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

@@ -262,18 +262,15 @@ TEST_CASE("cli: what a message shows of a wrong matrix file is short and can be 
   // Holes without a line end: read as a stream, not as a line of so many bytes.
   shell.write("k.mtx", "%%MatrixMarket matrix coordinate real general ");
   fs::resize_file(shell / "k.mtx", 1ULL << 31U);
-#ifdef __SANITIZE_ADDRESS__
-  const std::string limit;  // its shadow alone is larger
-#else
-  const std::string limit = "ulimit -v 1000000; ";
-#endif
+  // The shadow of AddressSanitizer alone is larger.
+  const std::string limit = signorini::tests::with_address_sanitizer ? "" : "ulimit -v 1000000; ";
   CHECK(line(shell, limit + "$SIGNORINI check m.toml >.out 2>.err") == 3);
   CHECK(has(shell.read(".err"), "binary data"));
 }
 
 TEST_SUITE_END();
 
-TEST_SUITE_BEGIN("slow/cli/robust");
+TEST_SUITE_BEGIN("deep/cli/robust");  // it waits for a minute
 
 TEST_CASE("cli: a gnuplot that hangs is ended after a minute, and the run is there") {
   const Shell shell;

@@ -1,0 +1,13 @@
+#include "this_build.hpp"
+
+namespace signorini::tests {
+
+const char* const program = SIGNORINI_PROGRAM;
+
+#ifdef __SANITIZE_ADDRESS__
+const bool with_address_sanitizer = true;
+#else
+const bool with_address_sanitizer = false;
+#endif
+
+}  // namespace signorini::tests

@@ -79,6 +79,8 @@ class CompanionWatch final : public MotionObserver {
     tracker_.moved = instant.fired.empty() ? 0.0 : by_ / instant.t;
   }
   void graze(const Graze& graze) override { first = graze; }
+  /// Of rounding that grows from step to step it draws its own.
+  std::uint64_t step_seed() override { return seed_; }
   void near_hits(std::vector<NearHit> list) override { near = std::move(list); }
   double moves(const Step& step) override {
     const double length = step.end - step.begin;

@@ -11,6 +11,10 @@
 // guards that graze hide of it; half of it at rtol / 100, since in chatter the companion errs alike. Else all
 // of it, since the companion's own error is as large.
 //
+// In series a run makes the same roundings in each step of the same length (exact_engine.cpp, share_of_step): after N steps
+// they are N times one rounding, and data off by a rounding show nothing of it, since they turn a motion and neither damp it
+// nor feed it. So companions of `exact` take steps of other lengths, by chance.
+//
 // In modes an event's time is known to the rounding of a sum over modes only, tau: a bound that two draws seldom come
 // near. What follows begins at that time, so companions of `exact` move each such event by tau / c, along the motion. Its own
 // row has the time without that; what the motion makes of it later is in D, and c D bounds what it makes of tau.

@@ -148,8 +148,9 @@ Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
 
 std::unique_ptr<Stepper> make_exact(const EngineParts& p) {
   if (choose_flow(p.model, p.run).modal)
-    return std::make_unique<ModalEngine>(p.model, p.structure, p.systems, p.run.t_end, p.share, p.peaks);
-  return std::make_unique<ExactEngine>(p.model, p.structure, p.systems, p.run.t_end);
+    return std::make_unique<ModalEngine>(p.model, p.structure, p.systems, p.run.t_end, p.share, p.peaks,
+                                         p.step_seed);
+  return std::make_unique<ExactEngine>(p.model, p.structure, p.systems, p.run.t_end, p.step_seed);
 }
 
 std::unique_ptr<Stepper> make_ida(const EngineParts& p) {

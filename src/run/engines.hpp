@@ -7,6 +7,7 @@
 // degree that a series reaches, newmark linear laws, friction-iteration linear laws and contact elements.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "engine/stepper.hpp"
@@ -30,6 +31,7 @@ struct EngineParts {
   int max_order;
   ModalShare* share = nullptr;  ///< of `exact` in modes with the observer; null: none
   bool peaks = true;            ///< somebody asks for the turning points of contacts
+  std::uint64_t step_seed = 0;  ///< MotionObserver::step_seed
 };
 
 /// An engine that does not take the scene: why, without what to use instead.

@@ -33,7 +33,8 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
       decider_(systems_, spec.max_events_at_once, tolerance_.capture_velocity(),
                engine.whole_jets || observer_ != nullptr),
       engine_(engine.make({model, structure_, systems_, spec, tolerance_, method.max_order,
-                           observer_ ? observer_->modal() : nullptr, !observer_ || observer_->asks_peaks()})),
+                           observer_ ? observer_->modal() : nullptr, !observer_ || observer_->asks_peaks(),
+                           observer_ ? observer_->step_seed() : 0})),
       truth_(meddler_ ? std::make_unique<Model>(model) : nullptr),
       witness_(corrected(), witnessed_engine(spec, tolerance_, method.flow, engine_->knows_low_flights()),
                recorder),
@@ -383,10 +384,10 @@ void Loop::warn_of_decision() {
       shares_ = true;
     }
   if (decision_.impact_gains && ++gains_ <= most_gains)
-    report_.warnings.push_back(
   for (const AtLimit& found : decision_.at_limit)
     if (++at_limit_ <= most_gains)
       report_.warnings.push_back(rest_at_limit(model_, found, said_time(model_, t_)));
+    report_.warnings.push_back(
         impact_gain(said_time(model_, t_), said(model_, -decision_.impact_loss, unit::energy)));
 }
 

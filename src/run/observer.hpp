@@ -6,6 +6,8 @@
 // ends.
 #pragma once
 
+#include <cstdint>
+
 #include "engine/stepper.hpp"
 
 namespace signorini {
@@ -45,6 +47,8 @@ class MotionObserver {
   virtual bool asks_peaks() { return true; }
   /// By how much an event is moved that an engine has found: a companion carries on what rounding hides of its time.
   virtual double moves(const Step& /*step*/) { return 0.0; }
+  /// Not 0: engine `exact` in series takes steps of other lengths than without, by chance from this seed.
+  virtual std::uint64_t step_seed() { return 0; }
   /// The run ends here, between events.
   virtual void end(double /*t*/) {}
   /// After the end: the first of them, its time in the units of the scene.

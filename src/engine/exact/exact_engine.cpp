@@ -27,6 +27,7 @@ constexpr double least_share = 1e-6;    // of the greatest motion, down to which
 constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
 constexpr double flights_a_step = 3.0;
 constexpr double longer = 1.5, much_longer = 4.0;  // than the step before
+constexpr double least_step = 1.0 / longer;        // of those by chance: then steps still grow
 // With events at random, tau apart, a step h finds one with 1 - exp(-h/tau), and takes 14 levels for half a radian, 18 for
 // one, 30 for four: least work an event is at 2 tau. Below `shortest_turn` rad a step takes 12 levels in any case.
 constexpr double times_pace = 2.0, shortest_turn = 0.3;
@@ -38,7 +39,8 @@ constexpr char overflow[] = "the motion leaves the range of numbers";
 
 }  // namespace
 
-ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end)
+ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
+                         std::uint64_t step_seed)
     : model_(model),
       structure_(structure),
       taylor_(systems),
@@ -52,6 +54,7 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
   for (const Dof& dof : model.dofs)
     scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
   weights_ = scales_;
+  if (step_seed != 0) chance_.emplace(step_seed);
   fastest_ =
       std::max({model.omega_max, 1.0 / t_end,
                 diagonal_decay(model.mass.diagonal(), model.damping.diagonal(), model.stiffness.diagonal())});
@@ -146,6 +149,16 @@ void ExactEngine::choose_first_step() {
   next_ = flights > 0.0 ? longer * flights
           : paced_      ? std::max(times_pace * pace_, shortest_turn / growth_now_)
                         : std::numeric_limits<double>::infinity();
+}
+
+/// Of the length that a step could have. Steps of one length multiply the motion by one matrix, whose entries have the same
+/// roundings each time: N steps grow or damp a swing by N times one rounding, and turn it as much. Whoever takes the same
+/// lengths has the same error. Lengths by chance draw another rounding each step, and N of these add up to sqrt(N). The first
+/// step of a segment keeps its length, since no other like it follows: where a guard leaves zero below rounding the event of
+/// that step is as uncertain as it says, and no later one.
+double ExactEngine::share_of_step() {
+  if (!chance_ || t_ == begun_) return 1.0;
+  return std::uniform_real_distribution<double>(least_step, 1.0)(*chance_);
 }
 
 /// A few times the shortest flight that lies ahead, 0: none does. What rounding makes of a
@@ -366,7 +379,7 @@ void ExactEngine::see_unarmed(double x) {
 Step ExactEngine::advance() {
   const double remaining = segment_.end - t_;
   const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
-  const double scale = std::min({longest, next_, remaining});
+  const double scale = std::min(share_of_step() * std::min(longest, next_), remaining);
   if (std::string why = hindrance(scale); !why.empty()) return failed(std::move(why));
   ++counters.steps;
   double x = expand(scale);

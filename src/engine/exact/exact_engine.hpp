@@ -15,7 +15,10 @@
 // and that is taken as long as it adds little.
 #pragma once
 
+#include <cstdint>
 #include <numbers>
+#include <optional>
+#include <random>
 
 #include "engine/exact/flow_norm.hpp"
 #include "engine/exact/series_works.hpp"
@@ -34,8 +37,9 @@ inline constexpr CacheBounds most_growths{16384, std::size_t{1} << 20};
 
 class ExactEngine final : public Stepper {
  public:
-  /// All but t_end must outlive it.
-  ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
+  /// All but t_end must outlive it. step_seed: not 0: steps are shorter by chance (share_of_step).
+  ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
+              std::uint64_t step_seed = 0);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -64,6 +68,7 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] double stiffening(const ModeSystem& system, std::size_t contact);
   [[nodiscard]] double few_flights() const;
   void choose_first_step();
+  [[nodiscard]] double share_of_step();
   void weigh();
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
@@ -105,7 +110,8 @@ class ExactEngine final : public Stepper {
   double fastest_ = 0.0;        // bound on all rates of the structure, for scaling
   std::size_t polynomial_ = 0;  // greatest degree in the forcing
   int touches_ = 0;
-  Point end_;  // of the last step
+  std::optional<std::mt19937_64> chance_;  // of the lengths of steps
+  Point end_;                              // of the last step
   double t_ = 0.0, growth_now_ = 0.0;
   double next_ = 0.0;   // length of the next step of the segment at most
   double begun_ = 0.0;  // the segment

@@ -23,13 +23,13 @@ constexpr int most_corrections = 4;      // of the time of a fall; one is enough
 }  // namespace
 
 ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-                         ModalShare* share, bool peaks)
+                         ModalShare* share, bool peaks, std::uint64_t step_seed)
     : model_(model),
       structure_(structure),
       kept_(share != nullptr && share->memory != nullptr ? share->memory->of(model, t_end) : nullptr),
       own_basis_(kept_ ? nullptr : std::make_unique<OpenBasis>(model)),
       basis_(kept_ ? kept_->basis : *own_basis_),
-      taylor_(model, structure, systems, t_end),
+      taylor_(model, structure, systems, t_end, step_seed),
       turning_(model.contacts.size()),
       peaks_(peaks) {
   if (!basis_.failure().empty()) return;

@@ -17,9 +17,10 @@ namespace signorini {
 class ModalEngine final : public Stepper {
  public:
   /// All but t_end must outlive it. Finds the open modes; without them all is left to the series.
-  /// share: of who observes the run, or null. peaks: turning points of contacts are looked for.
+  /// share: of who observes the run, or null. peaks: turning points of contacts are looked for. step_seed: of steps that are
+  /// taken in series.
   ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-              ModalShare* share = nullptr, bool peaks = true);
+              ModalShare* share = nullptr, bool peaks = true, std::uint64_t step_seed = 0);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;

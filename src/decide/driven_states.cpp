@@ -11,7 +11,41 @@ namespace {
 
 constexpr double same_value = 1e-12;  // of two pieces of a history where they meet smoothly
 
+/// The terms of a form on what a run has left: each is known relative to the greatest of its kind.
+double left_size(const Model& model, const Combination& form, const Vector& x, double own,
+                 double own_turning) {
+  double greatest[2] = {own, own_turning}, sum = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    double& most = greatest[model.dofs[static_cast<std::size_t>(i)].rotation ? 1 : 0];
+    most = std::max(most, std::abs(x[i]));
+  }
+  for (const auto& [dof, factor] : form.terms)
+    sum += std::abs(factor) * greatest[model.dofs[static_cast<std::size_t>(dof)].rotation ? 1 : 0];
+  return sum;
+}
+
 }  // namespace
+
+std::vector<Fired> fell_at_start(const Model& model, const Vector& u, const Vector& v, const Mode& mode) {
+  std::vector<Fired> result;
+  for (std::size_t c = 0; c < model.continues.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    if (contact.own || contact.borrows || !contact.has_spring()) continue;
+    const bool was_open = model.continues[c].state == to_string(State::open), is_now = mode[c].is_open();
+    if (was_open == is_now) continue;
+    const double kn = contact.normal_stiffness, cn = contact.normal_damping, gap = contact.gap_at(u);
+    const Scales& scales = model.scales;
+    const double gap_terms =
+        std::abs(contact.gap) + left_size(model, contact.normal, u, scales.displacement, scales.rotation);
+    const double rate_terms = left_size(model, contact.normal, v, scales.velocity, scales.angular_velocity);
+    // It closes at g = 0, and opens at N = kn g + cn g' = 0.
+    const double off = was_open ? kn * gap + cn * gap_rate(contact, v) : kn * gap;
+    const double zero =
+        rounding::of_many * kn * gap_terms + (was_open ? rounding::of_many * cn * rate_terms : 0.0);
+    if (std::abs(off) <= zero) result.push_back({c, was_open ? Guard::separation : Guard::closing});
+  }
+  return result;
+}
 
 Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vector& u, const Vector& v) {
   Mode mode;

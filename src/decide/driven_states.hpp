@@ -16,6 +16,11 @@ namespace signorini {
 [[nodiscard]] Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vector& u,
                               const Vector& v);
 
+/// Guards of soft contacts that fell where the run ended that this one goes on from: it left the contact in another state
+/// than `mode`, which the place alone tells, and the guard between the two is zero to rounding. Else it would fall again.
+[[nodiscard]] std::vector<Fired> fell_at_start(const Model& model, const Vector& u, const Vector& v,
+                                               const Mode& mode);
+
 /// Where ut itself may jump, on parts without mass, the slip of that instant is found as in statics. What slips goes
 /// on as long as p moves along its slip, from the motion before to that in `mode` after. What would go back sticks
 /// where it was, elastic first; its limits decide the rest. True: one more sticks.

@@ -94,6 +94,7 @@ bool Loop::start() {
   now.start = true;
   now.knows_low_flights = engine_->knows_low_flights();
   now.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
+  now.fired = fell_at_start(model_, model_.u0, model_.v0, now.mode);
   const Mode guessed = now.mode;
   decision_ = decider_.decide(std::move(now), forcing_, forcing_);
   if (!decision_.consistent) return refuse(decision_.refusal);
@@ -383,10 +384,10 @@ void Loop::warn_of_decision() {
       report_.warnings.push_back(std::move(*told));
       shares_ = true;
     }
-  if (decision_.impact_gains && ++gains_ <= most_gains)
   for (const AtLimit& found : decision_.at_limit)
     if (++at_limit_ <= most_gains)
       report_.warnings.push_back(rest_at_limit(model_, found, said_time(model_, t_)));
+  if (decision_.impact_gains && ++gains_ <= most_gains)
     report_.warnings.push_back(
         impact_gain(said_time(model_, t_), said(model_, -decision_.impact_loss, unit::energy)));
 }

@@ -73,5 +73,9 @@ TEST_CASE("a block that rocks goes on from each of its events") {
   check_splits_at_events("rocking", "exact", 0.98);
 }
 
+TEST_CASE("a frame that lifts off and lands has each event once") {
+  for (const char* engine : {"ida", "exact"}) check_splits_at_events("lift-off", engine, 1.5);
+}
+
 TEST_SUITE_END();
 }  // namespace signorini::tests::going_on_at_events

@@ -131,9 +131,12 @@ double ExactEngine::paced_length() const {
 
 /// Of the length that a step could have. Steps of one length multiply the motion by one matrix, whose entries have the same
 /// roundings each time: N steps grow or damp a swing by N times one rounding, and turn it as much. Whoever takes the same
-/// lengths has the same error. Lengths by chance draw another rounding each step, and N of these add up to sqrt(N).
+/// lengths has the same error. Lengths by chance draw another rounding each step, and N of these add up to sqrt(N). The first
+/// step of a segment keeps its length, since no other like it follows: where a guard leaves zero below rounding the event of
+/// that step is as uncertain as it says, and no later one.
 double ExactEngine::share_of_step() {
-  return chance_ ? std::uniform_real_distribution<double>(least_step, 1.0)(*chance_) : 1.0;
+  if (!chance_ || t_ == begun_) return 1.0;
+  return std::uniform_real_distribution<double>(least_step, 1.0)(*chance_);
 }
 
 /// A few times the shortest flight that lies ahead, 0: none does. What rounding makes of a

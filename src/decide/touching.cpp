@@ -329,8 +329,7 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
       found.departures[c] = ratio;
       if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
       found.grounded = found.grounded || how == How::low;
-      found.unresolved =
-          found.unresolved || (how == How::stays && slowest_flight(c) > 0.0 && m.vn > slowest_flight(c));
+      found.unresolved = found.unresolved || (slowest_flight(c) > 0.0 && m.vn > slowest_flight(c));
       found.slowest = std::max(found.slowest, m.vn);
     }
     found.stays[c] = true;

@@ -125,7 +125,8 @@ class CompanionTask {
                 "",
                 report_.forgiven_at,
                 watch_.first,
-                objection_of(report_, run_.model, "in the companion, ")};
+                objection_of(report_, run_.model, "in the companion, "),
+                name_of(run_.run.engine).accuracy == Accuracy::rounding};
     if (!failure_.empty()) {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;

@@ -110,10 +110,7 @@ class Judge {
     // The time since the contact's event before: errors that both share shift no event past another.
     const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
     // Each has its own rounding besides; changes at one instant share it.
-    const double apart =
-        rounded_ && i > 0 && since > 0.0
-            ? static_cast<double>(a->uncertainty) + static_cast<double>(run_.events[own[i - 1]].uncertainty)
-            : 0.0;
+    const double apart = i > 0 && since > 0.0 ? own_rounding(own, other, i, companion) : 0.0;
     const double shift = factor_ * change + apart;
     if (same(*a, *b) && shift <= 0.5 * since) {
       if (!flies_or_rests(*a, *b, past)) return false;
@@ -131,6 +128,16 @@ class Judge {
     horizon_.at(std::min(a->t, b->t),
                 fmt::format("{} has the partner {} in the companion", describe(*a), describe(*b)));
     return false;
+  }
+
+  /// Of two neighbours together. A companion that computes to rounding cannot vouch for more than it tells apart itself.
+  [[nodiscard]] double own_rounding(const Rows& own, const Rows& other, std::size_t i,
+                                    const Track& companion) const {
+    if (!rounded_ && !companion.rounded) return 0.0;
+    const std::vector<TimedEvent>& events = rounded_ ? run_.events : companion.events;
+    const Rows& rows = rounded_ ? own : other;
+    return static_cast<double>(events[rows[i]].uncertainty) +
+           static_cast<double>(events[rows[i - 1]].uncertainty);
   }
 
   /// False: by less than its speed may be off.

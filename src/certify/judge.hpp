@@ -6,7 +6,8 @@
 //
 // The sequence ends to be certain where neighbours of one contact have
 //
-//   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| + u_i + u_i-1 > (t_i - t_i-1) / 2        u: uncertainties that are roundings
+//   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| + u_i + u_i-1 > (t_i - t_i-1) / 2        u: uncertainties that are roundings,
+//                                                                   of the run or, where it has none, of the companion
 //
 // Or where a contact that touched rests or flies on by less than its speed may be off, r being that speed over
 // the slowest that flies (Event::departure), R_k the greatest of the contact's last five differences:
@@ -68,6 +69,7 @@ struct Track {
   /// Of a companion: what it leaves open, it cannot tell of the run.
   std::optional<Graze> graze = {};
   std::optional<Objection> objection = {};
+  bool rounded = false;  ///< of a companion: its uncertainties are roundings
 };
 
 struct Verdict {

@@ -1,5 +1,7 @@
 #include "decide/touching.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -13,6 +15,12 @@
 
 namespace signorini {
 namespace {
+
+/// Of the scale of velocities: motions that differ by more are not one that rounding has split. sqrt(eps): no flow of
+/// an engine loses half of its digits.
+constexpr double half_of_digits = 0x1p-26;
+/// Turns of hits at one instant; capture_velocity ends a sequence of rebounds long before, unless e is nearly one.
+constexpr int most_turns = 1000;
 
 double norm_of(const Combination& form) {
   double squared = 0.0;
@@ -167,13 +175,13 @@ bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const 
 /// beginning and du = t^2/2 da in displacements. When the contact touched last g and g' were known exactly;
 /// since then, for the time s, dv has moved g, da g', and du both through the stiffness of the structure: by
 /// du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency. That is a bound, and where it is of no use, in
-/// stiff structures after long times, velocities that differ by capture_velocity are others all the same.
+/// stiff structures after long times, velocities that differ by half_of_digits of their scale are others all the same.
 Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& instant) const {
   if (instant.touched.empty()) return {};
   const double t = instant.t, s = t - instant.touched[c], w = model_.omega_max, du = 0.5 * t * t * da;
   const double angle = std::min(1.0, w * s);
-  return {std::min(t * da * s + du * 0.5 * angle * angle, capture_velocity_ * s),
-          std::min(da * s + du * w * angle, capture_velocity_)};
+  const double most = half_of_digits * model_.scales.velocity;
+  return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
 }
 
 /// A flight begins with g = 0, so what it has risen since is known to the sum that g is, of data that are doubles;
@@ -193,34 +201,95 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
   const double given = instant.start ? rounding::of_few * model_.scales.displacement : 0.0;
   const double given_rate = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
   Met met;
+  int together = 0;
+  bool doubtful = false;
   for (const std::size_t c : block) {
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
+    const bool open = mode[c].is_open();
     const Carried carried = carried_by(c, noise.an, instant);
+    const double known = rounding_of_gap(c, noise.gap, instant) + given;
+    // Whatever has been carried there, what closes faster than a rebound that would not rest is a hit.
+    const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
+    Approach a{c, 0.0, m.vn, noise.vn + given_rate + slowest_flight(c), noise.vn + unsure + given_rate, open};
     // One whose gap has become negative touches, too: it fell with others, within the resolution of the
     // clock.
     const bool fell =
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
-    const bool above = mode[c].is_open() && !instant.has_fired(c, Guard::closing) &&
-                       !is_zero(m.gap, rounding_of_gap(c, noise.gap, instant) + carried.gap + given, m.vn);
+    const bool touches = !open || instant.has_fired(c, Guard::closing) || std::abs(m.gap) <= known;
+    const bool split = !touches && (fell || std::abs(m.gap) <= known + carried.gap) &&
+                       lands_alike(a, instant, jets, failed, block);
+    const bool comes = is_zero(m.gap, known, m.vn);
+    const bool above = !touches && !split && !comes;
     if (above && !fell) continue;
-    met.unresolved = met.unresolved || (above && m.gap > 0.0);
+    if (!touches && !split) a.gap = std::max(m.gap, 0.0);
+    met.unresolved = met.unresolved || (above && m.gap > 0.0) || (split && !comes);
     met.contacts.push_back(c);
+    met.approaches.push_back(a);
     met.apart = met.apart || m.gap != 0.0;
-    // Whatever has been carried there, what closes faster than a rebound that would not rest is a hit.
-    const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
-    met.hit = met.hit || (mode[c].is_open() && m.vn < -(noise.vn + unsure + given_rate));
+    met.hit = met.hit || a.closes();
+    // Hit together by what its data are known to: they do not tell whether it is.
+    const double own = rounding::of_few * (model_.contacts[c].normal.magnitude(instant.u) +
+                                           std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
+    if (!a.closes() || a.gap > 0.0) continue;
+    ++together;
+    doubtful = doubtful || (!instant.has_fired(c, Guard::closing) && std::abs(m.gap) > own + given);
   }
+  met.unresolved = met.unresolved || (together > 1 && doubtful);
   return met;
 }
 
+/// Does it move like one that falls now, but for what rounding may have made of both? Or not at all?
+bool Touching::lands_alike(const Approach& a, const Instant& instant, const std::vector<MotionJet>& jets,
+                           const std::vector<Failure>& failed, const Block& block) const {
+  if (std::abs(a.rate) <= a.rest) return true;
+  const double alike = a.hit + half_of_digits * model_.scales.velocity;
+  return std::any_of(block.begin(), block.end(), [&](std::size_t c) {
+    const bool falls =
+        instant.has_fired(c, Guard::closing) ||
+        std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
+    const double apart = std::abs(jets[c].motion[0].vn - a.rate);
+    return c != a.contact && falls && model_.contacts[c].takes_impulses() && apart <= alike;
+  });
+}
+
+/// Turn by turn, until none closes; then what has met touches.
 Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                          Findings& found, Decision& decision, Mode& mode) {
-  const Impact result = impacts_.solve(forcing, instant.t, mode, met.contacts, instant.u, instant.v);
+  std::vector<Approach> all = met.approaches;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const Block struck = next_turn(all);
+    if (struck.empty()) {
+      instant.u = impacts_.close(mode, met.contacts, instant.u);
+      return {};
+    }
+    if (Refusal why = strike_once(instant, forcing, struck, block, found, decision, mode)) return why;
+    for (Approach& a : all) {
+      a.rate = gap_rate(model_.contacts[a.contact], instant.v);
+      a.rest = std::max(
+          a.rest, slowest_flight(a.contact) + rounding_of(model_.contacts[a.contact].normal, instant.v));
+      a.hit = a.rest;
+      if (!(a.rate > a.rest)) continue;
+      mode[a.contact] = {State::open, 0.0};
+      a.open = true;
+      decision.impulses[a.contact].rests = decision.impulses[a.contact].sticks = false;
+    }
+  }
+  return {
+      Refusal::Kind::endless,
+      fmt::format("{} hits one after the other at one instant do not end; a greater capture_velocity ends "
+                  "rebounds sooner",
+                  most_turns),
+      met.contacts};
+}
+
+/// One turn.
+Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
+                              const Block& block, Findings& found, Decision& decision, Mode& mode) {
+  const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.u, instant.v);
   if (result.refusal) return result.refusal;
   const Vector before = std::exchange(instant.v, result.v);
-  found.capture(met.contacts, result.settled);
-  instant.u = result.u;
+  found.capture(struck, result.settled);
   for (const std::size_t c : block) {
     found.stays[c] = found.rests[c] = false;
     found.known[c].sliding = {};
@@ -230,7 +299,7 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
   decision.impact_gains = decision.impact_gains || result.gains;
   if (decision.impulses.empty()) decision.impulses.resize(mode.size());
   const int turn = decision.blows.empty() ? 1 : decision.blows.back().turn + 1;
-  for (const std::size_t c : met.contacts) {
+  for (const std::size_t c : struck) {
     Impulse& sum = decision.impulses[c];
     decision.blows.push_back({c, turn, result.impulses[c].normal, result.impulses[c].tangent});
     sum.hit = sum.hit || result.impulses[c].hit;
@@ -260,8 +329,7 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
       found.departures[c] = ratio;
       if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
       found.grounded = found.grounded || how == How::low;
-      found.unresolved =
-          found.unresolved || (how == How::stays && slowest_flight(c) > 0.0 && m.vn > slowest_flight(c));
+      found.unresolved = found.unresolved || (slowest_flight(c) > 0.0 && m.vn > slowest_flight(c));
       found.slowest = std::max(found.slowest, m.vn);
     }
     found.stays[c] = true;

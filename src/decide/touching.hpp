@@ -15,6 +15,7 @@
 #include "decide/decision.hpp"
 #include "decide/guard_signs.hpp"
 #include "decide/levels.hpp"
+#include "decide/turns.hpp"
 
 namespace signorini {
 
@@ -63,8 +64,9 @@ class Touching {
   /// Rigid contacts of a block with g = 0.
   struct Met {
     Block contacts;
-    bool hit = false, apart = false;  // one closes; a gap is not exactly zero
-    bool unresolved = false;          // one flies, but lower than the rounding of its data
+    std::vector<Approach> approaches;  // one of each
+    bool hit = false, apart = false;   // one closes; a gap is not exactly zero
+    bool unresolved = false;           // one flies, but lower than the rounding of its data
   };
   struct Carried {
     double gap = 0.0, rate = 0.0;
@@ -75,6 +77,11 @@ class Touching {
   [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
   [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
                          const std::vector<Failure>& failed, const Block& block, const Mode& mode) const;
+  [[nodiscard]] bool lands_alike(const Approach& approach, const Instant& instant,
+                                 const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                                 const Block& block) const;
+  [[nodiscard]] Refusal strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
+                                    const Block& block, Findings& found, Decision& decision, Mode& mode);
   [[nodiscard]] Refusal strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                                Findings& found, Decision& decision, Mode& mode);
   void add_staying(const Instant& instant, const Forcing& forcing, const Met& met,

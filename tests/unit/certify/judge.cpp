@@ -146,6 +146,21 @@ TEST_CASE(
   CHECK(judge(at_once, {at_once}, 2.0, names, true).reason.empty());
 }
 
+TEST_CASE("judge: what a companion of roundings does not tell apart itself is not certain") {
+  const Track run = track({1.0, 2.0, 2.5});
+  for (const bool close : {false, true}) {
+    Track companion = run;
+    companion.rounded = true;
+    companion.events[1].uncertainty = 0x1p-3F;
+    companion.events[2].uncertainty = close ? 0x1.1p-3F : 0x1p-3F;  // half of the time between them is 0.25
+    const Verdict verdict = judge(run, {companion}, 2.0, names);
+    CHECK(certain(verdict) == (close ? 2 : 3));
+    CHECK(verdict.reason.empty() != close);
+    companion.rounded = false;
+    CHECK(judge(run, {companion}, 2.0, names).reason.empty());
+  }
+}
+
 TEST_CASE("judge: what lies within its error of the horizon may lie beyond it") {
   Track run = track({1.0, 1.95});
   run.events.push_back(event(2.0, 1, 0));

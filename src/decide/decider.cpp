@@ -110,10 +110,10 @@ struct Decider::Course {
   double touched_ut = 0.0;                  // its ut there, less that at the end of the way
   std::vector<std::size_t> slid = {};       // contacts that have slid at once and stopped
   std::optional<std::vector<std::size_t>> open =
-      {};  // contacts whose guards are not all clearly positive; else: any
+      {};                            // contacts whose guards are not all clearly positive; else: any
   const Forcing* forcing = nullptr;  // under which the mode tried last was evaluated,
   double blur = 0.0;                 // how blurred
-  Eigen::VectorXd held = {};  // what holds the mode tried last; Decision::captures
+  Eigen::VectorXd held = {};         // what holds the mode tried last; Decision::captures
 
   /// Where parts without mass begin that move at once.
   [[nodiscard]] const Vector& comes_from() const { return instant.start ? given : instant.u; }

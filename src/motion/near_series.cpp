@@ -57,8 +57,8 @@ bool NearSeries::dies_out(const Neighbourhood& near, const Work& work, double re
   std::vector<double> moves(static_cast<std::size_t>(near.model.size()), sizes.least);
   for (std::size_t i = 0; i < near.ties.size(); ++i) {
     double& greatest = moves[static_cast<std::size_t>(near.ties[i].at)];
-    greatest = std::max(
-        greatest, terms_of(work.outside.col(work.place_of_tie[i]).data(), count, near.ties[i].dof));
+    greatest =
+        std::max(greatest, terms_of(work.outside.col(work.place_of_tie[i]).data(), count, near.ties[i].dof));
   }
   std::vector<double> change(count);
   for (const int at : work.boundary) {
@@ -74,7 +74,8 @@ bool NearSeries::dies_out(const Neighbourhood& near, const Work& work, double re
 std::optional<NearSeries::Made> NearSeries::expand(const std::vector<std::size_t>& changed,
                                                    const ModeSystemPtr& system, const Forcing& forcing,
                                                    double t, const Vector& u, const Vector& v, int levels,
-                                                   double scale, double reach, const Sizes& sizes, const AsItWas& as_it_was) {
+                                                   double scale, double reach, const Sizes& sizes,
+                                                   const AsItWas& as_it_was) {
   if (!possible() || !system->factorised().by_mass) return std::nullopt;
   Neighbourhood* near = near_.around(changed.front(), *system);
   for (const std::size_t c : changed)

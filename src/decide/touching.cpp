@@ -272,7 +272,8 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
       if (!(a.rate > a.rest)) continue;
       mode[a.contact] = {State::open, 0.0};
       a.open = true;
-      decision.impulses[a.contact].rests = decision.impulses[a.contact].sticks = false;
+      // One that had come to rest is thrown off; how one that rebounds itself was hit stays as it is.
+      if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
     }
   }
   return {

@@ -30,7 +30,10 @@ Mode released(const Model& model, Mode mode) {
 
 }  // namespace
 
-Vector Impacts::closed(const std::vector<std::size_t>& touching, const Delassus& d, Vector u) const {
+Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching, Vector u) {
+  const ModeSystemPtr system = systems_.of(released(model_, mode));
+  if (!system) return u;
+  const Delassus d = delassus(model_, *system, touching);
   const auto m = static_cast<Eigen::Index>(touching.size());
   const auto normals = Eigen::seqN(0, m, 2);
   Eigen::VectorXd gap(m);
@@ -43,11 +46,6 @@ Vector Impacts::closed(const std::vector<std::size_t>& touching, const Delassus&
   u -= effect * least_squares(W, gap);
   for (const std::size_t c : touching) set_exactly(model_.contacts[c].normal, -model_.contacts[c].gap, u);
   return u;
-}
-
-Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching, const Vector& u) {
-  const ModeSystemPtr system = systems_.of(released(model_, mode));
-  return system ? closed(touching, delassus(model_, *system, touching), u) : u;
 }
 
 Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& system,
@@ -154,7 +152,7 @@ void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
 }
 
 Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
-                      const std::vector<std::size_t>& touching, const Vector& u, const Vector& v) {
+                      const std::vector<std::size_t>& touching, const Vector& v) {
   Impact impact;
   impact.v = v;
   impact.impulses.resize(model_.contacts.size());
@@ -177,7 +175,6 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
     }
     return impact;
   }
-  impact.u = closed(touching, hit.d, u);
   impact.v += hit.d.effect * hit.solution->force;
   come_to_rest(forcing, t, touching, hit, impact);
   balance(forcing, t, mode, touching, hit, impact);

@@ -39,7 +39,7 @@ struct Blow {
 
 struct Impact {
   Refusal refusal;                ///< why there is none
-  Vector u, v;                    ///< after; g = 0 at all that touch
+  Vector v;                       ///< after
   std::vector<Impulse> impulses;  ///< one a contact of the model
   double loss = 0.0;              ///< energy that it dissipates
   double surface_work = 0.0;      ///< work of moving surfaces
@@ -54,10 +54,10 @@ class Impacts {
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
   /// u with the gaps of all that touch closed, by the smallest change in the norm of M; mode: of all others.
-  [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching, const Vector& u);
-  /// u, v: before; touching: contacts with g = 0, rigid ones; mode: of all others.
+  [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching, Vector u);
+  /// v: before; touching: contacts with g = 0, rigid ones; mode: of all others.
   [[nodiscard]] Impact solve(const Forcing& forcing, double t, const Mode& mode,
-                             const std::vector<std::size_t>& touching, const Vector& u, const Vector& v);
+                             const std::vector<std::size_t>& touching, const Vector& v);
 
  private:
   /// What all that touch bring along, and what becomes of it; rows as those of Delassus.
@@ -75,7 +75,6 @@ class Impacts {
                     Impact& impact) const;
   void balance(const Forcing& forcing, double t, const Mode& mode, const std::vector<std::size_t>& touching,
                const Hit& hit, Impact& impact) const;
-  [[nodiscard]] Vector closed(const std::vector<std::size_t>& touching, const Delassus& d, Vector u) const;
 
   const Model& model_;
   ModeSystems& systems_;

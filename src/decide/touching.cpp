@@ -253,16 +253,13 @@ bool Touching::lands_alike(const Approach& a, const Instant& instant, const std:
   });
 }
 
-/// Turn by turn, until none closes; then what has met touches.
+/// Turn by turn, until none closes.
 Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                          Findings& found, Decision& decision, Mode& mode) {
   std::vector<Approach> all = met.approaches;
   for (int turn = 0; turn < most_turns; ++turn) {
     const Block struck = next_turn(all);
-    if (struck.empty()) {
-      instant.u = impacts_.close(mode, met.contacts, instant.u);
-      return {};
-    }
+    if (struck.empty()) return {};
     if (Refusal why = strike_once(instant, forcing, struck, block, found, decision, mode)) return why;
     for (Approach& a : all) {
       a.rate = gap_rate(model_.contacts[a.contact], instant.v);
@@ -287,7 +284,7 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
 /// One turn.
 Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
                               const Block& block, Findings& found, Decision& decision, Mode& mode) {
-  const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.u, instant.v);
+  const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.v);
   if (result.refusal) return result.refusal;
   const Vector before = std::exchange(instant.v, result.v);
   found.capture(struck, result.settled);
@@ -477,11 +474,9 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
   }
   for (std::size_t b = 0; b < all.size(); ++b) {
     const Met& met = all[b];
-    if (met.hit) {
+    if (met.hit)
       if (Refusal why = strike(instant, forcing, met, blocks[b], found, decision, mode)) return why;
-    } else if (met.apart) {
-      instant.u = impacts_.close(mode, met.contacts, instant.u);
-    }
+    if (met.apart) instant.u = impacts_.close(mode, met.contacts, instant.u);
   }
   for (const Met& met : all)
     for (const std::size_t c : met.contacts) mode[c] = {State::open, 0.0};

@@ -41,7 +41,7 @@ NearSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
   sort_out(boundary);
   sort_out(across);
   for (const Neighbourhood::Tie& tie : near.ties)
-    place_of_tie.push_back(static_cast<int>(place_in(ring, tie.dof)));
+    place_of_tie.push_back(static_cast<Eigen::Index>(place_in(ring, tie.dof)));
   for (const Neighbourhood::Pull& pull : near.pulls) place_of_pull.push_back(place_in(across, pull.force));
 }
 

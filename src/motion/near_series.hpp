@@ -52,7 +52,7 @@ class NearSeries {
     Taylor taylor;
     Series series;
     std::vector<int> ring, boundary;         // next to it outside, in the whole; in it, next to outside
-    std::vector<int> place_of_tie;           // of each tie in the ring
+    std::vector<Eigen::Index> place_of_tie;  // of each tie in the ring
     std::vector<std::size_t> place_of_pull;  // of each pull in `across`
     std::vector<std::size_t> across;         // forces
     Eigen::MatrixXd outside, forces;         // coefficients: a column one of the ring; one of `across`

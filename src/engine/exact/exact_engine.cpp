@@ -43,7 +43,7 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
       taylor_(systems),
       t_end_(t_end),
       norm_(model),
-      growth_(model, taylor_, norm_, t_end),
+      growth_(model, taylor_, norm_, scales_, t_end),
       motion_(model),
       reached_(model.contacts.size()),
       falls_(guard_count(model.contacts.size())),
@@ -62,7 +62,7 @@ void ExactEngine::start(const Segment& segment) {
   segment_ = segment;
   const Decision& decision = *segment.decision;
   const bool same_motion = goes_on(decision, segment.same_forcing);
-  const Mode before = std::exchange(mode_, decision.mode);
+  const Mode before = beside_ ? std::exchange(mode_, decision.mode) : Mode();
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ =

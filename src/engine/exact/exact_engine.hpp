@@ -107,7 +107,7 @@ class ExactEngine final : public Stepper {
   Segment segment_;
   PiecedSeries motion_;
   std::optional<NearSeries> beside_;  // nothing: each event makes the series of the whole structure anew
-  Mode mode_;                         // of the segment
+  Mode mode_;                         // of the segment, where that counts: beside_
   bool went_on_ = false;              // the segment begins within motion_
   double begin_x_ = 0.0;              // of the step in motion_, up to
   double reach_ = 0.0;                // the end of what it holds,

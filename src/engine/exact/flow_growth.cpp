@@ -16,10 +16,12 @@ constexpr double most_beside =
 
 }  // namespace
 
-FlowGrowth::FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, double t_end)
+FlowGrowth::FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, const std::vector<double>& scales,
+                       double t_end)
     : model_(model),
       taylor_(taylor),
       norm_(norm),
+      scales_(scales),
       fastest_(std::max(
           {model.omega_max, 1.0 / t_end,
            diagonal_decay(model.mass.diagonal(), model.damping.diagonal(), model.stiffness.diagonal())})) {}
@@ -78,10 +80,8 @@ double FlowGrowth::probed(const ModeSystemPtr& system) {
   std::mt19937_64 random(1);  // the same motion in every run
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Dof& dof = model_.dofs[static_cast<std::size_t>(i)];
-    const double scale = 1.0 / (dof.rotation ? model_.scales.rotation : model_.scales.displacement);
-    u[i] = uniform(random) / scale;
-    v[i] = fastest_ * uniform(random) / scale;
+    u[i] = uniform(random) / scales_[static_cast<std::size_t>(i)];
+    v[i] = fastest_ * uniform(random) / scales_[static_cast<std::size_t>(i)];
   }
   Series series;
   taylor_.expand(system, Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);

@@ -20,8 +20,9 @@ class FlowGrowth {
  public:
   static constexpr double margin = 1.25;  ///< on a growth that is computed from twenty powers of the flow
 
-  /// All but t_end must outlive it.
-  FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, double t_end);
+  /// scales: weights of the degrees of freedom that make motions alike, filled before it is asked. All but t_end must outlive it.
+  FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, const std::vector<double>& scales,
+             double t_end);
 
   /// W, with its margin. Unit: 1/time.
   [[nodiscard]] double of(const ModeSystemPtr& system);
@@ -34,6 +35,7 @@ class FlowGrowth {
   const Model& model_;
   Taylor& taylor_;
   FlowNorm& norm_;
+  const std::vector<double>& scales_;
   const double fastest_;  // bound on all rates of the structure, for scaling
   BoundedCache<std::vector<State>, double> known_{most_growths};
   std::vector<State> near_;          // the last states whose growth was found from a series; empty: none

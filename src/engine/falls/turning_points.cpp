@@ -64,10 +64,8 @@ void TurningPoints::find(const std::vector<ContactSeries>& contacts, const Serie
   Samples x = samples_of(x_begin, x_end);
   const auto stays_by_rate = [&](std::size_t place, double rate) {
     if (values_.empty()) return false;
-    const double value = values_[place], change = (1.0 + rounding::of_many) * rate * (x_end - x_begin),
-                 rounding = rounding::of_many * (std::abs(value) + change);
-    const Range& range = ranges_[place];
-    return value + change + rounding < range.greatest && value - change - rounding > range.least;
+    const double value = values_[place], change = (1.0 + rounding::of_many) * rate * (x_end - x_begin);
+    return ranges_[place].holds(value, change, rounding::of_many * (std::abs(value) + change));
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts[c].origin() != origin) {
@@ -148,12 +146,10 @@ bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x
     reach += std::abs(path.a[k]) * power;
   }
   const double a = path.a[0], rounding = rounding::of_many * (std::abs(a) + reach);
-  const auto within = [&](double value, double change) {
-    return value + change + rounding < range.greatest && value - change - rounding > range.least;
-  };
-  if (within(a, reach)) return true;
+  if (range.holds(a, reach, rounding)) return true;
   if (x[0] == 0.0) return false;
-  return within(value_at(path.a, path.degree, 0.5 * (x[0] + x_end)), 0.5 * (x_end - x[0]) * slope);
+  const double middle = value_at(path.a, path.degree, 0.5 * (x[0] + x_end));
+  return range.holds(middle, 0.5 * (x_end - x[0]) * slope, rounding);
 }
 
 void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& x, Ends ends) {

@@ -35,6 +35,10 @@ class TurningPoints {
   struct Range {
     double least = 0.0, greatest = 0.0;
     void see(double value);
+    /// Whatever lies within `change` of the value, this known to `rounding`.
+    [[nodiscard]] bool holds(double value, double change, double rounding) const {
+      return value + change + rounding < greatest && value - change - rounding > least;
+    }
   };
   /// So far, of a field that is watched.
   [[nodiscard]] const Range& range(std::size_t contact, ContactSeries::Field field) const {

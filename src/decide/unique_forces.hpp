@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/motion.hpp"
+#include "contact/transition.hpp"
 #include "motion/mode_systems.hpp"
 
 namespace signorini {

@@ -92,8 +92,8 @@ JetMaker::JetMaker(ModeSystems& systems)
       // u^(k) of massless degrees of freedom is known one or two levels later
       levels_(taylor_.massless() ? Jet::orders + 2 : Jet::orders) {}
 
-Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                   const Vector& v, std::vector<MotionJet>& result, const Told& told, const Forcing* second) {
+Jet JetMaker::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                     const Vector& v) {
   taylor_.expand(system, forcing, t, u, v, levels_, 1.0, series_);
   Jet jet{t, series_.u, series_.forces, taylor_.system()};
   double factorial = 1.0;
@@ -102,6 +102,12 @@ Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t
     jet.u.col(k) *= factorial;
     if (k <= levels_) jet.forces.col(k) *= factorial;
   }
+  return jet;
+}
+
+Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                   const Vector& v, std::vector<MotionJet>& result, const Told& told, const Forcing* second) {
+  Jet jet = expand(system, forcing, t, u, v);
   const Disturbance disturbance{series_};
   const Forcing& again = second != nullptr ? *second : forcing;
   taylor_.begin(system, again, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);

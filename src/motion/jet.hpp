@@ -25,6 +25,8 @@ struct Jet {
   Eigen::MatrixXd u, forces;
   ModeSystemPtr system;  ///< of the mode, with friction at the slip rates of this instant
 
+  /// As JetMaker makes it. Near jets (motion/near_jets.hpp) end with accelerations and the rates of forces.
+  [[nodiscard]] bool whole() const { return forces.cols() > orders; }
   [[nodiscard]] auto v() const { return u.col(1); }
   [[nodiscard]] auto a() const { return u.col(2); }
 };
@@ -38,8 +40,10 @@ class JetMaker {
   /// motion itself is known one order further.
   using Told = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
 
-  /// The jet at t from u and v (v of massless degrees of freedom is not read), and the motion of every
-  /// contact in it, orders 0 to Jet::orders, with its noise. `told`, where it is given: orders that a contact is not
+  /// The jet at t from u and v (v of massless degrees of freedom is not read).
+  [[nodiscard]] Jet expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                           const Vector& v);
+  /// The same, and the motion of every contact in it, orders 0 to Jet::orders, with its noise. `told`, where it is given: orders that a contact is not
   /// asked for are not made, and hold anything. Of contacts for which order 0 does not tell all, the motion is
   /// complete. What is made is the same to the last bit. second: acts in place of `forcing` the second time, so that what
   /// differs between them counts as noise, too.

@@ -169,7 +169,7 @@ std::unique_ptr<Stepper> make_friction_iteration(const EngineParts& p) {
 
 constexpr std::array rows_of_engines = {
     EngineRow{Engine::exact, refuse_long_polynomials_too, closed_flow, make_exact, effort_of_exact},
-    EngineRow{Engine::ida, refuse_nothing, bdf, make_ida, effort_of_bdf, true},
+    EngineRow{Engine::ida, refuse_nothing, bdf, make_ida, effort_of_bdf},
     EngineRow{Engine::newmark, refuse_laws_that_are_not_linear, fixed_steps, make_newmark,
               effort_of_fixed_steps},
     EngineRow{Engine::friction_iteration, refuse_rigid_contacts_too, fixed_steps, make_friction_iteration,

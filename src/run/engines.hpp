@@ -51,7 +51,6 @@ struct EngineRow {
   std::unique_ptr<Stepper> (*make)(const EngineParts& parts);
   /// What the time loop will cost, by order of magnitude.
   Effort (*effort)(const EffortParts& parts);
-  bool whole_jets = false;  ///< it reads all of Decision::jet
 };
 
 /// run.engine is no longer automatic.

@@ -76,7 +76,7 @@ class Onlooker final : public MotionObserver {
 TEST_SUITE_BEGIN("slow/behaviour/long_beam");
 
 TEST_CASE("decisions near the contacts that change are those of the whole structure") {
-  for (const char* engine : {"exact", "newmark"})
+  for (const char* engine : {"exact", "newmark", "ida"})
     for (const double turn : {0.0, 0.3}) {
       CAPTURE(std::string(engine));
       CAPTURE(turn);

@@ -21,6 +21,16 @@ std::optional<double> first_nonpositive(const Bernstein& p, double from, double 
   return first_nonpositive(right, middle, to, resolution);
 }
 
+/// De Casteljau's means. A degree that is known keeps them in registers: stored and read in pairs they wait for each other.
+template <std::size_t degree>
+double by_means(std::array<double, max_degree + 1> c, double x) {
+#pragma GCC unroll 5
+  for (std::size_t r = 1; r <= degree; ++r)
+#pragma GCC unroll 5
+    for (std::size_t i = 0; i <= degree - r; ++i) c[i] = (1.0 - x) * c[i] + x * c[i + 1];
+  return c[0];
+}
+
 Bernstein shifted(Bernstein p, double factor, double offset) {
   for (int i = 0; i <= p.degree; ++i) p.b[z(i)] = factor * p.b[z(i)] + offset;
   return p;
@@ -37,10 +47,20 @@ Bernstein Bernstein::from_powers(int degree, const std::array<double, max_degree
 }
 
 double Bernstein::value(double x) const {
-  std::array<double, max_degree + 1> c = b;
-  for (int r = 1; r <= degree; ++r)
-    for (int i = 0; i <= degree - r; ++i) c[z(i)] = (1.0 - x) * c[z(i)] + x * c[z(i + 1)];
-  return c[0];
+  switch (degree) {
+    case 1:
+      return by_means<1>(b, x);
+    case 2:
+      return by_means<2>(b, x);
+    case 3:
+      return by_means<3>(b, x);
+    case 4:
+      return by_means<4>(b, x);
+    case 5:
+      return by_means<5>(b, x);
+    default:
+      return b[0];
+  }
 }
 
 double Bernstein::integral(double x) const {
@@ -61,6 +81,10 @@ Bernstein Bernstein::derivative() const {
 
 bool Bernstein::positive() const {
   return std::all_of(b.begin(), b.begin() + degree + 1, [](double c) { return c > 0.0; });
+}
+
+bool Bernstein::at_least(double level) const {
+  return std::all_of(b.begin(), b.begin() + degree + 1, [&](double c) { return c >= level; });
 }
 
 void Bernstein::split(double x, Bernstein& left, Bernstein& right) const {

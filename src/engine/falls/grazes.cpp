@@ -26,6 +26,12 @@ void Grazes::see(const StepHistory& history, double limit) {
         history.last(slot) > 2.0 * guard.level)
       continue;
     const Bernstein p = history.polynomial(slot);
+    if (p.at_least(guard.level)) {
+      if (guard.low) note(slot);
+      guard.low = false;
+      guard.high = guard.level;
+      continue;
+    }
     for (int look = 0; look <= looks; ++look) {
       const double x = limit * look / looks, value = p.value(x);
       if (value >= guard.level) {

@@ -152,11 +152,10 @@ struct BdfIntegrator::Memory {
   /// (Re)starts IDA with the given first step at the segment's beginning, or `steps` such steps before it: these are
   /// rehearsed.
   void begin(double h0, int steps = 0) {
-    const Jet& jet = segment.decision->jet;
     const double before = steps * h0;
-    problem.along(jet, -before, 0, NV_DATA_S(y));
-    problem.along(jet, -before, 1, NV_DATA_S(yp));
-    check(IDAReInit(ida, jet.t - before, y, yp), "IDAReInit");
+    problem.along(*start, -before, 0, NV_DATA_S(y));
+    problem.along(*start, -before, 1, NV_DATA_S(yp));
+    check(IDAReInit(ida, start->t - before, y, yp), "IDAReInit");
     IDASetInitStep(ida, h0);
     first = h0;
     IDASetStopTime(ida, segment.end);
@@ -168,8 +167,8 @@ struct BdfIntegrator::Memory {
     IDARootInit(ida, 0, nullptr);
     IDARootInit(ida, static_cast<int>(problem.slots()), &Memory::roots);
     if (!directions.empty()) IDASetRootDirection(ida, directions.data());
-    t_previous = jet.t;
-    reported_end = jet.t;
+    t_previous = start->t;
+    reported_end = start->t;
     if (steps > 0) rehearse(steps);
     IDASetMaxStep(ida, longest);
   }
@@ -177,7 +176,7 @@ struct BdfIntegrator::Memory {
   /// IDA's steps up to the segment's beginning. No test of theirs can fail, and they are far above the resolution of time.
   void rehearse(int steps) {
     rehearsing = true;
-    newton->rehearse(&segment.decision->jet);
+    newton->rehearse(start);
     double t = 0.0;
     for (int i = 0; i < steps; ++i)
       check(IDASolve(ida, segment.end + std::abs(segment.end), &t, y, yp, IDA_ONE_STEP), "IDASolve");
@@ -190,19 +189,17 @@ struct BdfIntegrator::Memory {
   /// steps than an error test asks for, at any order.
   [[nodiscard]] Rehearsal past() {
     if (rehearses)
-      if (const Rehearsal r = rehearsal(); r.length > least_rehearsed * std::abs(segment.decision->jet.t))
-        return r;
+      if (const Rehearsal r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
     return {0, first_step()};
   }
   [[nodiscard]] Rehearsal rehearsal() {
-    const Jet& jet = segment.decision->jet;
-    problem.fill(jet, 0, NV_DATA_S(y));
+    problem.fill(*start, 0, NV_DATA_S(y));
     problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
     const double shaking = segment.forcing->surface_omega();
-    double h = longest_rehearsed * (segment.end - jet.t);
+    double h = longest_rehearsed * (segment.end - start->t);
     if (shaking > 0.0) h = std::min(h, surface_step / shaking);
     constexpr std::size_t order = Rehearsal::order + 1;
-    problem.fill(jet, order, NV_DATA_S(yp));
+    problem.fill(*start, order, NV_DATA_S(yp));
     if (const double norm = N_VWrmsNorm(yp, work); norm > 0.0)
       h = std::min(h, rehearsed_part * std::pow(order / norm, 1.0 / order));
     return {Rehearsal::order, h};
@@ -211,15 +208,14 @@ struct BdfIntegrator::Memory {
   /// The order-one start errs by h^2 y''/2 + h^3 y'''/6 ...; the step that keeps the first of these in
   /// bounds, or IDA's own choice if the solution does not move.
   double first_step() {
-    const Jet& jet = segment.decision->jet;
-    const double remaining = segment.end - jet.t;
+    const double remaining = segment.end - start->t;
     double h = remaining;
-    problem.fill(jet, 0, NV_DATA_S(y));
+    problem.fill(*start, 0, NV_DATA_S(y));
     problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
     double factorial = 1.0;
     for (std::size_t order = 2; order <= static_cast<std::size_t>(Jet::orders); ++order) {
       factorial *= static_cast<double>(order);
-      problem.fill(jet, order, NV_DATA_S(yp));
+      problem.fill(*start, order, NV_DATA_S(yp));
       const double norm = N_VWrmsNorm(yp, work);
       if (norm > 0.0)
         h = std::min(h, start_part * std::pow(factorial / norm, 1.0 / static_cast<double>(order)));
@@ -292,6 +288,7 @@ struct BdfIntegrator::Memory {
   double first = 0.0;  // step of the segment
   std::vector<int> directions;
   Segment segment;
+  const Jet* start = nullptr;  // the motion at the segment's beginning
   std::string message;
   double unit_of_time;
   double t_previous = 0.0;    // beginning of the last accepted step
@@ -313,9 +310,10 @@ BdfIntegrator::~BdfIntegrator() = default;
 
 void BdfIntegrator::count() { m_->add_counters(counters_); }
 
-Rehearsal BdfIntegrator::start(const Segment& segment, const Watch& watch) {
+Rehearsal BdfIntegrator::start(const Segment& segment, const Jet& jet, const Watch& watch) {
   count();  // IDA forgets at a restart
   m_->segment = segment;
+  m_->start = &jet;
   m_->problem.start(segment, watch);
   const Rehearsal past = m_->past();
   m_->begin(past.length, past.steps);
@@ -332,7 +330,7 @@ BdfStep BdfIntegrator::advance() {
   const double far = m_->segment.end + (m_->segment.end - m_->t_previous) + std::abs(m_->segment.end);
   int flag = IDASolve(m_->ida, far, &t, m_->y, m_->yp, IDA_ONE_STEP);
   if (flag >= 0 && m_->rooted) flag = m_->leave_step(flag, far, t);
-  const bool first = m_->reported_end == m_->segment.decision->jet.t;
+  const bool first = m_->reported_end == m_->start->t;
   double h0 = 0.0;
   for (int retry = 0; flag < 0 && first && retry < most_retries; ++retry) {
     count();

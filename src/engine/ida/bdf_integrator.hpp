@@ -38,8 +38,9 @@ class BdfIntegrator {
   BdfIntegrator(const BdfIntegrator&) = delete;
   BdfIntegrator& operator=(const BdfIntegrator&) = delete;
 
-  /// watch: which guards are armed; it must outlive the segment. Returns the past that IDA was given.
-  Rehearsal start(const Segment& segment, const Watch& watch);
+  /// jet: at the segment's beginning, whole; watch: which guards are armed. Both must outlive the segment. Returns the past
+  /// that IDA was given.
+  Rehearsal start(const Segment& segment, const Jet& jet, const Watch& watch);
   [[nodiscard]] BdfStep advance();
   void evaluate(double t, Point& point);
   [[nodiscard]] double residual();

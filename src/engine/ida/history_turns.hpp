@@ -25,6 +25,7 @@ class HistoryTurns {
   void start(const Decision& decision, const Forcing& forcing);
   /// The part [0, x_end] of the last step. Where a surface moves the history has t.u in the place of ut.
   void find(const StepHistory& history, double x_end);
+  [[nodiscard]] const std::vector<TurningPoints::Turn>& turns() const { return turns_.turns(); }
   /// Ascending, of the last step.
   [[nodiscard]] const std::vector<double>& times() const { return turns_.times(); }
 

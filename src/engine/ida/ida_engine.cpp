@@ -33,6 +33,7 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems
                      const Tolerance& tolerance, int max_order, double t_end, double flight_tolerances)
     : model_(model),
       consistent_(systems),
+      jets_(systems),
       tolerance_(tolerance),
       flight_tolerances_(flight_tolerances),
       powers_(model, structure),
@@ -109,21 +110,32 @@ void IdaEngine::start(const Segment& segment) {
   near_hits_.start(decision.guards, levels);
   turns_.start(decision, *segment.forcing);
   watch_.start(decision.guards, std::move(levels));
-  remember(bdf_.start(segment, watch_));
+  if (!decision.jet.whole())
+    jet_ = jets_.expand(decision.system, *segment.forcing, decision.jet.t, decision.u, decision.v);
+  const Jet& jet = decision.jet.whole() ? decision.jet : jet_;
+  remember(jet, bdf_.start(segment, jet, watch_));
 }
 
 /// The past that IDA was given, and the beginning, for the polynomials of the first steps.
-void IdaEngine::remember(const Rehearsal& past) {
+void IdaEngine::remember(const Jet& jet, const Rehearsal& past) {
   const Decision& decision = *segment_.decision;
-  const double t = decision.jet.t;
+  const double t = jet.t;
   for (int i = past.steps; i > 0; --i) {
     const double x = -i * past.length;
-    on_polynomials(
-        decision.jet, x,
-        [&](Eigen::Index dof) { return model_.dofs[static_cast<std::size_t>(dof)].massless; }, point_);
+    const auto along = [&](Eigen::Index p, Vector& places) {
+      places.resize(jet.u.rows());
+      places_along(
+          jet, p, x, consistent_.massless(),
+          [&](Eigen::Index dof) { return model_.dofs[static_cast<std::size_t>(dof)].massless; }, places);
+    };
+    along(0, point_.u);
+    along(1, point_.v);
+    along(2, point_.a);
+    point_.forces.resize(jet.forces.rows());
+    on_polynomials(jet.forces, Jet::orders, 0, x, point_.forces);
     fill(t + x, point_, i == past.steps ? history_.restart(t + x) : history_.push(t + x, past.length));
   }
-  const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
+  const Point point{decision.u, decision.v, jet.forces.col(0), jet.a()};
   fill(t, point, past.steps > 0 ? history_.push(t, past.length) : history_.restart(t));
 }
 
@@ -144,6 +156,13 @@ void IdaEngine::accelerate(double t, Point& point) {
 
 const std::vector<double>& IdaEngine::turning_points() const {
   return flight_ ? flights_.turning_points() : turns_.times();
+}
+
+std::optional<std::vector<Stepper::ContactTurn>> IdaEngine::contact_turns() const {
+  if (flight_) return std::nullopt;
+  std::vector<ContactTurn> result;
+  for (const TurningPoints::Turn& turn : turns_.turns()) result.push_back({turn.contact(), turn.time});
+  return result;
 }
 
 double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }

@@ -39,6 +39,7 @@ class IdaEngine final : public Stepper {
   [[nodiscard]] std::optional<Graze> graze() const override;
   [[nodiscard]] std::vector<NearHit> near_hits() const override { return near_hits_.list(); }
   [[nodiscard]] const std::vector<double>& turning_points() const override;
+  [[nodiscard]] std::optional<std::vector<ContactTurn>> contact_turns() const override;
   /// BDF's polynomials have the degree 5 at most.
   [[nodiscard]] double turns() const override {
     return flight_ ? flights_.motion().turns() : std::numbers::pi * 5.0;
@@ -51,7 +52,7 @@ class IdaEngine final : public Stepper {
   };
   [[nodiscard]] bool follows_at_once() const;
   void fill(double t, const Point& point, double* out);
-  void remember(const Rehearsal& past);
+  void remember(const Jet& jet, const Rehearsal& past);
   [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
   [[nodiscard]] bool opens_instead(const Located& slip, const Located& opening, double x, double h) const;
@@ -60,6 +61,7 @@ class IdaEngine final : public Stepper {
 
   const Model& model_;
   ConsistentMotion consistent_;
+  JetMaker jets_;
   const Tolerance tolerance_;
   const double flight_tolerances_;
   Powers powers_;
@@ -73,6 +75,7 @@ class IdaEngine final : public Stepper {
   ShortFlight flights_;
   std::optional<Step> flight_;  // the step that a short flight has taken
   Segment segment_;
+  Jet jet_;  // whole, where the decision's is not
   Point point_;
   std::vector<double> integrals_;
   bool accelerations_ = false;  // a guard needs them

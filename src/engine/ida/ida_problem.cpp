@@ -308,18 +308,19 @@ void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
 }
 
 void IdaProblem::along(const Jet& jet, double x, int derivative, double* y) const {
-  const Eigen::Index p = derivative;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(layout_.dofs); ++i) {
-    const auto row = jet.u.row(static_cast<Eigen::Index>(i));
-    const int v = layout_.velocity[i];
-    const Eigen::Index last = last_derivative(jet, v < 0);
-    y[i] = on_polynomial(row, last, p, x);
-    if (v >= 0) y[v] = on_polynomial(row, last, p + 1, x);
-  }
+  const Eigen::Index p = derivative, n = layout_.dofs;
+  const auto is_massless = [&](Eigen::Index i) { return layout_.velocity[static_cast<std::size_t>(i)] < 0; };
+  const bool massless = layout_.massive < layout_.dofs;
+  places_along(jet, p, x, massless, is_massless, Eigen::Map<Vector>(y, n));
+  Vector rates(n);
+  places_along(jet, p + 1, x, massless, is_massless, rates);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+    if (const int v = layout_.velocity[i]; v >= 0) y[v] = rates[static_cast<Eigen::Index>(i)];
+  Vector forces(jet.forces.rows());
+  on_polynomials(jet.forces, Jet::orders, p, x, forces);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     for (int side = 0; side < 2; ++side)
-      y[layout_.force(k) + side] =
-          on_polynomial(jet.forces.row(static_cast<Eigen::Index>(normal_slot(k)) + side), Jet::orders, p, x);
+      y[layout_.force(k) + side] = forces[static_cast<Eigen::Index>(normal_slot(k)) + side];
 }
 
 double IdaProblem::imbalance(double t, const double* y, const double* yp) const {

@@ -14,7 +14,6 @@
 #pragma once
 
 #include "motion/jet.hpp"
-#include "motion/point.hpp"
 
 namespace signorini {
 
@@ -38,22 +37,21 @@ template <class Row>
   return massless ? Jet::orders : jet.u.cols() - 1;
 }
 
-/// The motion x after the jet's instant, on its polynomials. is_massless: by degree of freedom.
+/// The same of all rows, where `last` is that of every one.
+inline void on_polynomials(const Eigen::MatrixXd& rows, Eigen::Index last, Eigen::Index p, double x,
+                           Eigen::Ref<Vector> sums) {
+  sums = rows.col(last);
+  for (Eigen::Index k = last - 1; k >= p; --k) sums = rows.col(k) + sums * x / static_cast<double>(k - p + 1);
+}
+
+/// d^p/dx^p of all places, x after the jet's instant. is_massless: by degree of freedom, where there is one.
 template <class IsMassless>
-void on_polynomials(const Jet& jet, double x, const IsMassless& is_massless, Point& point) {
-  point.u.resize(jet.u.rows());
-  point.v.resize(jet.u.rows());
-  point.a.resize(jet.u.rows());
-  point.forces.resize(jet.forces.rows());
-  for (Eigen::Index i = 0; i < jet.u.rows(); ++i) {
-    const Eigen::Index last = last_derivative(jet, is_massless(i));
-    const auto row = jet.u.row(i);
-    point.u[i] = on_polynomial(row, last, 0, x);
-    point.v[i] = on_polynomial(row, last, 1, x);
-    point.a[i] = on_polynomial(row, last, 2, x);
-  }
-  for (Eigen::Index i = 0; i < jet.forces.rows(); ++i)
-    point.forces[i] = on_polynomial(jet.forces.row(i), Jet::orders, 0, x);
+void places_along(const Jet& jet, Eigen::Index p, double x, bool any_massless, const IsMassless& is_massless,
+                  Eigen::Ref<Vector> places) {
+  on_polynomials(jet.u, last_derivative(jet, false), p, x, places);
+  if (!any_massless) return;
+  for (Eigen::Index i = 0; i < places.size(); ++i)
+    if (is_massless(i)) places[i] = on_polynomial(jet.u.row(i), last_derivative(jet, true), p, x);
 }
 
 }  // namespace signorini

@@ -60,15 +60,21 @@ TEST_CASE(
     jet.u(1, k) = k <= Jet::orders ? jet.u(0, k) : 1e9;
     if (k < 5) jet.forces(0, k) = jet.forces(1, k) = jet.u(0, k);
   }
-  Point point;
   const double x = -0.04;
-  on_polynomials(
-      jet, x, [](Eigen::Index dof) { return dof == 1; }, point);
-  CHECK(std::abs(point.u[0] - std::exp(-1.3 * x)) < std::pow(1.3 * 0.04, 7) / 5040.0 * 1.1);
-  CHECK(std::abs(point.u[1] - std::exp(-1.3 * x)) < std::pow(1.3 * 0.04, 5) / 120.0 * 1.1);
-  CHECK(std::abs(point.v[0] + 1.3 * std::exp(-1.3 * x)) < 1.3 * std::pow(1.3 * 0.04, 6) / 720.0 * 1.1);
-  CHECK(std::abs(point.a[0] - 1.69 * std::exp(-1.3 * x)) < 1.69 * std::pow(1.3 * 0.04, 5) / 120.0 * 1.1);
-  CHECK(point.forces[1] == doctest::Approx(point.u[1]).epsilon(1e-15));
+  const auto along = [&](Eigen::Index p) {
+    Vector places(2);
+    places_along(
+        jet, p, x, true, [](Eigen::Index dof) { return dof == 1; }, places);
+    return places;
+  };
+  const Vector u = along(0), v = along(1), a = along(2);
+  Vector forces(2);
+  on_polynomials(jet.forces, Jet::orders, 0, x, forces);
+  CHECK(std::abs(u[0] - std::exp(-1.3 * x)) < std::pow(1.3 * 0.04, 7) / 5040.0 * 1.1);
+  CHECK(std::abs(u[1] - std::exp(-1.3 * x)) < std::pow(1.3 * 0.04, 5) / 120.0 * 1.1);
+  CHECK(std::abs(v[0] + 1.3 * std::exp(-1.3 * x)) < 1.3 * std::pow(1.3 * 0.04, 6) / 720.0 * 1.1);
+  CHECK(std::abs(a[0] - 1.69 * std::exp(-1.3 * x)) < 1.69 * std::pow(1.3 * 0.04, 5) / 120.0 * 1.1);
+  CHECK(forces[1] == doctest::Approx(u[1]).epsilon(1e-15));
 }
 
 TEST_CASE("after each event of a compliant contact IDA begins at order three; of a rigid one at order one") {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/eigen_dense.hpp"
+#include "contact/friction.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/static_system.hpp"
 

@@ -1,6 +1,8 @@
 #include "engine/exact/modal/damped_works.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/eigen_dense.hpp"
 #include "contact/law.hpp"
@@ -19,30 +21,90 @@ std::complex<double> grown(std::complex<double> s, double h) {
 void DampedWorks::start() {
   const Model& model = motion_.model();
   const double t = motion_.decision().jet.t;
+  courses_meet_ = false;
   loads_.clear();
-  factors_.clear();
+  std::vector<std::pair<Course, ModalQuantity>> alike;  // loads of one history act as one
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Course factor = motion_.time().of(model.loads[i].history.piece(t));
     if (factor.isZero(0.0)) continue;
-    loads_.push_back(motion_.derivative(motion_.of_load(i)));
-    factors_.push_back(factor);
+    const auto same =
+        std::find_if(alike.begin(), alike.end(), [&](const auto& a) { return a.first == factor; });
+    if (same == alike.end())
+      alike.emplace_back(factor, motion_.of_load(i));
+    else
+      same->second += motion_.of_load(i);
   }
-  slips_.assign(model.contacts.size(), {});
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const int direction = slip_sign(motion_.decision().mode[c].state);
-    if (direction != 0) slips_[c] = motion_.of(slip_rate(model.contacts[c], direction), c);
+  for (const auto& [factor, load] : alike) {
+    loads_.push_back(paired(motion_.derivative(load), alone(factor)));
+    courses_meet_ = courses_meet_ || loads_.back().courses;
   }
+  contacts_.assign(model.contacts.size(), {});
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) pair_contact(c);
+  pair_loss();
+}
+
+void DampedWorks::pair_contact(std::size_t c) {
+  const Contact& contact = motion_.model().contacts[c];
+  const ContactState& state = motion_.decision().mode[c];
+  if (state.is_open()) return;
+  const DampedMotion::ContactQuantities& own = motion_.contact(c);
+  const TimeBasis& time = motion_.time();
+  ContactPairings& pairings = contacts_[c];
+  if (contact.has_gap()) pairings.pressing = paired(own.N, alone(time.constant(1.0)));
+  if (const int direction = slip_sign(state.state); direction != 0)
+    pairings.slip = paired(own.T, motion_.of(slip_rate(contact, direction), c));
+  if (const Course moved = time.derivative(own.surface); !moved.isZero(0.0))
+    pairings.surface = paired(own.T, alone(moved));
+  if (contact.normal_damping != 0.0) {
+    const ModalQuantity rate = motion_.derivative(own.gap);
+    pairings.dashpot = paired(rate, rate);
+  }
+  for (const auto& pairing : {pairings.pressing, pairings.slip, pairings.surface, pairings.dashpot})
+    courses_meet_ = courses_meet_ || (pairing && pairing->courses);
+}
+
+/// int q'^T C q', as far as a segment knows it.
+void DampedWorks::pair_loss() {
+  loss_answers_.resize(0, 0);
+  still_loss_.resize(0, 0);
   const Eigen::MatrixXd& rate = motion_.rate();
-  if (!motion_.system().damped() || rate.isZero(0.0)) {
-    course_loss_.resize(0, 0);
-    return;
-  }
+  if (!motion_.system().damped() || rate.isZero(0.0)) return;
   Eigen::MatrixXd damped = motion_.system().decay().asDiagonal() * rate;
   for (const ModalTerm& damper : motion_.system().dampers())
     damped += damper.u * (damper.damping * (damper.v.transpose() * rate));
   const Eigen::MatrixXcd rates = (motion_.state().modes.shape * motion_.root().asDiagonal()).transpose();
-  course_loss_ = complex_product(rates, damped.cast<std::complex<double>>());
+  const Eigen::MatrixXcd courses = complex_product(rates, damped.cast<std::complex<double>>());
+  loss_answers_.resize(courses.rows(), courses.cols());
+  for (Eigen::Index k = 0; k < courses.rows(); ++k)
+    loss_answers_.row(k) =
+        2.0 * motion_.time().answer(-motion_.root()[k], courses.row(k).transpose()).transpose();
   still_loss_ = rate.transpose() * damped;
+  courses_meet_ = courses_meet_ || !still_loss_.isZero(0.0);
+}
+
+ModalQuantity DampedWorks::alone(Course course) const {
+  return {Eigen::VectorXcd::Zero(motion_.root().size()), std::move(course)};
+}
+
+void DampedWorks::add_answers(const Eigen::VectorXcd& row, const Course& course,
+                              Eigen::MatrixXcd& answers) const {
+  if (course.isZero(0.0) || row.isZero(0.0)) return;
+  if (answers.size() == 0) answers.setZero(row.size(), course.size());
+  const ComplexCourse complex = course.cast<std::complex<double>>();
+  for (Eigen::Index k = 0; k < row.size(); ++k)
+    if (row[k] != 0.0)
+      answers.row(k) += row[k] * motion_.time().answer(-motion_.root()[k], complex).transpose();
+}
+
+DampedWorks::Pairing DampedWorks::paired(ModalQuantity f, ModalQuantity g) const {
+  Pairing pairing;
+  add_answers(f.row, g.course, pairing.answers);
+  add_answers(g.row, f.course, pairing.answers);
+  pairing.pairs = !f.row.isZero(0.0) && !g.row.isZero(0.0);
+  pairing.courses = !f.course.isZero(0.0) && !g.course.isZero(0.0);
+  pairing.f = std::move(f);
+  pairing.g = std::move(g);
+  return pairing;
 }
 
 /// int (Re a . y)(Re b . y)
@@ -64,26 +126,18 @@ double DampedWorks::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& 
   return sum;
 }
 
-/// int (Re row . y)(course . b)
-double DampedWorks::with_course(const Eigen::VectorXcd& row, const Course& course, const Stretch& s) const {
-  if (course.isZero(0.0) || row.isZero(0.0)) return 0.0;
-  const Eigen::VectorXd from = motion_.time().at(s.from.time), to = motion_.time().at(s.to.time);
-  const Eigen::VectorXcd& l = motion_.root();
-  double sum = 0.0;
-  for (Eigen::Index k = 0; k < l.size(); ++k) {
-    if (row[k] == 0.0) continue;
-    const ComplexCourse r = motion_.time().answer(-l[k], course.cast<std::complex<double>>());
-    sum +=
-        (row[k] * (s.to.y[k] * r.cwiseProduct(to).sum() - s.from.y[k] * r.cwiseProduct(from).sum())).real();
-  }
-  return sum;
+/// Of what the modes of a segment do beside its courses.
+double DampedWorks::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
+  if (answers.size() == 0) return 0.0;
+  return (s.to.y.transpose() * (answers * s.b_to) - s.from.y.transpose() * (answers * s.b_from))
+      .value()
+      .real();
 }
 
-double DampedWorks::integral(const ModalQuantity& f, const ModalQuantity& g, const Stretch& s) const {
-  double sum = with_course(f.row, g.course, s) + with_course(g.row, f.course, s);
-  if (!f.row.isZero(0.0) && !g.row.isZero(0.0)) sum += of_pairs(f.row, g.row, s);
-  if (!f.course.isZero(0.0) && !g.course.isZero(0.0))
-    sum += motion_.time().integral(f.course, g.course, s.from.time, s.to.time);
+double DampedWorks::integral(const Pairing& pairing, const Stretch& s) const {
+  double sum = with_courses(pairing.answers, s);
+  if (pairing.pairs) sum += of_pairs(pairing.f.row, pairing.g.row, s);
+  if (pairing.courses) sum += pairing.f.course.dot(s.products * pairing.g.course);
   return sum;
 }
 
@@ -102,18 +156,8 @@ double DampedWorks::loss(const Stretch& s) const {
     const std::complex<double> rate = l[k] + (turned ? std::conj(l[i]) : l[i]);
     sum += 0.5 * (taken * s.from.y[k] * right * grown(rate, s.to.time - s.from.time)).real();
   }
-  if (course_loss_.size() == 0) return sum;
-  const Eigen::VectorXd from = motion_.time().at(s.from.time), to = motion_.time().at(s.to.time);
-  for (Eigen::Index k = 0; k < l.size(); ++k) {
-    const ComplexCourse r = motion_.time().answer(-l[k], course_loss_.row(k).transpose());
-    sum += 2.0 * (s.to.y[k] * r.cwiseProduct(to).sum() - s.from.y[k] * r.cwiseProduct(from).sum()).real();
-  }
-  for (Eigen::Index i = 0; i < still_loss_.rows(); ++i) {
-    Course unit = Course::Zero(still_loss_.rows());
-    unit[i] = 1.0;
-    const Course row = still_loss_.row(i).transpose();
-    if (!row.isZero(0.0)) sum += motion_.time().integral(unit, row, s.from.time, s.to.time);
-  }
+  sum += with_courses(loss_answers_, s);
+  if (still_loss_.size() > 0 && s.products.size() > 0) sum += still_loss_.cwiseProduct(s.products).sum();
   return sum;
 }
 
@@ -124,26 +168,21 @@ void DampedWorks::add_contact(std::size_t c, const Stretch& s, Works& works) con
   if (state.state == State::inside)
     works.damping +=
         inside_loss(contact, state.state, motion_.value(own.gap, s.from), motion_.value(own.gap, s.to));
-  if (state.is_open()) return;
-  const TimeBasis& time = motion_.time();
-  const ModalQuantity one{Eigen::VectorXcd::Zero(motion_.root().size()), time.constant(1.0)};
-  if (contact.has_gap()) works.pressing[c] -= integral(own.N, one, s);
-  if (slip_sign(state.state) != 0) works.friction[c] += integral(own.T, slips_[c], s);
-  const ModalQuantity moved{Eigen::VectorXcd::Zero(motion_.root().size()), time.derivative(own.surface)};
-  if (!moved.course.isZero(0.0)) works.surface[c] -= integral(own.T, moved, s);
-  if (contact.normal_damping != 0.0) {
-    const ModalQuantity rate = motion_.derivative(own.gap);
-    works.damping += contact.normal_damping * integral(rate, rate, s);
-  }
+  const ContactPairings& pairings = contacts_[c];
+  if (pairings.pressing) works.pressing[c] -= integral(*pairings.pressing, s);
+  if (pairings.slip) works.friction[c] += integral(*pairings.slip, s);
+  if (pairings.surface) works.surface[c] -= integral(*pairings.surface, s);
+  if (pairings.dashpot) works.damping += contact.normal_damping * integral(*pairings.dashpot, s);
 }
 
 void DampedWorks::add(const ModalPoint& from, const ModalPoint& to, Works& works) const {
   if (!(to.time > from.time)) return;
-  const Stretch s{from, to};
-  for (std::size_t i = 0; i < loads_.size(); ++i)
-    works.loads += integral(loads_[i], {Eigen::VectorXcd::Zero(motion_.root().size()), factors_[i]}, s);
+  const TimeBasis& time = motion_.time();
+  const Stretch s{from, to, time.at(from.time), time.at(to.time),
+                  courses_meet_ ? time.products(from.time, to.time) : Eigen::MatrixXd()};
+  for (const Pairing& load : loads_) works.loads += integral(load, s);
   works.damping += loss(s);
-  for (std::size_t c = 0; c < motion_.model().contacts.size(); ++c) add_contact(c, s, works);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) add_contact(c, s, works);
 }
 
 }  // namespace signorini

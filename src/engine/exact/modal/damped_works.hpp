@@ -8,6 +8,8 @@
 // of (e^(s h) - 1) / s. So the balance of energy is not computed from itself.
 #pragma once
 
+#include <optional>
+
 #include "engine/exact/modal/damped_motion.hpp"
 #include "motion/powers.hpp"
 
@@ -24,19 +26,35 @@ class DampedWorks {
  private:
   struct Stretch {
     const ModalPoint &from, &to;
+    Eigen::VectorXd b_from, b_to;
+    Eigen::MatrixXd products;  // of courses; empty where no two meet
   };
+  /// The integral of f g, as far as a segment knows it: of modes beside courses y . answers b, at the ends of a stretch.
+  struct Pairing {
+    ModalQuantity f, g;
+    Eigen::MatrixXcd answers;  // modes x b; empty: none
+    bool pairs = false, courses = false;
+  };
+  [[nodiscard]] Pairing paired(ModalQuantity f, ModalQuantity g) const;
+  [[nodiscard]] ModalQuantity alone(Course course) const;
+  void add_answers(const Eigen::VectorXcd& row, const Course& course, Eigen::MatrixXcd& answers) const;
+  void pair_contact(std::size_t c);
+  void pair_loss();
   [[nodiscard]] double of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, const Stretch& s) const;
-  [[nodiscard]] double with_course(const Eigen::VectorXcd& row, const Course& course, const Stretch& s) const;
-  [[nodiscard]] double integral(const ModalQuantity& f, const ModalQuantity& g, const Stretch& s) const;
+  [[nodiscard]] static double with_courses(const Eigen::MatrixXcd& answers, const Stretch& s);
+  [[nodiscard]] double integral(const Pairing& pairing, const Stretch& s) const;
   [[nodiscard]] double loss(const Stretch& s) const;
   void add_contact(std::size_t c, const Stretch& s, Works& works) const;
 
   const DampedMotion& motion_;
-  std::vector<ModalQuantity> loads_;  // rates along loads that act
-  std::vector<Course> factors_;       // and how strongly they act
-  std::vector<ModalQuantity> slips_;  // slip rates, one a contact; empty rows where none slips
-  Eigen::MatrixXd still_loss_;        // b x b: of courses alone
-  Eigen::MatrixXcd course_loss_;      // modes x b: what damping takes of modes beside courses
+  std::vector<Pairing> loads_;  // rates along loads that act, and how strongly they act
+  struct ContactPairings {
+    std::optional<Pairing> pressing, slip, surface, dashpot;
+  };
+  std::vector<ContactPairings> contacts_;
+  Eigen::MatrixXd still_loss_;     // b x b: of courses alone
+  Eigen::MatrixXcd loss_answers_;  // what damping takes of modes beside courses
+  bool courses_meet_ = false;
 };
 
 }  // namespace signorini

@@ -94,15 +94,17 @@ Eigen::MatrixXd TimeBasis::derivative(const Eigen::MatrixXd& c) const {
 ComplexCourse TimeBasis::answer(std::complex<double> l, const ComplexCourse& p) const {
   ComplexCourse c = ComplexCourse::Zero(size());
   const auto degree = static_cast<Eigen::Index>(degree_);
-  if (l == 0.0)
+  if (l == 0.0) {
     for (Eigen::Index j = 0; j < degree; ++j) c[j + 1] = p[j] / static_cast<double>(j + 1);
-  else
-    for (Eigen::Index j = degree; j-- > 0;) c[j] = (static_cast<double>(j + 1) * c[j + 1] - p[j]) / l;
+  } else {
+    const std::complex<double> part = 1.0 / l;
+    for (Eigen::Index j = degree; j-- > 0;) c[j] = (static_cast<double>(j + 1) * c[j + 1] - p[j]) * part;
+  }
   Eigen::Index i = degree + 1;
   for (const double w : omega_) {
-    const std::complex<double> all = l * l + w * w;
-    c[i] = -(l * p[i] + w * p[i + 1]) / all;
-    c[i + 1] = (w * p[i] - l * p[i + 1]) / all;
+    const std::complex<double> part = 1.0 / (l * l + w * w);
+    c[i] = -(l * p[i] + w * p[i + 1]) * part;
+    c[i + 1] = (w * p[i] - l * p[i + 1]) * part;
     i += 2;
   }
   return c;
@@ -164,18 +166,18 @@ TimeBasis::Ripple TimeBasis::taylor(const Course& c, double x0, double h, double
   return ripple;
 }
 
-double TimeBasis::integral(const Course& c, const Course& d, double x0, double x1) const {
+Eigen::MatrixXd TimeBasis::products(double x0, double x1) const {
   const double fastest = omega_.empty() ? 0.0 : *std::max_element(omega_.begin(), omega_.end());
   const double h = x1 - x0;
   const auto panels = static_cast<int>(std::ceil(std::max(1.0, fastest * h / turn_of_panel)));
   const GaussRule& rule = gauss_rule();
-  double sum = 0.0;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size(), size());
   for (int panel = 0; panel < panels; ++panel)
     for (std::size_t i = 0; i < rule.x.size(); ++i) {
       const Eigen::VectorXd b = at(x0 + h * (panel + rule.x[i]) / panels);
-      sum += rule.w[i] * c.dot(b) * d.dot(b);
+      for (Eigen::Index j = 0; j < b.size(); ++j) sum.col(j) += rule.w[i] * b[j] * b;
     }
-  return sum * h / panels;
+  return sum * (h / panels);
 }
 
 }  // namespace signorini

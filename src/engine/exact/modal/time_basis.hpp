@@ -50,8 +50,8 @@ class TimeBasis {
   };
   [[nodiscard]] Ripple taylor(const Course& c, double x0, double h, double turn,
                               std::vector<double>& p) const;
-  /// Integral of (c . b)(d . b) over [x0, x1].
-  [[nodiscard]] double integral(const Course& c, const Course& d, double x0, double x1) const;
+  /// Integral of b b^T over [x0, x1]: of (c . b)(d . b) it is c . products d.
+  [[nodiscard]] Eigen::MatrixXd products(double x0, double x1) const;
 
  private:
   double t0_ = 0.0;

@@ -1,10 +1,12 @@
-# Writes the ctest entries of a doctest program: one a test case, labelled with its suite.
+# Writes the ctest entries of a doctest program: one a test case, labelled with its suite; or one a suite (BY_SUITE), but for the
+# test cases WITHOUT, doctest's patterns with commas between them.
 #
-#   cmake -DPROGRAM=... -DOUTPUT=... -DFOLDER=... -P discover.cmake
+#   cmake -DPROGRAM=... -DOUTPUT=... -DFOLDER=... [-DBY_SUITE=ON -DWITHOUT=...] -P discover.cmake
 #
 # doctest's own doctest_discover_tests asks once a test case for its suite, and loses test cases with a comma
 # in their names.
 
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --list-test-cases --reporters=xml OUTPUT_VARIABLE listing
                 COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "<semicolon/>" listing "${listing}")
@@ -20,7 +22,15 @@ function(unescape text result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
+function(entry name filter cost suite)
+  string(APPEND script "add_test([==[${name}]==] [==[${PROGRAM}]==] ${filter})\n"
+                       "set_tests_properties([==[${name}]==] PROPERTIES WORKING_DIRECTORY [==[${FOLDER}]==] "
+                       "TIMEOUT 900 COST ${cost} LABELS [==[${suite}]==])\n")
+  set(script "${script}" PARENT_SCOPE)
+endfunction()
+
 set(script "")
+set(suites "")
 foreach(case IN LISTS cases)
   if(NOT case MATCHES "name=\"([^\"]*)\"( testsuite=\"([^\"]*)\")?")
     message(FATAL_ERROR "no test case in: ${case}")
@@ -32,9 +42,18 @@ foreach(case IN LISTS cases)
   if(suite MATCHES "^(slow|deep)")
     set(cost 1)
   endif()
+  if(BY_SUITE)
+    if(suite STREQUAL "")
+      message(FATAL_ERROR "no suite: ${name}")
+    endif()
+    list(APPEND suites "${suite}")
+    continue()
+  endif()
   string(REPLACE "," "\\," filter "${name}")
-  string(APPEND script "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[--test-case=${filter}]==])\n"
-                       "set_tests_properties([==[${name}]==] PROPERTIES WORKING_DIRECTORY [==[${FOLDER}]==] "
-                       "TIMEOUT 900 COST ${cost} LABELS [==[${suite}]==])\n")
+  entry("${name}" "[==[--test-case=${filter}]==]" ${cost} "${suite}")
+endforeach()
+list(REMOVE_DUPLICATES suites)
+foreach(suite IN LISTS suites)
+  entry("${suite}" "[==[--test-suite=${suite}]==] [==[--test-case-exclude=${WITHOUT}]==]" 0 "${suite}")
 endforeach()
 file(WRITE "${OUTPUT}" "${script}")

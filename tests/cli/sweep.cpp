@@ -366,8 +366,6 @@ TEST_CASE("cli sweep: what stroboscopic sweeps and carried states refuse") {
   CHECK(has(error({"--carry", "--strobe", "3"}), "whole number"));
 }
 
-TEST_SUITE_END();
-
 TEST_CASE("cli sweep: contacts.* varies the contacts of stops, too, and says how many tables it met") {
   const Shell shell;
   std::string text = sliding_block;
@@ -388,3 +386,5 @@ TEST_CASE("cli sweep: contacts.* varies the contacts of stops, too, and says how
                   "--no-plots"})
             .err.empty());
 }
+
+TEST_SUITE_END();

@@ -100,12 +100,13 @@ ComplexCourse TimeBasis::answer(std::complex<double> l, const ComplexCourse& p) 
     const std::complex<double> part = 1.0 / l;
     for (Eigen::Index j = degree; j-- > 0;) c[j] = (static_cast<double>(j + 1) * c[j + 1] - p[j]) * part;
   }
-  Eigen::Index i = degree + 1;
+  Eigen::Index i = degree - 1;
   for (const double w : omega_) {
+    i += 2;
+    if (p[i] == 0.0 && p[i + 1] == 0.0) continue;
     const std::complex<double> part = 1.0 / (l * l + w * w);
     c[i] = -(l * p[i] + w * p[i + 1]) * part;
     c[i + 1] = (w * p[i] - l * p[i + 1]) * part;
-    i += 2;
   }
   return c;
 }

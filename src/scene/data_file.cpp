@@ -97,6 +97,10 @@ class TableReader {
       last_ = number_;
       const bool heading = heading_allowed_ && !parse_number(words_[0]);
       heading_allowed_ = false;
+      if (heading && values_only && names_times())
+        fail(fmt::format(
+            "found \"{}\", a heading of times and values, expected values only, since time_step is given",
+            excerpt(line_)));
       if (heading) continue;
       if (has_empty_cell(line_)) fail(fmt::format("found \"{}\", expected no empty cell", excerpt(line_)));
       if (values_only)
@@ -132,6 +136,11 @@ class TableReader {
       if (!words_.empty()) return true;
     }
     return false;
+  }
+
+  [[nodiscard]] bool names_times() const {
+    const std::string first = upper(words_.front());
+    return words_.size() > 1 && (first == "T" || first.starts_with("TIME"));
   }
 
   double number(const std::string& word, const char* what) const {

@@ -70,6 +70,16 @@ TEST_CASE("columns, values alone, periods and shifts") {
   CHECK(refusal("0 1\n1 2 3\n", {3, 0.0, false}).find("a value in column 3") != std::string::npos);
 }
 
+TEST_CASE("a heading of times and values is none of values alone") {
+  for (const char* text : {"t,a\n0,0\n0.5,1\n", "# m\nTime (s); force\n0;0\n0.5;1\n"}) {
+    CHECK(refusal(text, {0, 0.25, false}).find("expected values only, since time_step is given") !=
+          std::string::npos);
+    CHECK(refusal(text, {}) == "none");
+  }
+  for (const char* text : {"force\n0 0\n0.5 1\n", "t\n0 0\n", "total force\n0 0\n"})
+    CHECK(refusal(text, {0, 0.25, false}) == "none");
+}
+
 TEST_CASE("rows of nodes, contacts on many, stops on both sides") {
   const Scene scene = says();
   CHECK(scene.nodes.size() == 8);

@@ -121,6 +121,54 @@ TEST_CASE("what is held on a slope does not move at all, whatever pulls at it th
   }
 }
 
+TEST_CASE(
+    "what a load pulls at does not move while it is held, beside a part without mass that it does not "
+    "touch") {
+  std::vector<std::string> contacts;
+  for (const double t : {0.3, 0.7, 0.9, 1.3})
+    contacts.push_back(
+        fmt::format("law = \"slider\"\nnormal_force = 1.0\nfriction = 50.0\ntangent = {{ d0 = {} }}", t));
+  for (const double degrees : {3.0, 17.0, 36.0, 59.0}) {
+    const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
+    contacts.push_back(
+        fmt::format("law = \"rigid\"\nrestitution = 0.0\nfriction = 50.0\n"
+                    "normal = {{ d0 = {}, d1 = {} }}\ntangent = {{ d0 = {}, d1 = {} }}",
+                    s, c, c, -s));
+  }
+  for (const std::string& contact : contacts) {
+    CAPTURE(contact);
+    const bool slope = contact.find("normal =") != std::string::npos;
+    const Model model = build_model(parse_scene(
+        matrix_scene("t_end = 1.0\ninitial = { u = [0.0, 0.0, 0.1, 0.0], v = [0.0, 0.0, -0.2, 0.0] }",
+                     fmt::format("mass = [[1.7, 0.0, 0.0, 0.0], [0.0, 1.3, 0.0, 0.0], [0.0, 0.0, 2.1, 0.0], "
+                                 "[0.0, 0.0, 0.0, 0.0]]\n"
+                                 "stiffness = [[13.0, {0}, 0.0, 0.0], [{0}, 12.0, 0.0, 0.0], [0.0, 0.0, 9.0, "
+                                 "-0.7], [0.0, 0.0, -0.7, 11.0]]",
+                                 slope ? -1.7 : 0.0),
+                     contact,
+                     "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 2.3\nhistory = { type = \"harmonic\", "
+                     "omega = 3.0, phase = 0.4 }\n"),
+        "test.toml"));
+    const Structure structure(model);
+    ModeSystems systems(model, structure);
+    const ModeSystemPtr system = systems.of({{State::stick, 0.0}});
+    REQUIRE(system);
+    Taylor taylor(systems);
+    Series series;
+    taylor.expand(system, Forcing(model, 0.0, Side::after), 0.0, model.u0, model.v0, 14, 1.0, series);
+    const Combination& t = model.contacts[0].tangent;
+    Vector along = Vector::Zero(4);
+    t.add_to(along, 1.0);
+    for (int k = 2; k <= 14; ++k) {
+      CAPTURE(k);
+      CHECK(series.u(0, k) == 0.0);
+      if (slope) CHECK(series.u(1, k) == 0.0);
+    }
+    // p = t T but for what n carries, at right angles to t
+    CHECK(series.forces(1, 0) == doctest::Approx(2.3 * std::sin(0.4) * t.terms[0].second / t.dot(along)));
+  }
+}
+
 TEST_SUITE_END();
 
 }  // namespace signorini::tests::taylors

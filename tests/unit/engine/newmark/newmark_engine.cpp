@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "behaviour/one_mass.hpp"
@@ -104,6 +106,45 @@ TEST_CASE("what a step leaves out of a guard: h^2/12 of the change of u'', and h
     CHECK(s.engine->guard_error(rate, {}, 0) ==
           doctest::Approx(h / 12.0 * std::abs(a(i) - a(i - 1) - before)).epsilon(1e-9));
   }
+}
+
+TEST_CASE(
+    "doubling takes the first of dt, dt/2, ... whose error is within the tolerance of motions of any size") {
+  // u'' = -w^2 u turns by 2 atan(w h/2) in a step: two of h beside one of 2h, from u = A cos p, v = -A w sin p
+  const double w = 2.0, rtol = 1e-4;
+  for (const double A : {0x1p-10, 1.0, 0x1p10})
+    for (const double phase : {0.5, 1.1})
+      for (const double dt : {0.5, 0.7}) {
+        CAPTURE(A);
+        CAPTURE(phase);
+        CAPTURE(dt);
+        Stretch s(matrix_scene(fmt::format("t_end = 30.0\ninitial = {{ u = [{:.17g}], v = [{:.17g}] }}",
+                                           A * std::cos(phase), -A * w * std::sin(phase)),
+                               "mass = [[1.0]]\nstiffness = [[4.0]]",
+                               fmt::format("law = \"compliant\"\nnormal = {{ d0 = 1.0 }}\ngap = {}\n"
+                                           "normal_stiffness = 7.0",
+                                           10.0 * A)),
+                  {{"run.engine", "newmark"},
+                   {"run.step", "doubling"},
+                   {"run.dt", fmt::format("{}", dt)},
+                   {"run.rtol", fmt::format("{}", rtol)},
+                   {"run.atol.displacement", fmt::format("{:.17g}", 1e-9 * A)},
+                   {"run.atol.velocity", fmt::format("{:.17g}", 1e-9 * A)}});
+        const auto turned = [&](double h) { return 2.0 * std::atan(0.5 * w * h); };
+        const auto off = [&](double fine, double coarse) {
+          return std::abs(fine - coarse) / (rtol * std::abs(fine) + 1e-9);
+        };
+        double h = 2.0 * dt, change = 0.0;
+        do {
+          h *= 0.5;
+          const double fine = phase + 2.0 * turned(h), coarse = phase + turned(2.0 * h);
+          change =
+              std::max(off(std::cos(fine), std::cos(coarse)), off(w * std::sin(fine), w * std::sin(coarse)));
+        } while (change > 1.0);
+        REQUIRE(h < dt);
+        CHECK(s.engine->advance().end == doctest::Approx(h).epsilon(1e-14));
+        CHECK(s.engine->advance().end == doctest::Approx(2.0 * h).epsilon(1e-14));
+      }
 }
 
 TEST_SUITE_END();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact/work.hpp"
+#include "decide/at_once.hpp"
 #include "decide/driven_states.hpp"
 #include "decide/places.hpp"
 #include "decide/release.hpp"
@@ -104,11 +105,10 @@ struct Decider::Course {
   Findings found;
   std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states stay
   bool blurred = false;
-  Vector given = {};                        // at a start: u as it is given, before parts without mass move
-  std::vector<MotionJet> so_far = {};       // up to the instant; empty where no limit has rested
-  std::optional<std::size_t> touched = {};  // in this round, by parts without mass that move at once
-  double touched_ut = 0.0;                  // its ut there, less that at the end of the way
-  std::vector<std::size_t> slid = {};       // contacts that have slid at once and stopped
+  Vector given = {};                       // at a start: u as it is given, before parts without mass move
+  std::vector<MotionJet> so_far = {};      // up to the instant; empty where no limit has rested
+  std::optional<TouchOnWay> touched = {};  // in this round, by parts without mass that move at once
+  std::vector<std::size_t> slid = {};      // contacts that have slid at once and stopped
   std::optional<std::vector<std::size_t>> open =
       {};                            // contacts whose guards are not all clearly positive; else: any
   const Forcing* forcing = nullptr;  // under which the mode tried last was evaluated,
@@ -234,59 +234,13 @@ void Decider::look(Course& course, bool before) {
   listener_(round);
 }
 
-/// Where parts without mass move at once into a contact, it is touched on the way, at the part x of it,
-/// (1 - x) g + x g' = 0: from there on it slips or sticks, and its dashpot holds it there. Nothing: it is not.
-std::optional<double> Decider::touched_at(const Failure& f, const Course& course) const {
-  if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
-  const Contact& contact = model_.contacts[f.contact];
-  const double from = contact.gap_at(course.comes_from()), to = contact.gap_at(course.decision.u);
-  if (!(to < 0.0 && to < from)) return std::nullopt;
-  return from > 0.0 ? from / (from - to) : 0.0;
-}
-
-/// Of several that are touched on the way the first closes; after that it is another way.
-void Decider::touch_first(Course& course) const {
-  const Failure* first = nullptr;
-  double at = 0.0;
-  for (const Failure& f : course.failed)
-    if (const auto x = touched_at(f, course); x && (first == nullptr || *x < at)) {
-      first = &f;
-      at = *x;
-    }
-  if (first == nullptr) return;
-  const std::size_t c = first->contact;
-  std::erase_if(course.failed, [&](const Failure& f) { return f.contact != c && touched_at(f, course); });
-  const Vector way = course.decision.u - course.comes_from();
-  course.touched_ut = model_.contacts[c].tangent.dot(way) * (at - 1.0);
-  course.touched = c;
-  if (model_.contacts[c].normal_damping > 0.0) course.instant.u = course.comes_from() + at * way;
-}
-
-/// Parts without mass are on their way to where the states that are tried balance, and another contact fails by more than
-/// the instant: how fast the rest of them slides is told where they arrive, not on the way. Once: in a circle all are asked.
-void Decider::arrive_first(Course& course) const {
-  if (course.decision.rounds < 2 || course.blurred) return;
-  const auto carried = [&](const Failure& f) {
-    const Contact& c = model_.contacts[f.contact];
-    return !c.takes_impulses() && !c.sticks_rigidly() && carries_massless(model_, c);
-  };
-  const bool on_the_way = std::any_of(course.failed.begin(), course.failed.end(), [&](const Failure& f) {
-    return f.guard != Guard::sliding && f.sign.order == 0 && carried(f);
-  });
-  if (on_the_way)
-    std::erase_if(course.failed, [&](const Failure& f) { return f.guard == Guard::sliding && carried(f); });
-}
-
-/// A part without mass that friction lets go slides at once to where it balances. What stops there is held where it has come
-/// to by the dashpot beside it, not where it came from. Once a contact: then it is another way.
+/// What stops on its way is held where it has come to, not where it came from. Once a contact: then it is another way.
 void Decider::stop_there(const Failure& f, Course& course) const {
-  const Contact& contact = model_.contacts[f.contact];
-  if (f.guard != Guard::sliding || !slides_at_once(contact)) return;
-  const ContactMotion& noise = course.jets[f.contact].noise[0];
-  const double way = contact.tangent.dot(course.decision.u) - contact.tangent.dot(course.instant.u);
-  if (!(slip_sign(course.mode[f.contact].state) * way > 2.0 * noise.ut)) return;
   std::vector<std::size_t>& before = course.slid;
-  if (std::find(before.begin(), before.end(), f.contact) != before.end()) return;
+  if (!stops_on_way(model_.contacts[f.contact], f, course.mode[f.contact].state,
+                    {course.instant.u, course.decision.u}, course.jets[f.contact].noise[0].ut) ||
+      std::find(before.begin(), before.end(), f.contact) != before.end())
+    return;
   before.push_back(f.contact);
   course.instant.u = course.decision.u;
   course.seen.clear();
@@ -297,14 +251,18 @@ std::vector<Block> Decider::react(Course& course) const {
   Findings& found = course.found;
   std::vector<bool> jointly(blocks_.size(), false);
   std::vector<std::size_t> turning;
-  course.touched.reset();
-  touch_first(course);
-  arrive_first(course);
+  const MasslessWay way{course.comes_from(), course.decision.u};
+  course.touched = first_touch(model_, way, course.failed);
+  const auto touched = [&](std::size_t c) { return course.touched && course.touched->contact == c; };
+  if (course.touched && model_.contacts[course.touched->contact].normal_damping > 0.0)
+    course.instant.u = way.from + course.touched->part * (way.to - way.from);
+  if (course.decision.rounds >= 2 && !course.blurred)  // once: in a circle all are asked
+    leave_sliding_for_later(model_, course.failed);
   for (const Failure& f : course.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
     // What is touched on the way is touched at a time that others give.
-    if (!course.decision.visited[c] && course.touched != c &&
+    if (!course.decision.visited[c] && !touched(c) &&
         !is_pushed(f, course.instant, course.decision.before[c], course.noise_before[c]))
       course.decision.crossings[c] = crossing(f.form, course.jets[c]);
     course.decision.visited[c] = true;
@@ -318,8 +276,8 @@ std::vector<Block> Decider::react(Course& course) const {
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
       stop_there(f, course);
       course.mode[c] = next_state(contact, course.mode[c], f.guard, course.jets[c]);
-      if (course.touched == c)  // elastic first; its limit decides whether it slips
-        course.mode[c] = {state_at_rest(contact), course.jets[c].motion[0].ut + course.touched_ut};
+      if (touched(c))  // elastic first; its limit decides whether it slips
+        course.mode[c] = {state_at_rest(contact), course.jets[c].motion[0].ut + course.touched->ut};
       continue;
     }
     jointly[block_of_[c]] = true;

@@ -53,9 +53,6 @@ class Decider {
   [[nodiscard]] bool evaluate(const Forcing& forcing, Mode& mode, Course& course);
   [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
   void look(Course& course, bool before);
-  [[nodiscard]] std::optional<double> touched_at(const Failure& f, const Course& course) const;
-  void touch_first(Course& course) const;
-  void arrive_first(Course& course) const;
   void stop_there(const Failure& f, Course& course) const;
   [[nodiscard]] std::vector<Block> react(Course& course) const;
   void stop(const std::vector<std::size_t>& turning, Course& course) const;

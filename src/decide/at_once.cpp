@@ -1,0 +1,54 @@
+#include "decide/at_once.hpp"
+
+#include <algorithm>
+
+#include "contact/work.hpp"
+#include "decide/release.hpp"
+
+namespace signorini {
+namespace {
+
+/// x; nothing: it is not touched on the way.
+std::optional<double> touched_at(const Model& model, const MasslessWay& way, const Failure& f) {
+  if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
+  const Contact& contact = model.contacts[f.contact];
+  const double from = contact.gap_at(way.from), to = contact.gap_at(way.to);
+  if (!(to < 0.0 && to < from)) return std::nullopt;
+  return from > 0.0 ? from / (from - to) : 0.0;
+}
+
+}  // namespace
+
+std::optional<TouchOnWay> first_touch(const Model& model, const MasslessWay& way,
+                                      std::vector<Failure>& failed) {
+  std::optional<TouchOnWay> first;
+  for (const Failure& f : failed)
+    if (const auto x = touched_at(model, way, f); x && (!first || *x < first->part))
+      first = TouchOnWay{f.contact, *x, 0.0};
+  if (!first) return std::nullopt;
+  std::erase_if(failed,
+                [&](const Failure& f) { return f.contact != first->contact && touched_at(model, way, f); });
+  const Vector all = way.to - way.from;
+  first->ut = model.contacts[first->contact].tangent.dot(all) * (first->part - 1.0);
+  return first;
+}
+
+void leave_sliding_for_later(const Model& model, std::vector<Failure>& failed) {
+  const auto carried = [&](const Failure& f) {
+    const Contact& c = model.contacts[f.contact];
+    return !c.takes_impulses() && !c.sticks_rigidly() && carries_massless(model, c);
+  };
+  const bool on_the_way = std::any_of(failed.begin(), failed.end(), [&](const Failure& f) {
+    return f.guard != Guard::sliding && f.sign.order == 0 && carried(f);
+  });
+  if (on_the_way)
+    std::erase_if(failed, [&](const Failure& f) { return f.guard == Guard::sliding && carried(f); });
+}
+
+bool stops_on_way(const Contact& contact, const Failure& failure, State slip, const MasslessWay& way,
+                  double noise) {
+  if (failure.guard != Guard::sliding || !slides_at_once(contact)) return false;
+  return slip_sign(slip) * (contact.tangent.dot(way.to) - contact.tangent.dot(way.from)) > 2.0 * noise;
+}
+
+}  // namespace signorini

@@ -17,6 +17,8 @@ constexpr double roots_apart = 10.0;
 constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not doubted. Chosen.
 constexpr double parts_apart = 1e3;        // of that: two places show the way from one to the other. Chosen.
 
+constexpr double rounded = 1e-9;  // of the greatest step
+
 constexpr const char* other_branch = "other branch";
 
 BranchPlace place_of(const Corrected& at) { return {at.pass.begin, at.state.duration, at.state.s}; }
@@ -100,14 +102,51 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
   return point;
 }
 
-/// Whether a multiplier passes 1 on a step without a turn and without a place where it is 1. It is continuous as long as the sequence
-/// of events stays: the next orbit is then one of another branch, as behind a fold.
+/// Whether the parameter turns on a step without a place where it does, or a multiplier passes 1 without a turn and without a place
+/// where it is 1. Both are continuous as long as the sequence of events stays: the next orbit is then one of another branch, as
+/// behind a fold.
 bool BranchWalk::changes_unseen(const Corrected& here, const Corrected& next,
                                 const std::vector<Located>& points) const {
-  if ((here.tests.branch < 0.0) == (next.tests.branch < 0.0) || here.tests.fold * next.tests.fold < 0.0)
-    return false;
-  const auto seen = [](const Located& p) { return p.kind == std::string("branch point"); };
+  const bool turns = here.tests.fold * next.tests.fold < 0.0;
+  if (!turns && (here.tests.branch < 0.0) == (next.tests.branch < 0.0)) return false;
+  const auto seen = [&](const Located& p) { return p.kind == (turns ? "fold" : "branch point"); };
   return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
+}
+
+/// Whether the way from one point to another differs from the branch's direction at the first one, `before`, or, onward, at the
+/// second one. A tangent is no direction of the branch where fast mode shapes turn it.
+bool BranchWalk::bends(const BranchPlace& from, Corrected& to, const Vector* before, bool onward) const {
+  const std::optional<Vector> secant = newton_.secant(from, to);
+  if (!secant) return false;
+  const auto differs = [&](const Vector& direction) {
+    return newton_.split(to, *secant).across.dot(newton_.split(to, direction).across) < alike;
+  };
+  if (before != nullptr && before->size() == secant->size() && differs(*before)) return true;
+  return onward && !turning_ && differs(newton_.examine(to, *secant));
+}
+
+/// Whether the branch turns on the step by more than its points show: what lies between could be another part of it, or another
+/// branch. At a change of the sequence it may have a corner.
+bool BranchWalk::too_long(const Corrected& here, Corrected& next, const Vector& t, double length,
+                          std::vector<Located>& points) const {
+  if (length <= shortest_doubted) return false;
+  if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
+  if (sequence_of(here.pass) == sequence_of(next.pass)) {
+    // Where it goes on at both ends it has not come back: the other point is on another arm, as across a resonance.
+    const double along = t[t.size() - 1];
+    if (along * next.tests.fold > 0.0 && along * (next.state.s - here.state.s) < 0.0) return true;
+    return bends(place_of(here), next, &t, true);
+  }
+  const auto change =
+      std::find_if(points.begin(), points.end(), [](const Located& p) { return p.kind == "sequence"; });
+  if (change == points.end()) return bends(place_of(here), next, &t, true);
+  const auto doubted = [&](double part) { return part * length > shortest_doubted; };
+  if (doubted(change->part) && bends(place_of(here), change->at, &t, false)) return true;
+  if (!doubted(1.0 - change->part)) return false;
+  const auto folds = [](const Located& p) { return p.kind == "fold"; };
+  const double there = next.state.s - change->at.state.s;  // a fold close behind the corner, or at it?
+  if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
+  return bends(place_of(change->at), next, nullptr, true);
 }
 
 /// Special points of the step. Where Newton's method has changed to another branch on the way, next becomes the last orbit of
@@ -133,8 +172,15 @@ std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corr
   const auto take = [&](std::optional<Located> point) {
     if (point) all.push_back(std::move(*point));
   };
-  for (const SpecialKind& kind : special_kinds) take(zero_of(kind, here, next, t, length));
-  if (length > shortest_doubted && changes_unseen(here, next, all)) {
+  for (const SpecialKind& kind : special_kinds) {
+    // Close before a graze a test function may pass zero and jump at it: the part before is searched on its own.
+    std::optional<Located> zero =
+        change ? zero_of(kind, here, change->at, t, change->part * length) : std::nullopt;
+    if (zero) zero->part *= change->part;
+    take(zero ? std::move(zero) : zero_of(kind, here, next, t, length));
+  }
+  const bool unseen = changes_unseen(here, next, all) || (change && changes_unseen(here, change->at, all));
+  if (length > shortest_doubted && unseen) {
     next.done = false;
     next.reason = "Newton's method ends at another branch";
     return {};
@@ -142,6 +188,18 @@ std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corr
   take(std::move(change));
   std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
   return all;
+}
+
+/// The same; next is refused where the step is too long to know what lies between.
+std::vector<BranchWalk::Located> BranchWalk::between(const Corrected& here, Corrected& next, const Vector& t,
+                                                     double& length) {
+  newton_.examine(next, t);
+  std::vector<Located> points = located(here, next, t, length);
+  if (next.done && too_long(here, next, t, length, points)) {
+    next.done = false;
+    next.reason = "the branch turns within a step";
+  }
+  return points;
 }
 
 /// Special points between here and next are added, in their order. A step crosses one change of the sequence: where more follow, next becomes

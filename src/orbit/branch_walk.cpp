@@ -88,6 +88,16 @@ void BranchWalk::cut_anew(Corrected& here, std::optional<BranchPlace>& place) {
   place = std::move(place_there);
 }
 
+/// Which way the parameter goes on: no section changes it, whereas the branch may be bent more in another one.
+void BranchWalk::look_ahead(const std::optional<BranchPlace>& place, Corrected& next) {
+  ahead_ = 0.0;
+  if (!place || map_.autonomous() || turning_) return;
+  const std::optional<Vector> secant = newton_.secant(*place, next);
+  if (!secant) return;
+  const double along = newton_.examine(next, *secant)[secant->size() - 1];
+  if (std::abs(along) > located_to) ahead_ = along;
+}
+
 /// Of the next step: the tangent, as long as it agrees with the way that the branch has come. Where fast mode shapes take
 /// part it does not: their phases turn within a step. The tangent, a difference of the map, is not asked for again there.
 Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected& here, const Vector& before) {
@@ -97,7 +107,8 @@ Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected&
   newton_.examine(here, *secant, {}, true);
   const auto [way, drift] = newton_.split(here, *secant);
   if (turning_ && newton_.holds(way)) return way + drift;
-  const Vector tangent = newton_.examine(here, *secant);
+  Vector tangent = newton_.examine(here, *secant);
+  if (ahead_ * tangent[tangent.size() - 1] < 0.0) tangent = newton_.examine(here, -tangent);
   turning_ = tangent.dot(way) < alike;
   return (turning_ ? way : tangent) + drift;
 }
@@ -153,11 +164,15 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   if (!special.empty()) what.push_back(special);
   point.branch = number_;
   if (points_ > 0 && !point_is_located && folds_) what.emplace_back("fold");
-  if (points_ > 0 && !located_ && !point_is_located) {
+  if (points_ > 0 && (!point_is_located || special == "sequence")) {
+    // A change of the sequence alone explains none of stability beside it.
     const BranchPoint& last = branch_.points.back();
-    if (last.stable != point.stable) what.emplace_back("stability");
-    if (last.sequence != point.sequence) what.emplace_back("sequence");
+    const bool explained = located_ && !last.special.ends_with("sequence");
+    if (last.stable != point.stable && !explained) what.emplace_back("stability");
+    if (last.sequence != point.sequence && !located_ && !point_is_located) what.emplace_back("sequence");
   }
+  std::sort(what.begin(), what.end(),
+            [](const std::string& a, const std::string&) { return a == "stability"; });
   point.special = fmt::format("{}", fmt::join(what, "+"));
   located_ = point_is_located;
   branch_.points.push_back(point);
@@ -294,10 +309,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     std::string special;
     std::optional<BranchPlace> place;
     std::vector<Located> points;
-    if (next.done) {
-      newton_.examine(next, t);
-      points = located(here, next, t, length);
-    }
+    if (next.done) points = between(here, next, t, length);
     if (next.done) {
       if (next.iterations <= quick) ds = std::min(1.5 * ds, options_.step);
       place = cross(std::move(points), here, next, t, length);
@@ -312,6 +324,8 @@ void BranchWalk::walk(Corrected here, Vector t) {
       along = t[t.size() - 1];
       ds = 0.25 * options_.step;
     }
+    const bool changes = sequence_of(here.pass) != sequence_of(next.pass);
+    look_ahead(place, next);
     cut_anew(next, place);
     const Vector before =
         t.size() == newton_.size(next.pass) ? t : newton_.upwards(next.pass, along < 0.0 ? -1.0 : 1.0);
@@ -322,7 +336,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     t = direction(place, here, t);
     if (centre(here, t)) t = direction(place, here, t);
     keep_mark(here, t);
-    folds_ = folds_ && special.empty() && along * t[t.size() - 1] < 0.0;
+    folds_ = folds_ && special.empty() && along * t[t.size() - 1] < 0.0 && changes;
     if (!add(here, special)) return;
     offer_mark();
     complete_ = last && special.empty() && length == whole;
@@ -420,8 +434,10 @@ bool BranchWalk::depart(const Junction& junction, Corrected& here, Vector& t) {
   t = newton_.in_norm(junction.away);
   for (double ds = 0.25 * options_.step; ds >= shortest_step; ds *= 0.5) {
     Corrected next = newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, {});
-    if (!next.done) continue;
-    const std::optional<BranchPlace> place{BranchPlace{here.pass.begin, here.state.duration, here.state.s}};
+    // It begins along t: elsewhere is an orbit of another branch, as the simple one, counted twice.
+    const BranchPlace begin{here.pass.begin, here.state.duration, here.state.s};
+    if (!next.done || bends(begin, next, &t, false)) continue;
+    const std::optional<BranchPlace> place{begin};
     here = std::move(next);
     t = direction(place, here, t);
     return true;

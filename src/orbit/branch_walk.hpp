@@ -65,6 +65,7 @@ class BranchWalk {
   [[nodiscard]] bool beyond(const Corrected& here, Corrected& next, Vector& t);
   [[nodiscard]] bool returns(const Corrected& here);
   bool centre(Corrected& here, const Vector& t);
+  void look_ahead(const std::optional<BranchPlace>& place, Corrected& next);
   void cut_anew(Corrected& here, std::optional<BranchPlace>& before);
   [[nodiscard]] Vector direction(const std::optional<BranchPlace>& place, Corrected& here,
                                  const Vector& before);
@@ -81,8 +82,13 @@ class BranchWalk {
   };
   [[nodiscard]] std::vector<Located> located(const Corrected& here, Corrected& next, const Vector& t,
                                              double& length);
+  [[nodiscard]] std::vector<Located> between(const Corrected& here, Corrected& next, const Vector& t,
+                                             double& length);
   [[nodiscard]] bool changes_unseen(const Corrected& here, const Corrected& next,
                                     const std::vector<Located>& points) const;
+  [[nodiscard]] bool bends(const BranchPlace& from, Corrected& to, const Vector* before, bool onward) const;
+  [[nodiscard]] bool too_long(const Corrected& here, Corrected& next, const Vector& t, double length,
+                              std::vector<Located>& points) const;
   [[nodiscard]] std::optional<BranchPlace> cross(std::vector<Located> points, const Corrected& here,
                                                  Corrected& next, const Vector& t, double& length);
   [[nodiscard]] std::optional<Located> zero_of(const SpecialKind& kind, const Corrected& here,
@@ -127,6 +133,8 @@ class BranchWalk {
   bool located_ = false;  // the last point is a located one
   bool folds_ = false;    // the parameter turns between the last two points, and no fold was located
   bool turning_ = false;  // the tangent is not the way of the branch (direction())
+  double ahead_ =
+      0.0;  // t_s of the tangent at the last point, in the section of the step that led there; 0: not known
   bool doubled_ = false;  // it began at a flip
   double half_section_ = 0.0;
   Vector half_;  // of a doubled branch: z(T/2) - z at the last point

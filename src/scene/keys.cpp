@@ -344,7 +344,7 @@ constexpr Key table_of_keys[] = {
     {"output[].terms.*", "unit", text, "", "required", "", "Its unit: names of the scene's units, as \"1/m^2\", \"m\", \"s^2/t\"."},
 
     {"history", "type", choice, "", "required", "constant step rectangle triangle half_sine harmonic polynomial table", "Shape of the history; it is zero before start and from end on."},
-    {"history", "offset", number, "", "0.0", "", "Constant that is added, at all times; not in [[loads]]."},
+    {"history", "offset", number, "", "0.0", "", "Constant that is added, at all times, in the scene's units unless unit is given; not in [[loads]]."},
     {"history", "amplitude", number, "", "1.0", "", "Factor of the shape; not in [[loads]]."},
     {"history", "start", number, "time", "0.0", "", "Start time. Without it a constant history acts from the beginning. Not for tables."},
     {"history", "end", number, "time", "", "", "End time. Default: no end. Required for rectangle and triangle; not allowed for tables."},
@@ -359,7 +359,7 @@ constexpr Key table_of_keys[] = {
     {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values; or a PEER record of acceleration (.AT2), whose header names its unit: G, CM/S/S, M/S/S, MM/S/S or GAL."},
     {"history", "column", count, "", "", "", "file: column of the values, from 2 on, where there are more than two; the first has the times."},
     {"history", "time_step", positive, "time", "", "", "file: the file has values only, any number per line, at this time interval; the first is at t = 0."},
-    {"history", "unit", choice, "", "", "g", "\"g\": the values are accelerations in units of g = 9.80665 m/s^2. Not needed for PEER files, whose header names the unit."},
+    {"history", "unit", choice, "", "", "g", "\"g\": the values, and the offset, are accelerations in units of g = 9.80665 m/s^2. Not needed for PEER files, whose header names the unit of the values."},
     {"history", "hold", flag, "", "false", "", "table: the last value holds on, instead of zero; with a period until the shape begins anew."},
     {"history", "period", positive, "time", "", "", "Period with which the shape (from its start; a table from its first time) repeats; not shorter than the shape."},
     {"history", "shift", number, "time", "0.0", "", "Time by which the whole history is delayed; negative: earlier."},

@@ -102,8 +102,8 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   return layout;
 }
 
-/// What the file holds, its values in the scene's units. True: they are still in g.
-bool read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
+/// What the file holds, its values in the scene's units; in g where the scene has `unit`.
+void read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
   constexpr std::size_t most_inline_rows = 10'000;  // a larger table stays in its file in run.toml
   for (const char* other : {"times", "values"}) {
     if (table.has(other)) table.fail(other, "cannot be combined with file; give only one of them");
@@ -118,9 +118,9 @@ bool read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& sc
   TimeTable rows = read_time_table(in, path.string(), table.path("file"), layout);
   if (rows.unit && role != Role::acceleration)
     table.fail("file", "found a file of accelerations, expected one of values in the scene's units");
-  if (rows.unit && !rows.in_g) {
-    if (table.has("unit"))
-      table.fail("unit", "found \"g\", expected none: the file says that its values are in another unit");
+  if (rows.unit && !rows.in_g && table.has("unit"))
+    table.fail("unit", "found \"g\", expected none: the file says that its values are in another unit");
+  if (rows.unit && !table.has("unit")) {
     for (double& value : rows.values) value *= *rows.unit * metric_acceleration(scene.units);
   }
   spec.times = std::move(rows.times);
@@ -129,18 +129,19 @@ bool read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& sc
     table.record("file", toml_string(std::filesystem::absolute(path).lexically_normal().string()));
     if (layout.column != 0) table.record("column", std::to_string(layout.column));
     if (layout.time_step > 0.0 && !layout.peer) table.record("time_step", toml_number(layout.time_step));
-    return rows.in_g;
+    return;
   }
   table.record("times", toml_numbers(spec.times));
   table.record("values", toml_numbers(spec.values));
-  return rows.in_g;
 }
 
-/// True: a file says that its values are in g.
-bool read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
+void read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
   spec.steffen = table.choice("interpolation") == "steffen";
   if (table.has("hold")) spec.hold = table.flag("hold");
-  if (table.has("file")) return read_table_file(table, spec, role, scene);
+  if (table.has("file")) {
+    read_table_file(table, spec, role, scene);
+    return;
+  }
   table.require("times", " (table: give times and values, or file)");
   table.require("values", " (required with times)");
   spec.times = *table.numbers("times");
@@ -161,7 +162,6 @@ bool read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
                                       shortest(spec.times[i])));
     }
   }
-  return false;
 }
 
 /// How often the shape begins anew before t_end.
@@ -187,16 +187,12 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   spec.rounds = static_cast<int>(rounds);
 }
 
-void read_unit(Table& table, HistorySpec& spec, bool in_g, Role role, const Units& units) {
-  if (table.has("unit")) {
-    if (role != Role::acceleration)
-      table.fail("unit", "has no meaning here: only accelerations are given in g");
-    static_cast<void>(table.choice("unit"));
-  } else if (!in_g) {
-    return;
-  } else {
-    table.record("unit", toml_string("g"));
-  }
+/// The whole history is in g, its offset too.
+void read_unit(Table& table, HistorySpec& spec, Role role, const Units& units) {
+  if (!table.has("unit")) return;
+  if (role != Role::acceleration)
+    table.fail("unit", "has no meaning here: only accelerations are given in g");
+  static_cast<void>(table.choice("unit"));
   const double g = standard_gravity * metric_acceleration(units);
   spec.offset *= g;
   spec.amplitude *= g;
@@ -224,7 +220,7 @@ HistorySpec read_history(Table& parent, std::string_view key, Role role, const S
   }
   read_span(table, spec);
   if (spec.type == HistoryType::harmonic) read_harmonic(table, spec);
-  const bool in_g = spec.type == HistoryType::table && read_table(table, spec, role, scene);
+  if (spec.type == HistoryType::table) read_table(table, spec, role, scene);
   if (spec.type == HistoryType::polynomial) {
     table.require("coefficients", " (required for type = \"polynomial\")");
     spec.coefficients = *table.numbers("coefficients");
@@ -234,7 +230,7 @@ HistorySpec read_history(Table& parent, std::string_view key, Role role, const S
     }
   }
   read_period(table, spec, scene.run.t_end);
-  read_unit(table, spec, in_g, role, scene.units);
+  read_unit(table, spec, role, scene.units);
   table.finish(fmt::format("has no meaning for a history of type \"{}\"", type));
   parent.record(key, table.record().inline_table());
   return spec;

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "behaviour/orbit_scenes.hpp"
 
@@ -318,6 +320,187 @@ TEST_CASE(
       CHECK(std::abs(p.maxima.front() - middle - std::abs(p.parameter) / least) <= 1e-9);
       CHECK(p.stable.value_or(false));
     }
+  }
+}
+
+TEST_CASE(
+    "a branch of a linear oscillator with hardly any damping has one orbit at each value, and no fold") {
+  // |x| = F/|k - m w^2 + i c w|, multipliers of magnitude exp(-c T/(2 m)); over 4e4 widths of the resonance
+  const double m = 1.7, c = 3e-4, F = 23.0, w = 13.0;
+  BranchOptions options;
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n"
+      "[run]\nt_end = 3.0\nengine = \"exact\"\n[nodes]\na = [0.0, 0.0]\n"
+      "[[masses]]\nnode = \"a\"\nmass = 1.7\n[[supports]]\nnode = \"a\"\nfix = [\"uy\"]\n"
+      "[[springs]]\nnode = \"a\"\ndirection = [1.0, 0.0]\nstiffness = 291.3\ndamping = 3e-4\n"
+      "[[loads]]\nnode = \"a\"\ndirection = [1.0, 0.0]\namplitude = 23.0\n"
+      "history = { type = \"harmonic\", omega = 13.0, phase = 0.6 }\n"
+      "[[output]]\nname = \"x\"\nkind = \"displacement\"\nat = \"a\"\ndirection = [1.0, 0.0]\n";
+  options.path = "springs.1.stiffness";
+  for (const auto& [from, to] : {std::pair(100.0, 900.0), {900.0, 100.0}}) {
+    options.from = from;
+    options.to = to;
+    const Branch branch = follow(reader_of_text(text), options);
+    CAPTURE(branch.end);
+    REQUIRE(branch.complete);
+    CHECK(branch.points.back().parameter == to);
+    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+      const BranchPoint& p = branch.points[i];
+      const double k = p.parameter, x = F / std::abs(std::complex<double>(k - m * w * w, c * w));
+      CAPTURE(k);
+      CHECK(p.special.empty());
+      CHECK(p.stable.value_or(false));
+      CHECK(std::abs(p.maxima.front() - x) <= 1e-6 * x);
+      CHECK(std::abs(p.max_multiplier - std::exp(-c * std::numbers::pi / (m * w))) <= 1e-9);
+      if (i == 0) continue;
+      const double way = (k - branch.points[i - 1].parameter) / (to - from);
+      CHECK(way > 0.0);
+      CHECK(way <= options.step * (1.0 + 1e-9));
+    }
+  }
+}
+
+namespace {
+
+/// A ball that a table throws up once a period: hits at phases where sin = g T (1 - e)/(2 (1 + e) w V) ..., two orbits above
+///   B0 = w V,   V = g T/2 (1 - e)/(1 + e)      B: amplitude of the acceleration
+std::string ball() {
+  return "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\ngravity = "
+         "[0.0, -9.81]\n"
+         "[run]\nt_end = 3.0\nengine = \"exact\"\n"
+         "initial = { a = { uy = 0.028860859291964823, vy = 0.7180120150509977 } }\n[nodes]\na = [0.0, 0.0]\n"
+         "[[masses]]\nnode = \"a\"\nmass = 1.7\n[[supports]]\nnode = \"a\"\nfix = [\"ux\"]\n"
+         "[[contacts]]\nname = \"c\"\nnode = \"a\"\nlaw = \"rigid\"\nnormal = [0.0, 1.0]\nrestitution = "
+         "0.63\n"
+         "[[base_motion]]\ndirection = [0.0, 1.0]\nacceleration = { type = \"harmonic\", amplitude = "
+         "9.729822543571219, omega = 31.7, phase = -1.1165197534631535 }\n";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a ball on a vibrating table: one fold, at any step, and multipliers of the closed form on both parts") {
+  // mu^2 - (1 + e^2 + (1 + e)^2 a/g) mu + e^2 = 0,   a = -+ sqrt(B^2 - B0^2)
+  const double e = 0.63, g = 9.81, w = 31.7, V = g * std::numbers::pi / w * (1.0 - e) / (1.0 + e), B0 = w * V;
+  BranchOptions options;
+  options.path = "base_motion.1.acceleration.amplitude";
+  options.from = 9.729822543571219;
+  options.to = 0.9 * B0;
+  for (const double step : {0.01, 0.02, 0.03, 0.05}) {
+    CAPTURE(step);
+    options.step = step;
+    const Branch branch = follow(reader_of_text(ball()), options);
+    CAPTURE(branch.end);
+    REQUIRE(branch.complete);
+    CHECK(branch.end.find("has no orbit") != std::string::npos);
+    double sign = -1.0;
+    long folds = 0;
+    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+      const BranchPoint& p = branch.points[i];
+      CAPTURE(p.parameter);
+      if (i > 0) CHECK(sign * (p.parameter - branch.points[i - 1].parameter) > 0.0);
+      if (p.special == "fold") {
+        ++folds;
+        sign = 1.0;
+        CHECK(std::abs(p.parameter - B0) <= 1e-8);
+        continue;
+      }
+      CHECK(p.special.empty());
+      const double a = sign * std::sqrt(std::max(0.0, p.parameter * p.parameter - B0 * B0));
+      const double half = 0.5 * (1.0 + e * e + (1.0 + e) * (1.0 + e) * a / g);
+      const std::complex<double> root = std::sqrt(std::complex<double>(half * half - e * e));
+      const double greatest = std::max(std::abs(half + root), std::abs(half - root));
+      CHECK(std::abs(p.max_multiplier - greatest) <= 1e-5 * greatest);
+    }
+    CHECK(folds == 1);
+  }
+}
+
+TEST_CASE(
+    "each switch at a flip of the bouncing ball leads to an orbit that repeats after twice the time only") {
+  // Distances of flips shrink towards Feigenbaum's ratio 4.669; an orbit counted twice would have other ones.
+  BranchOptions options;
+  options.path = "base_motion.1.acceleration.amplitude";
+  options.from = 12.0;
+  options.to = 14.2;
+  options.step = 0.1;
+  options.switches = 3;
+  std::string text = ball();
+  const std::string at = "9.729822543571219";
+  text.replace(text.find(at), at.size(), "12.0");
+  const Branch branch = follow(reader_of_text(text), options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  REQUIRE(branch.sides.size() == 3);
+  std::vector<double> flips(5, 0.0);
+  for (const BranchPoint& p : branch.points) {
+    if (p.special == "flip" && flips.at(static_cast<std::size_t>(p.branch)) == 0.0)
+      flips[static_cast<std::size_t>(p.branch)] = p.parameter;
+    // Just beside the flip it is stable, and its greatest multiplier near 1.
+    if (p.special != "switched") continue;
+    const double leaves = branch.sides.at(static_cast<std::size_t>(p.branch) - 2).parameter;
+    CHECK(std::abs(p.parameter - leaves) <= 0.01);
+    CHECK(p.max_multiplier > 0.9);
+    CHECK(p.stable.value_or(false));
+  }
+  REQUIRE(flips[4] > 0.0);
+  const double first = (flips[2] - flips[1]) / (flips[3] - flips[2]),
+               second = (flips[3] - flips[2]) / (flips[4] - flips[3]);
+  CHECK(std::abs(second - 4.669) < std::abs(first - 4.669));
+  CHECK(std::abs(second - 4.669) < 0.3);
+}
+
+namespace {
+
+/// Two masses in a row, the second one before a stop, or between two.
+std::string row_of_two(const std::string& stops, const std::string& omega) {
+  return "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+         "3.0\n"
+         "engine = \"exact\"\nrtol = 1e-11\n[nodes]\na = [0.0, 0.0]\nb = [1.0, 0.0]\n"
+         "[[masses]]\nnode = \"a\"\nmass = 1.7\n[[masses]]\nnode = \"b\"\nmass = 0.9\n"
+         "[[supports]]\nnodes = [\"a\", \"b\"]\nfix = [\"uy\"]\n"
+         "[[springs]]\nnode = \"a\"\ndirection = [1.0, 0.0]\nstiffness = 291.3\ndamping = 0.3\n"
+         "[[springs]]\nnode = \"b\"\nagainst = \"a\"\ndirection = [1.0, 0.0]\nstiffness = 117.7\ndamping = "
+         "0.2\n" +
+         stops +
+         "gap = 0.05\nnormal_stiffness = 1711.0\n"
+         "[[loads]]\nnode = \"a\"\ndirection = [1.0, 0.0]\namplitude = 23.0\n"
+         "history = { type = \"harmonic\", omega = " +
+         omega +
+         ", phase = 0.6 }\n"
+         "[[output]]\nname = \"u\"\nkind = \"displacement\"\nat = \"b\"\ndirection = [1.0, 0.0]\n";
+}
+
+}  // namespace
+
+TEST_CASE("a symmetric branch between two stops is followed through a branch point as a symmetric one") {
+  const std::string stops =
+      "[[stops]]\nname = \"s\"\nnode = \"b\"\nlaw = \"compliant\"\ndirection = [1.0, 0.0]\n";
+  BranchOptions options;
+  options.path = "loads.1.history.omega";
+  options.from = 6.0;
+  options.to = 5.0;
+  for (const double step : {0.15}) {
+    CAPTURE(step);
+    options.step = step;
+    const Branch branch = follow(reader_of_text(row_of_two(stops, "6.0")), options);
+    CAPTURE(branch.end);
+    REQUIRE(branch.complete);
+    CHECK(branch.points.back().parameter == 5.0);
+    std::vector<double> branching, tori;
+    for (const BranchPoint& p : branch.points) {
+      CAPTURE(p.parameter);
+      // At the branch point itself nothing holds the asymmetric part.
+      if (p.special != "branch point")
+        CHECK(std::abs(p.maxima.front() + p.minima.front()) <= 1e-5 * p.maxima.front());
+      if (p.special == "branch point") branching.push_back(p.parameter);
+      if (p.special == "neimark-sacker") tori.push_back(p.parameter);
+    }
+    REQUIRE(branching.size() == 2);
+    CHECK(std::abs(branching[0] - 5.790946) <= 1e-5);
+    CHECK(std::abs(branching[1] - 5.337308) <= 1e-5);
+    REQUIRE(tori.size() == 1);
+    CHECK(std::abs(tori[0] - 5.304025) <= 1e-5);
   }
 }
 

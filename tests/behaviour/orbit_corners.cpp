@@ -26,7 +26,7 @@ TEST_CASE("a branch of the lightly damped pipeline passes changes of its sequenc
   const Branch branch = follow(read, options);
   CAPTURE(branch.end);
   REQUIRE(branch.points.size() >= 15);
-  CHECK(branch.sequences.size() >= 5);
+  CHECK(branch.sequences.size() >= 3);  // so many in the first 0.3 rad/s
   for (std::size_t i = 1; i < branch.points.size(); ++i) {
     const BranchPoint& p = branch.points[i];
     CAPTURE(p.parameter);

@@ -171,8 +171,7 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
     if (last.stable != point.stable && !explained) what.emplace_back("stability");
     if (last.sequence != point.sequence && !located_ && !point_is_located) what.emplace_back("sequence");
   }
-  std::sort(what.begin(), what.end(),
-            [](const std::string& a, const std::string&) { return a == "stability"; });
+  std::stable_partition(what.begin(), what.end(), [](const std::string& a) { return a == "stability"; });
   point.special = fmt::format("{}", fmt::join(what, "+"));
   located_ = point_is_located;
   branch_.points.push_back(point);

@@ -26,7 +26,7 @@ struct Bernstein {
   [[nodiscard]] double value(double x) const;
   [[nodiscard]] double integral(double x) const;  ///< from 0 to x
   [[nodiscard]] Bernstein derivative() const;
-  [[nodiscard]] bool positive() const;  ///< all coefficients are > 0
+  [[nodiscard]] bool positive() const;              ///< all coefficients are > 0
   [[nodiscard]] bool at_least(double level) const;  ///< all coefficients are >= level
   /// The same polynomial on [0, x] and on [x, 1].
   void split(double x, Bernstein& left, Bernstein& right) const;

@@ -51,6 +51,9 @@ std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, 
   });
   if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
   point.part = *part;
+  // Where two branches cross any direction in their plane is a tangent: the way from here to next tells which one is this branch's.
+  if (kind.value == &TestValues::branch)
+    if (const auto way = newton_.secant(place_of(here), next)) point.t = newton_.split(point.at, *way).across;
   return point;
 }
 

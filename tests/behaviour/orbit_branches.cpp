@@ -504,6 +504,56 @@ TEST_CASE("a symmetric branch between two stops is followed through a branch poi
   }
 }
 
+TEST_CASE("what branches off between two stops is a pair that mirrors each other, at any step") {
+  // Downwards in frequency the symmetric orbit loses its stability to the pair.
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+      "3.0\n"
+      "engine = \"exact\"\n[nodes]\na = [0.0, 0.0]\n[[masses]]\nnode = \"a\"\nmass = 0.687\n"
+      "[[supports]]\nnode = \"a\"\nfix = [\"uy\"]\n"
+      "[[springs]]\nnode = \"a\"\ndirection = [1.0, 0.0]\nstiffness = 72.67\ndamping = 0.919\n"
+      "[[stops]]\nname = \"s\"\nnode = \"a\"\nlaw = \"compliant\"\ndirection = [1.0, 0.0]\ngap = 0.0626\n"
+      "normal_stiffness = 4136.0\n"
+      "[[loads]]\nnode = \"a\"\ndirection = [1.0, 0.0]\namplitude = 21.5\n"
+      "history = { type = \"harmonic\", omega = 10.5, phase = 0.288 }\n"
+      "[[output]]\nname = \"u\"\nkind = \"displacement\"\nat = \"a\"\ndirection = [1.0, 0.0]\n";
+  BranchOptions options;
+  options.path = "loads.1.history.omega";
+  options.from = 10.5;
+  options.to = 9.3;
+  options.switches = 1;
+  std::vector<double> where;
+  for (const double step : {0.05, 0.02, 0.009}) {
+    CAPTURE(step);
+    options.step = step;
+    const Branch branch = follow(reader_of_text(text), options);
+    CAPTURE(branch.end);
+    double branching = 0.0;
+    std::vector<double> least[2], greatest[2];
+    for (const BranchPoint& p : branch.points) {
+      CAPTURE(p.branch);
+      CAPTURE(p.parameter);
+      if (p.special == "branch point" && p.branch == 1) branching = p.parameter;
+      if (p.branch < 2) continue;
+      REQUIRE(p.branch <= 3);
+      CHECK(p.parameter < branching);
+      if (p.special == "switched") CHECK(p.stable);
+      const auto which = static_cast<std::size_t>(p.branch - 2);
+      least[which].push_back(p.minima.front());
+      greatest[which].push_back(p.maxima.front());
+    }
+    where.push_back(branching);
+    REQUIRE(least[0].size() > 2);
+    REQUIRE(least[1].size() > 2);
+    // They part, and to both sides.
+    const double first = greatest[0].back() + least[0].back(), second = greatest[1].back() + least[1].back();
+    CHECK(std::abs(first) > 0.01 * greatest[0].back());
+    CHECK(std::abs(second) > 0.01 * greatest[1].back());
+    CHECK((first < 0.0) != (second < 0.0));
+  }
+  for (const double omega : where) CHECK(std::abs(omega - where[0]) <= 1e-6);
+}
+
 TEST_SUITE_END();
 
 TEST_SUITE_BEGIN("slow/orbit branches");

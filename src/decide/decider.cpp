@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "contact/work.hpp"
 #include "decide/at_once.hpp"
 #include "decide/driven_states.hpp"
 #include "decide/places.hpp"

@@ -43,10 +43,10 @@ class JetMaker {
   /// The jet at t from u and v (v of massless degrees of freedom is not read).
   [[nodiscard]] Jet expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                            const Vector& v);
-  /// The same, and the motion of every contact in it, orders 0 to Jet::orders, with its noise. `told`, where it is given: orders that a contact is not
-  /// asked for are not made, and hold anything. Of contacts for which order 0 does not tell all, the motion is
-  /// complete. What is made is the same to the last bit. second: acts in place of `forcing` the second time, so that what
-  /// differs between them counts as noise, too.
+  /// The same, and the motion of every contact in it, orders 0 to Jet::orders, with its noise. `told`, where it is given:
+  /// orders that a contact is not asked for are not made, and hold anything. Of contacts for which order 0 does not tell
+  /// all, the motion is complete. What is made is the same to the last bit. second: acts in place of `forcing` the second
+  /// time, so that what differs between them counts as noise, too.
   [[nodiscard]] Jet make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                          const Vector& v, std::vector<MotionJet>& motions, const Told& told = {},
                          const Forcing* second = nullptr);

@@ -17,7 +17,7 @@ constexpr double roots_apart = 10.0;
 constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not doubted. Chosen.
 constexpr double parts_apart = 1e3;        // of that: two places show the way from one to the other. Chosen.
 
-constexpr double rounded = 1e-9;  // of the greatest step
+constexpr double rounded = 1e-9;  // of the greatest step: above the rounding of s. Chosen.
 
 constexpr const char* other_branch = "other branch";
 

@@ -34,10 +34,7 @@ void DampedWorks::start() {
     else
       same->second += motion_.of_load(i);
   }
-  for (const auto& [factor, load] : alike) {
-    loads_.push_back(paired(motion_.derivative(load), alone(factor)));
-    courses_meet_ = courses_meet_ || loads_.back().courses;
-  }
+  for (const auto& [factor, load] : alike) loads_.push_back(paired(motion_.derivative(load), alone(factor)));
   contacts_.assign(model.contacts.size(), {});
   for (std::size_t c = 0; c < model.contacts.size(); ++c) pair_contact(c);
   pair_loss();
@@ -59,8 +56,6 @@ void DampedWorks::pair_contact(std::size_t c) {
     const ModalQuantity rate = motion_.derivative(own.gap);
     pairings.dashpot = paired(rate, rate);
   }
-  for (const auto& pairing : {pairings.pressing, pairings.slip, pairings.surface, pairings.dashpot})
-    courses_meet_ = courses_meet_ || (pairing && pairing->courses);
 }
 
 /// int q'^T C q', as far as a segment knows it.
@@ -96,12 +91,13 @@ void DampedWorks::add_answers(const Eigen::VectorXcd& row, const Course& course,
       answers.row(k) += row[k] * motion_.time().answer(-motion_.root()[k], complex).transpose();
 }
 
-DampedWorks::Pairing DampedWorks::paired(ModalQuantity f, ModalQuantity g) const {
+DampedWorks::Pairing DampedWorks::paired(ModalQuantity f, ModalQuantity g) {
   Pairing pairing;
   add_answers(f.row, g.course, pairing.answers);
   add_answers(g.row, f.course, pairing.answers);
   pairing.pairs = !f.row.isZero(0.0) && !g.row.isZero(0.0);
   pairing.courses = !f.course.isZero(0.0) && !g.course.isZero(0.0);
+  courses_meet_ = courses_meet_ || pairing.courses;
   pairing.f = std::move(f);
   pairing.g = std::move(g);
   return pairing;

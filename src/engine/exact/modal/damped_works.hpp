@@ -35,7 +35,7 @@ class DampedWorks {
     Eigen::MatrixXcd answers;  // modes x b; empty: none
     bool pairs = false, courses = false;
   };
-  [[nodiscard]] Pairing paired(ModalQuantity f, ModalQuantity g) const;
+  [[nodiscard]] Pairing paired(ModalQuantity f, ModalQuantity g);
   [[nodiscard]] ModalQuantity alone(Course course) const;
   void add_answers(const Eigen::VectorXcd& row, const Course& course, Eigen::MatrixXcd& answers) const;
   void pair_contact(std::size_t c);
@@ -54,7 +54,7 @@ class DampedWorks {
   std::vector<ContactPairings> contacts_;
   Eigen::MatrixXd still_loss_;     // b x b: of courses alone
   Eigen::MatrixXcd loss_answers_;  // what damping takes of modes beside courses
-  bool courses_meet_ = false;
+  bool courses_meet_ = false;      // in the segment
 };
 
 }  // namespace signorini

@@ -4,7 +4,7 @@ namespace signorini::tests {
 
 const char* const program = SIGNORINI_PROGRAM;
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef WITH_ADDRESS_SANITIZER
 const bool with_address_sanitizer = true;
 #else
 const bool with_address_sanitizer = false;

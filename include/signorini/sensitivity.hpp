@@ -140,7 +140,7 @@ struct Swap {
 /// the key may not have that value.
 [[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
 
-/// `recorder`: receives the run's own rows. Errors: SceneError, UsageError for a key that is no number, for
+/// `recorder`: receives the run's own rows, and may not steer. Errors: SceneError, UsageError for a key that is no number, for
 /// one of which the model does not depend smoothly, for options that do not go together, and what the engine
 /// refuses.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,

@@ -16,16 +16,20 @@ namespace signorini {
 #define SIGNORINI_WIDE_LANES
 #endif
 
-/// Four doubles, at any address of doubles.
-using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+using Four = double __attribute__((vector_size(32)));
 
+/// Lanes at any address of doubles. What a template is told of a vector's type is not how it is aligned.
 template <class T>
-[[gnu::always_inline]] inline const T& lanes_at(const double* from) {
-  return *reinterpret_cast<const T*>(from);
+struct [[gnu::packed, gnu::may_alias]] LanesAt {
+  T v;
+};
+template <class T>
+[[gnu::always_inline]] inline const LanesAt<T>& lanes_at(const double* from) {
+  return *reinterpret_cast<const LanesAt<T>*>(from);
 }
 template <class T>
-[[gnu::always_inline]] inline T& lanes_at(double* to) {
-  return *reinterpret_cast<T*>(to);
+[[gnu::always_inline]] inline LanesAt<T>& lanes_at(double* to) {
+  return *reinterpret_cast<LanesAt<T>*>(to);
 }
 [[gnu::always_inline]] inline double sum_of_lanes(const Four& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 

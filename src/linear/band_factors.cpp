@@ -17,7 +17,7 @@ constexpr std::size_t lanes = 4;
 [[gnu::always_inline]] inline void eliminate(double factor, const double* pivots, std::size_t count,
                                              double* row) {
   for (std::size_t c = 0; c < count; c += lanes)
-    lanes_at<Four>(row + c) -= factor * lanes_at<Four>(pivots + c);
+    lanes_at<Four>(row + c).v -= factor * lanes_at<Four>(pivots + c).v;
 }
 
 struct Band {

@@ -21,9 +21,9 @@ template <class T, std::size_t count>
   for (std::size_t j = 0; j < c.columns; ++j, a += c.rows, b += c.rows) {
     const double u = c.u[j], v = c.factor * c.w[j];
     for (std::size_t k = 0; k < count; ++k)
-      sum[k] += lanes_at<T>(a + k * lanes) * u + lanes_at<T>(b + k * lanes) * v;
+      sum[k] += lanes_at<T>(a + k * lanes).v * u + lanes_at<T>(b + k * lanes).v * v;
   }
-  for (std::size_t k = 0; k < count; ++k) lanes_at<T>(y + i + k * lanes) = sum[k];
+  for (std::size_t k = 0; k < count; ++k) lanes_at<T>(y + i + k * lanes).v = sum[k];
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ int Neighbourhoods::reach(std::size_t contact, const ModeSystem& system,
   std::vector<double> x(system.unknowns().size()), work(x.size());
   for (const Combination* form : {&c.normal, &c.tangent}) {
     std::fill(x.begin(), x.end(), 0.0);
-    form->add_to(x, 1.0);
+    double* const begin = x.data();
+    form->add_to(begin, 1.0);
     system.solve(x.data(), work.data());
     const auto felt = [&](std::size_t i) { return std::abs(x[i]) * root_of_mass_[i]; };
     double most = 0.0;

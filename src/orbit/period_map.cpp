@@ -103,7 +103,7 @@ class CycleRecorder final : public Recorder {
 class NoRows final : public TangentListener {
  public:
   void sample(const TangentSample& /*sample*/, bool /*row*/, bool /*turn*/) override {}
-  void instant(const InstantMotion& /*motion*/, const std::vector<TangentState>& /*states*/) override {}
+  void at_instant(const InstantMotion& /*motion*/, const std::vector<TangentState>& /*states*/) override {}
   [[nodiscard]] bool exceeds(std::size_t /*contact*/, std::size_t /*which*/,
                              double /*value*/) const override {
     return false;

@@ -51,7 +51,7 @@ LineShapes across_of(const Json& row) {
 
 double fitting_magnification(const Json& nodes, const Json& curve, double greatest) {
   for (const Json& node : nodes)
-    for (const std::size_t c : {0, 1})
+    for (const std::size_t c : {0U, 1U})
       if (const int column = node["u"][c].get<int>(); column >= 0)
         for (const Json& u : curve["columns"][static_cast<std::size_t>(column)]["u"])
           if (u.is_number()) greatest = std::max(greatest, std::abs(u.get<double>()));

@@ -65,7 +65,7 @@ MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& director
   while (reader.next()) {
     motion.times.push_back(reader.t());
     for (const std::size_t column : columns)
-      for (const std::size_t axis : {0, 1}) values.push_back(reader.number(column + axis));
+      for (const std::size_t axis : {0U, 1U}) values.push_back(reader.number(column + axis));
   }
   split_motion(Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(2 * columns.size()),
                                                  static_cast<Eigen::Index>(motion.times.size())),

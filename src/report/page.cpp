@@ -173,7 +173,7 @@ std::string audit_table(const Json& summary, const Units& units) {
     if (!entry.is_object()) continue;
     const Json& contact = member(entry, "contact");
     const auto known = std::find_if(std::begin(conditions), std::end(conditions),
-                                    [&](const Condition& c) { return name == c.key; });
+                                    [&key = name](const Condition& c) { return key == c.key; });
     const bool told = known != std::end(conditions);
     const std::string unit = told ? " " + unit_in_words(known->unit, units) : "";
     rows += fmt::format(

@@ -84,7 +84,7 @@ BodyFrameWriter::BodyFrameWriter(const std::filesystem::path& directory, const S
 Vector BodyFrameWriter::of_body(const BodySpec& body, const Sample& sample, int order) const {
   Vector own(static_cast<Eigen::Index>(2 * body.node_count));
   for (std::size_t k = 0; k < body.node_count; ++k)
-    for (const std::size_t c : {0, 1})
+    for (const std::size_t c : {0U, 1U})
       own[static_cast<Eigen::Index>(2 * k + c)] = movers_.value(body.first_node + k, c, sample, order);
   return own;
 }

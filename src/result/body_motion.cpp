@@ -21,7 +21,7 @@ BodyMotionFile::BodyMotionFile(const Scene& scene, const Model& model)
 std::vector<double> BodyMotionFile::row(const Sample& sample) const {
   std::vector<double> values{sample.t};
   for (const int node : nodes_)
-    for (const std::size_t axis : {0, 1})
+    for (const std::size_t axis : {0U, 1U})
       values.push_back(movers_.value(static_cast<std::size_t>(node), axis, sample));
   return values;
 }

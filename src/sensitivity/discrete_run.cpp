@@ -314,7 +314,7 @@ void DiscreteRun::pass(const ObservedInstant& now) {
     state.now.point.u = moved_[p].u - moved_[p].t * node_.point.v;
     fill(p, now, before, was[p]);
   }
-  listener_.instant(motion, states_);
+  listener_.at_instant(motion, states_);
 }
 
 void DiscreteRun::instant(const ObservedInstant& instant) {

@@ -35,7 +35,7 @@ EventRates in_scene(const EventRates& rates, const Factors& of) {
 
 RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives,
                        Recorder* recorder, Sensitivities& result, bool losses)
-    : model_(computed), derivatives_(derivatives), recorder_(recorder), result_(result) {
+    : Relay(recorder), model_(computed), derivatives_(derivatives), result_(result) {
   for (const Column& column : model_.columns) result_.columns.push_back(column.name);
   for (const Contact& contact : model_.contacts) {
     result_.contacts.push_back(contact.name);
@@ -51,7 +51,7 @@ RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>
 }
 
 void RateRecord::event(const Event& event) {
-  if (recorder_) recorder_->event(event);
+  Relay::event(event);
   result_.events.push_back(event);
   std::vector<EventRates>& row = result_.event_rates.emplace_back();
   for (const TangentState& state : *states_) {
@@ -65,7 +65,7 @@ void RateRecord::event(const Event& event) {
 }
 
 void RateRecord::sample(const Sample& s) {
-  if (recorder_) recorder_->sample(s);
+  Relay::sample(s);
   result_.times.push_back(s.t);
   std::vector<double>& row = result_.values.emplace_back();
   for (const Column& column : model_.columns) row.push_back(column.of(*s.u, *s.v));
@@ -74,17 +74,6 @@ void RateRecord::sample(const Sample& s) {
   if (!landings_) return;
   for (const EnergyColumn& column : energy_columns) row.push_back(s.energy.*column.value);
 }
-
-void RateRecord::frame(const Sample& s) {
-  if (recorder_) recorder_->frame(s);
-}
-void RateRecord::motion(int contact, const std::vector<MotionRow>& rows) {
-  if (recorder_) recorder_->motion(contact, rows);
-}
-void RateRecord::curves(const Curves& curves) {
-  if (recorder_) recorder_->curves(curves);
-}
-bool RateRecord::progress(double t) { return recorder_ == nullptr || recorder_->progress(t); }
 
 void RateRecord::sample(const TangentSample& s, bool row, bool turn) {
   if (row) add_row(s);
@@ -216,7 +205,7 @@ void RateRecord::see_instant(const InstantMotion& motion, const std::vector<Tang
   offer(3, contact.body_tangent().dot(first), along(contact.body_tangent(), &ContactRates::body_tangent));
 }
 
-void RateRecord::instant(const InstantMotion& motion, const std::vector<TangentState>& states) {
+void RateRecord::at_instant(const InstantMotion& motion, const std::vector<TangentState>& states) {
   states_ = &states;
   instant_ = motion.instant.t;
   resolution_ = motion.instant.resolution;

@@ -7,31 +7,25 @@
 #include <limits>
 
 #include "run/physical.hpp"
+#include "run/relay.hpp"
 #include "sensitivity/landing_rates.hpp"
 
 namespace signorini {
 
-class RateRecord final : public TangentListener, public Recorder {
+class RateRecord final : public TangentListener, public Relay {
  public:
   /// computed: in the machine's units. Both must outlive it; recorder: may be null.
   RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,
              Sensitivities& result, bool losses);
 
   void sample(const TangentSample& sample, bool row, bool turn) override;
-  void instant(const InstantMotion& motion, const std::vector<TangentState>& states) override;
+  void at_instant(const InstantMotion& motion, const std::vector<TangentState>& states) override;
   [[nodiscard]] bool exceeds(std::size_t contact, std::size_t which, double value) const override {
     return std::abs(value) > peaks_[contact][which].size;
   }
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
-  void frame(const Sample& sample) override;
-  [[nodiscard]] bool wants_motion() const override {
-    return recorder_ != nullptr && recorder_->wants_motion();
-  }
-  void motion(int contact, const std::vector<MotionRow>& rows) override;
-  void curves(const Curves& curves) override;
-  bool progress(double t) override;
 
   /// Peaks, rests, and with losses these and landings into the result, whose report is known.
   void finish();
@@ -59,7 +53,6 @@ class RateRecord final : public TangentListener, public Recorder {
 
   const Model& model_;
   const std::vector<ModelDerivative>& derivatives_;
-  Recorder* recorder_;
   Sensitivities& result_;
   const std::vector<TangentState>* states_ = nullptr;                             // of the last instant
   double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;  // the last one

@@ -65,6 +65,10 @@ SceneReader reader_of(std::string path, std::vector<Override> always) {
 
 Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                             Recorder* recorder, const SensitivityOptions& options) {
+  if (recorder != nullptr && recorder->steers())
+    throw UsageError(
+        "sensitivities: expected a recorder that does not steer; derivatives do not follow what it would "
+        "change");
   const Scene scene = read({});
   Model model = build_model(scene);
   check_tangent_laws(scene, model);

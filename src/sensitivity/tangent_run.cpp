@@ -374,7 +374,7 @@ void TangentRun::pass(const ObservedInstant& instant) {
     state.now = {std::move(next.start), std::move(next.point), std::move(next.driven)};
     state.forcing.emplace(model_, state.derivative, instant.t, Side::after);
   }
-  listener_.instant(motion, states_);
+  listener_.at_instant(motion, states_);
   rows_at(instant, after);
   begin_ = instant.t;
   end_ = after;

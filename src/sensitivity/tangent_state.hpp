@@ -55,7 +55,7 @@ class TangentListener {
   /// Output time: a row. turn: T, N, g or ut of a contact may turn here beyond all before.
   virtual void sample(const TangentSample& sample, bool row, bool turn) = 0;
   /// After every instant, the start among them.
-  virtual void instant(const InstantMotion& motion, const std::vector<TangentState>& states) = 0;
+  virtual void at_instant(const InstantMotion& motion, const std::vector<TangentState>& states) = 0;
   /// Of watched(): beyond all before.
   [[nodiscard]] virtual bool exceeds(std::size_t contact, std::size_t which, double value) const = 0;
 };

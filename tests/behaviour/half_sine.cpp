@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/eigen_dense.hpp"
 #include "behaviour/one_mass.hpp"
 
 namespace signorini::tests::half_sine {
@@ -99,7 +100,7 @@ class Follower {
       A(5, 5) = 1.0;
       A(5, 3) = A(5, 4) = mode.slip * s_.f;
     }
-    return A.fullPivLu().solve(r);
+    return solve_dense(A, r);
   }
   [[nodiscard]] Eigen::MatrixXd accelerations(const Mode& mode) const {
     Eigen::MatrixXd dynamics = Eigen::MatrixXd::Zero(3, 2);

@@ -1,8 +1,9 @@
 #include "behaviour/hard_cases.hpp"
+#include "base/eigen_dense.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -166,12 +167,13 @@ double flutter(const std::string& engine, double) {
   Eigen::Matrix2d sliding = k;  // the belt runs along +x faster than the mass: slip-, T = f N
   sliding(1, 1) += kn;
   sliding(0, 1) += f * kn;
-  const Eigen::EigenSolver<Eigen::Matrix2d> eigen(sliding);
-  const std::complex<double> mu = eigen.eigenvalues()[0];
+  const double half = 0.5 * sliding.trace(),
+               det = sliding(0, 0) * sliding(1, 1) - sliding(0, 1) * sliding(1, 0);
+  const std::complex<double> mu = half + std::sqrt(std::complex<double>(half * half - det));
   std::complex<double> lambda = std::sqrt(-mu);
   if (lambda.real() < 0.0) lambda = -lambda;
   if (!(lambda.real() > 1e-3)) return wrong;
-  const Eigen::Vector2cd shape = eigen.eigenvectors().col(0);
+  const Eigen::Vector2cd shape = Eigen::Vector2cd(sliding(0, 1), mu - sliding(0, 0)).normalized();
   // Equilibrium under a load that presses: sliding u = p
   const Eigen::Vector2d p(0.0, -pre), rest = sliding.inverse() * p;
   const double t = 4.0 / lambda.real();

@@ -8,11 +8,13 @@
 //   tanh               f = limit tanh(x_e'/eps): a regularised slider
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "base/eigen_dense.hpp"
 
 namespace signorini::tests {
 
@@ -43,7 +45,7 @@ class HarmonicBalance {
         beside.reshaped()[k] += h;
         J.col(k) = (residual(beside) - r) / h;
       }
-      q.reshaped() -= J.partialPivLu().solve(r);
+      q.reshaped() -= signorini::solve_dense(J, r);
     }
     return q;
   }

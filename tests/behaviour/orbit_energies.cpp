@@ -3,13 +3,14 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <tuple>
 
+#include "base/eigen_dense.hpp"
 #include "behaviour/one_mass.hpp"
 #include "behaviour/rates.hpp"
 #include "signorini/orbit.hpp"
@@ -89,7 +90,7 @@ struct RegularStop {
       Eigen::Matrix3d J;
       for (int j = 0; j < 3; ++j)
         J.col(j) = (quarter(x + 1e-6 * Eigen::Vector3d::Unit(j)) - wanted - r) / 1e-6;
-      const Eigen::Vector3d step = J.partialPivLu().solve(r);
+      const Eigen::Vector3d step = solve_dense(J, r);
       x -= step;
       if (step.norm() <= 1e-10) break;
     }

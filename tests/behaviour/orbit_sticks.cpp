@@ -3,10 +3,11 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <numbers>
 
+#include "base/eigen_dense.hpp"
 #include "behaviour/one_mass.hpp"
 #include "behaviour/rates.hpp"
 #include "signorini/orbit.hpp"
@@ -25,20 +26,20 @@ struct TwoMasses {
     Eigen::Vector2d x, v;
   };
   [[nodiscard]] State slipping(const State& from, double phase, double s, double t) const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> modes(K);
+    const EigenPairs modes = symmetric_eigen(K);
     const Eigen::Vector2d answer =
         (K - w * w * Eigen::Matrix2d::Identity()).inverse() * Eigen::Vector2d(p, 0.0);
     const Eigen::Vector2d rest = K.inverse() * Eigen::Vector2d(-s * F, 0.0);
-    const Eigen::Vector2d x0 = modes.eigenvectors().transpose() * (from.x - std::cos(phase) * answer - rest);
-    const Eigen::Vector2d v0 = modes.eigenvectors().transpose() * (from.v + w * std::sin(phase) * answer);
+    const Eigen::Vector2d x0 = modes.vectors.transpose() * (from.x - std::cos(phase) * answer - rest);
+    const Eigen::Vector2d v0 = modes.vectors.transpose() * (from.v + w * std::sin(phase) * answer);
     Eigen::Vector2d q, r;
     for (int k = 0; k < 2; ++k) {
-      const double o = std::sqrt(modes.eigenvalues()[k]);
+      const double o = std::sqrt(modes.values[k]);
       q[k] = x0[k] * std::cos(o * t) + v0[k] / o * std::sin(o * t);
       r[k] = -x0[k] * o * std::sin(o * t) + v0[k] * std::cos(o * t);
     }
-    return {modes.eigenvectors() * q + std::cos(w * t + phase) * answer + rest,
-            modes.eigenvectors() * r - w * std::sin(w * t + phase) * answer};
+    return {modes.vectors * q + std::cos(w * t + phase) * answer + rest,
+            modes.vectors * r - w * std::sin(w * t + phase) * answer};
   }
   /// The second mass alone, the first one stands at from.x.
   [[nodiscard]] State sticking(const State& from, double t) const {

@@ -12,8 +12,8 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
                                  std::size_t n) {
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4)
-    lanes_at<Four>(sum + i) =
-        lanes_at<Four>(sum + i) * lanes_at<Four>(x + i) + factor * lanes_at<Four>(a + i);
+    lanes_at<Four>(sum + i).v =
+        lanes_at<Four>(sum + i).v * lanes_at<Four>(x + i).v + factor * lanes_at<Four>(a + i).v;
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
 }
 

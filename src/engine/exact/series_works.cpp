@@ -24,8 +24,8 @@ SIGNORINI_WIDE_LANES void velocities_of_block(const double* a, std::size_t strid
     for (std::size_t j = 0; j < block; ++j) scaled[j] = factor * a[k * stride + j];
     for (std::size_t i = 0; i < times * block; i += block)
       for (std::size_t j = 0; j < block; j += lanes)
-        lanes_at<Four>(v + i + j) =
-            lanes_at<Four>(v + i + j) * lanes_at<Four>(at + i + j) + lanes_at<Four>(scaled + j);
+        lanes_at<Four>(v + i + j).v =
+            lanes_at<Four>(v + i + j).v * lanes_at<Four>(at + i + j).v + lanes_at<Four>(scaled + j).v;
   }
 }
 

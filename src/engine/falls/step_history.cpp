@@ -11,22 +11,17 @@ namespace {
 using Kept = std::array<const double*, max_degree + 1>;  // values so many steps back
 
 template <class T>
-[[gnu::always_inline]] inline const T& together(const double* p) {
-  return *reinterpret_cast<const T*>(p);
-}
-
-template <class T>
 [[gnu::always_inline]] inline void look_at(const Kept& rows, int order, double twice_bend, int degree,
                                            const double* weights, std::size_t s, double* bent, double* mean) {
-  const T last = together<T>(rows[0] + s);
+  const T last = lanes_at<T>(rows[0] + s).v;
   T change{}, sum{};
   for (int b = 1; b <= order; ++b) {
-    const T off = together<T>(rows[z(b)] + s) - last, far = off < 0.0 ? -off : off;
+    const T off = lanes_at<T>(rows[z(b)] + s).v - last, far = off < 0.0 ? -off : off;
     change = change < far ? far : change;
   }
-  for (int b = 0; b <= degree; ++b) sum += weights[b] * together<T>(rows[z(b)] + s);
-  *reinterpret_cast<T*>(bent + s) = twice_bend * change;
-  *reinterpret_cast<T*>(mean + s) = sum;
+  for (int b = 0; b <= degree; ++b) sum += weights[b] * lanes_at<T>(rows[z(b)] + s).v;
+  lanes_at<T>(bent + s).v = twice_bend * change;
+  lanes_at<T>(mean + s).v = sum;
 }
 
 /// bent = 2 bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b  of n scalars

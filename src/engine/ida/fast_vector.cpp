@@ -19,13 +19,13 @@ using Index = sunindextype;
 /// T: Four, or double for what is left at the end. z_j = sum_i f_i x_ij. z may be x_0; later ones are distinct from it.
 template <class T, int count>
 [[gnu::always_inline]] inline void combined(const double* f, const double* const* x, Index j, double* z) {
-  T sum = f[0] * lanes_at<T>(x[0] + j);
-  if constexpr (count > 1) sum += f[1] * lanes_at<T>(x[1] + j);
-  if constexpr (count > 2) sum += f[2] * lanes_at<T>(x[2] + j);
-  if constexpr (count > 3) sum += f[3] * lanes_at<T>(x[3] + j);
-  if constexpr (count > 4) sum += f[4] * lanes_at<T>(x[4] + j);
-  if constexpr (count > 5) sum += f[5] * lanes_at<T>(x[5] + j);
-  lanes_at<T>(z + j) = sum;
+  T sum = f[0] * lanes_at<T>(x[0] + j).v;
+  if constexpr (count > 1) sum += f[1] * lanes_at<T>(x[1] + j).v;
+  if constexpr (count > 2) sum += f[2] * lanes_at<T>(x[2] + j).v;
+  if constexpr (count > 3) sum += f[3] * lanes_at<T>(x[3] + j).v;
+  if constexpr (count > 4) sum += f[4] * lanes_at<T>(x[4] + j).v;
+  if constexpr (count > 5) sum += f[5] * lanes_at<T>(x[5] + j).v;
+  lanes_at<T>(z + j).v = sum;
 }
 
 template <int count>
@@ -79,11 +79,12 @@ SIGNORINI_WIDE_LANES void linear_sum(double a, N_Vector x_vector, double b, N_Ve
   double* z = NV_DATA_S(z_vector);
   Index j = 0;
   if (a == 1.0) {  // every sum of IDA's steps
-    for (; j + 3 < n; j += 4) lanes_at<Four>(z + j) = lanes_at<Four>(x + j) + b * lanes_at<Four>(y + j);
+    for (; j + 3 < n; j += 4) lanes_at<Four>(z + j).v = lanes_at<Four>(x + j).v + b * lanes_at<Four>(y + j).v;
     for (; j < n; ++j) z[j] = x[j] + b * y[j];
     return;
   }
-  for (; j + 3 < n; j += 4) lanes_at<Four>(z + j) = a * lanes_at<Four>(x + j) + b * lanes_at<Four>(y + j);
+  for (; j + 3 < n; j += 4)
+    lanes_at<Four>(z + j).v = a * lanes_at<Four>(x + j).v + b * lanes_at<Four>(y + j).v;
   for (; j < n; ++j) z[j] = a * x[j] + b * y[j];
 }
 
@@ -96,7 +97,7 @@ SIGNORINI_WIDE_LANES void scale(double c, N_Vector x_vector, N_Vector z_vector) 
     return;
   }
   Index j = 0;
-  for (; j + 3 < n; j += 4) lanes_at<Four>(z + j) = c * lanes_at<Four>(x + j);
+  for (; j + 3 < n; j += 4) lanes_at<Four>(z + j).v = c * lanes_at<Four>(x + j).v;
   for (; j < n; ++j) z[j] = c * x[j];
 }
 
@@ -108,13 +109,13 @@ void constant(double c, N_Vector z_vector) {
 /// x_0j += e_j, then x_ij += x_(i-1)j.
 template <class T, int count>
 [[gnu::always_inline]] inline void cascaded(const double* e, double* const* x, Index j) {
-  T sum = lanes_at<T>(e + j) + lanes_at<T>(x[0] + j);
-  lanes_at<T>(x[0] + j) = sum;
-  if constexpr (count > 1) lanes_at<T>(x[1] + j) = sum += lanes_at<T>(x[1] + j);
-  if constexpr (count > 2) lanes_at<T>(x[2] + j) = sum += lanes_at<T>(x[2] + j);
-  if constexpr (count > 3) lanes_at<T>(x[3] + j) = sum += lanes_at<T>(x[3] + j);
-  if constexpr (count > 4) lanes_at<T>(x[4] + j) = sum += lanes_at<T>(x[4] + j);
-  if constexpr (count > 5) lanes_at<T>(x[5] + j) = sum += lanes_at<T>(x[5] + j);
+  T sum = lanes_at<T>(e + j).v + lanes_at<T>(x[0] + j).v;
+  lanes_at<T>(x[0] + j).v = sum;
+  if constexpr (count > 1) lanes_at<T>(x[1] + j).v = sum += lanes_at<T>(x[1] + j).v;
+  if constexpr (count > 2) lanes_at<T>(x[2] + j).v = sum += lanes_at<T>(x[2] + j).v;
+  if constexpr (count > 3) lanes_at<T>(x[3] + j).v = sum += lanes_at<T>(x[3] + j).v;
+  if constexpr (count > 4) lanes_at<T>(x[4] + j).v = sum += lanes_at<T>(x[4] + j).v;
+  if constexpr (count > 5) lanes_at<T>(x[5] + j).v = sum += lanes_at<T>(x[5] + j).v;
 }
 
 /// IDA's x = [phi_q, ..., phi_0], z = [e, phi_q, ..., phi_1].
@@ -165,17 +166,17 @@ SIGNORINI_WIDE_LANES double wrms_norm(N_Vector x_vector, N_Vector w_vector) {
   Four s0{}, s1{}, s2{}, s3{};
   Index j = 0;
   for (; j + 15 < n; j += 16) {
-    const Four p0 = lanes_at<Four>(x + j) * lanes_at<Four>(w + j),
-               p1 = lanes_at<Four>(x + j + 4) * lanes_at<Four>(w + j + 4),
-               p2 = lanes_at<Four>(x + j + 8) * lanes_at<Four>(w + j + 8),
-               p3 = lanes_at<Four>(x + j + 12) * lanes_at<Four>(w + j + 12);
+    const Four p0 = lanes_at<Four>(x + j).v * lanes_at<Four>(w + j).v,
+               p1 = lanes_at<Four>(x + j + 4).v * lanes_at<Four>(w + j + 4).v,
+               p2 = lanes_at<Four>(x + j + 8).v * lanes_at<Four>(w + j + 8).v,
+               p3 = lanes_at<Four>(x + j + 12).v * lanes_at<Four>(w + j + 12).v;
     s0 += p0 * p0;
     s1 += p1 * p1;
     s2 += p2 * p2;
     s3 += p3 * p3;
   }
   for (; j + 3 < n; j += 4) {
-    const Four p = lanes_at<Four>(x + j) * lanes_at<Four>(w + j);
+    const Four p = lanes_at<Four>(x + j).v * lanes_at<Four>(w + j).v;
     s0 += p * p;
   }
   double rest = 0.0;

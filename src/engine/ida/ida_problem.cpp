@@ -30,9 +30,9 @@ SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y
                                      const double* yp, double* r, double* u) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const Four off = lanes_at<Four>(yp + i) - lanes_at<Four>(v + i);
-    lanes_at<Four>(r + i) = off;
-    lanes_at<Four>(u + i) = lanes_at<Four>(y + i) - step * off;
+    const Four off = lanes_at<Four>(yp + i).v - lanes_at<Four>(v + i).v;
+    lanes_at<Four>(r + i).v = off;
+    lanes_at<Four>(u + i).v = lanes_at<Four>(y + i).v - step * off;
   }
   for (; i < n; ++i) {
     r[i] = yp[i] - v[i];
@@ -45,8 +45,8 @@ SIGNORINI_WIDE_LANES void weigh(std::size_t n, double rtol, const double* factor
                                 const double* y, double* w) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const Four size = lanes_at<Four>(y + i) < 0.0 ? -lanes_at<Four>(y + i) : lanes_at<Four>(y + i);
-    lanes_at<Four>(w + i) = lanes_at<Four>(factor + i) / (rtol * size + lanes_at<Four>(atol + i));
+    const Four size = lanes_at<Four>(y + i).v < 0.0 ? -lanes_at<Four>(y + i).v : lanes_at<Four>(y + i).v;
+    lanes_at<Four>(w + i).v = lanes_at<Four>(factor + i).v / (rtol * size + lanes_at<Four>(atol + i).v);
   }
   for (; i < n; ++i) w[i] = factor[i] / (rtol * std::abs(y[i]) + atol[i]);
 }

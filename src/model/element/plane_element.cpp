@@ -42,7 +42,7 @@ PlaneElement::PlaneElement(std::vector<int> nodes, int member, PlaneShape shape,
 std::vector<ElementUnknown> PlaneElement::unknowns() const {
   std::vector<ElementUnknown> all;
   for (std::size_t k = 0; k < at_.size(); ++k)
-    for (const std::size_t c : {0, 1}) all.push_back({k, c});
+    for (const std::size_t c : {0U, 1U}) all.push_back({k, c});
   return all;
 }
 
@@ -165,7 +165,7 @@ std::vector<PlaneElement::StressSample> PlaneElement::stress_samples() const {
     StressSample sample{{0.0, 0.0}, stress_rows(a, b)};
     const Eigen::VectorXd values = shapes_at(shape_, a, b).values;
     for (std::size_t k = 0; k < at_.size(); ++k)
-      for (const std::size_t c : {0, 1}) sample.at[c] += values[static_cast<Eigen::Index>(k)] * at_[k][c];
+      for (const std::size_t c : {0U, 1U}) sample.at[c] += values[static_cast<Eigen::Index>(k)] * at_[k][c];
     samples.push_back(std::move(sample));
   }
   return samples;

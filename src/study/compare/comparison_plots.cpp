@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/file_name.hpp"
+#include "base/number.hpp"
 #include "result/picture_files.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"

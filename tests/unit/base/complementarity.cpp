@@ -1,12 +1,12 @@
 // Lemke's method against its own conditions and against enumeration, on thousands of random problems.
 #include <doctest/doctest.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <cmath>
 #include <random>
 
 #include "base/complementarity.hpp"
+#include "base/eigen_dense.hpp"
 #include "decide/coulomb_problem.hpp"
 
 using namespace signorini;
@@ -39,7 +39,7 @@ int count_solutions(const MatrixXd& M, const VectorXd& q) {
     VectorXd z = VectorXd::Zero(n);
     if (!active.empty()) {
       const MatrixXd block = M(active, active);
-      const VectorXd x = block.fullPivLu().solve(VectorXd(-q(active)));
+      const VectorXd x = solve_dense(block, VectorXd(-q(active)));
       z(active) = x;
     }
     if (z.minCoeff() < -1e-12 || !solves(M, q, z.cwiseMax(0.0))) continue;
@@ -244,7 +244,7 @@ TEST_CASE("a seam of contacts that share few smooth motions: a hit has a solutio
     VectorXd v = random_matrix(random, modes, 1);
     for (int twice = 0; twice < 2; ++twice) {
       const VectorXd off = resting * v;
-      v -= resting.completeOrthogonalDecomposition().solve(off);
+      v -= least_squares(resting, off);
     }
     if (rows.row(2 * hit).dot(v) > 0.0) v = -v;
     CoulombProblem p{rows * rows.transpose(), rows * v, {}};

@@ -1,7 +1,7 @@
 // The kernels of a step: products with M, C and K, solves with packed factors.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <random>
 
 #include "linear/klu.hpp"

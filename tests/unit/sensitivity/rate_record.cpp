@@ -16,6 +16,18 @@ const Response* find(const Sensitivities& s, const std::string& name, int contac
   return found == s.responses.end() ? nullptr : &*found;
 }
 
+/// How often it was told of what.
+struct Counted : Recorder {
+  bool steering = false;
+  int events = 0, samples = 0, responses = 0, instants = 0;
+  void event(const Event& /*event*/) override { ++events; }
+  void sample(const Sample& /*sample*/) override { ++samples; }
+  void response(double /*t*/, const std::vector<double>& /*values*/) override { ++responses; }
+  [[nodiscard]] bool wants_instants() const override { return true; }
+  void instant(const InstantRow& /*instant*/) override { ++instants; }
+  [[nodiscard]] bool steers() const override { return steering; }
+};
+
 }  // namespace
 
 TEST_SUITE_BEGIN("unit/sensitivity/rate_record");
@@ -69,6 +81,29 @@ TEST_CASE("peaks of a contact with a gap and of a slider without one: values, ti
   REQUIRE(rest);
   CHECK(rest->value == doctest::Approx(0.05 * std::sin(5.4)).epsilon(1e-11));
   CHECK(rest->rates[1] == doctest::Approx(std::sin(5.4) / 6.0).epsilon(1e-11));
+}
+
+TEST_CASE("a recorder is told of all that a run without derivatives tells; one that steers is refused") {
+  const std::string text =
+      matrix_scene("t_end = 1.0\noutput_dt = 0.25\ninitial = { u = [0.3], v = [0.0] }",
+                   "mass = [[1.0]]\nstiffness = [[9.0]]",
+                   "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 18.0",
+                   "[[output]]\nname = \"u\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");
+  const SceneReader read = reader_of_text(text);
+  Counted alone, beside;
+  const Scene scene = read({});
+  (void)simulate(build_model(scene), scene.run, alone);
+  (void)sensitivities(read, {"contacts.c.normal_stiffness"}, &beside);
+  CHECK(alone.events > 1);
+  CHECK(alone.instants > 1);
+  CHECK(alone.responses > 4);
+  CHECK(beside.events == alone.events);
+  CHECK(beside.samples == alone.samples);
+  CHECK(beside.responses == alone.responses);
+  CHECK(beside.instants == alone.instants);
+  beside.steering = true;
+  CHECK_THROWS_WITH_AS(sensitivities(read, {"contacts.c.normal_stiffness"}, &beside),
+                       doctest::Contains("does not steer"), UsageError);
 }
 
 TEST_SUITE_END();

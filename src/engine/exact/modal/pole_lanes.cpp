@@ -9,18 +9,18 @@ template <class T>
 [[gnu::always_inline]] inline void inverse_distance(const double* base, const double* tiny, double home_base,
                                                     double home_tiny, double own_re, double own_im,
                                                     double* re, double* im) {
-  const T apart = own_re - ((lanes_at<T>(base) - home_base) + (lanes_at<T>(tiny) - home_tiny));
+  const T apart = own_re - ((lanes_at<T>(base).v - home_base) + (lanes_at<T>(tiny).v - home_tiny));
   const T factor = 1.0 / (apart * apart + own_im * own_im);
-  lanes_at<T>(re) = apart * factor;
-  lanes_at<T>(im) = -own_im * factor;
+  lanes_at<T>(re).v = apart * factor;
+  lanes_at<T>(im).v = -own_im * factor;
 }
 
 template <class T>
 [[gnu::always_inline]] inline void square_one(const double* re, const double* im, double* square_re,
                                               double* square_im) {
-  const T a = lanes_at<T>(re), b = lanes_at<T>(im);
-  lanes_at<T>(square_re) = a * a - b * b;
-  lanes_at<T>(square_im) = 2.0 * a * b;
+  const T a = lanes_at<T>(re).v, b = lanes_at<T>(im).v;
+  lanes_at<T>(square_re).v = a * a - b * b;
+  lanes_at<T>(square_im).v = 2.0 * a * b;
 }
 
 template <class T>
@@ -29,8 +29,8 @@ template <class T>
                                                 const double* side, std::ptrdiff_t n, std::ptrdiff_t rank,
                                                 double* out) {
   T sum = {};
-  for (std::ptrdiff_t a = 0; a < rank; ++a) sum += small[a] * lanes_at<T>(side + a * n);
-  lanes_at<T>(out) = sum / (((lanes_at<T>(base) - home_base) + (lanes_at<T>(tiny) - home_tiny)) - own);
+  for (std::ptrdiff_t a = 0; a < rank; ++a) sum += small[a] * lanes_at<T>(side + a * n).v;
+  lanes_at<T>(out).v = sum / (((lanes_at<T>(base).v - home_base) + (lanes_at<T>(tiny).v - home_tiny)) - own);
 }
 
 }  // namespace
@@ -66,9 +66,9 @@ SIGNORINI_WIDE_LANES Complex weighted(const double* re, const double* im, const 
   Four sum_re = {}, sum_im = {};
   std::ptrdiff_t i = 0;
   for (; i + 4 <= n; i += 4) {
-    const Four weight = lanes_at<Four>(w + i);
-    sum_re += lanes_at<Four>(re + i) * weight;
-    sum_im += lanes_at<Four>(im + i) * weight;
+    const Four weight = lanes_at<Four>(w + i).v;
+    sum_re += lanes_at<Four>(re + i).v * weight;
+    sum_im += lanes_at<Four>(im + i).v * weight;
   }
   for (int lane = 0; i < n; ++i, ++lane) {
     sum_re[lane] += re[i] * w[i];
@@ -81,8 +81,8 @@ SIGNORINI_WIDE_LANES Complex sum_of_all(const double* re, const double* im, std:
   Four sum_re = {}, sum_im = {};
   std::ptrdiff_t i = 0;
   for (; i + 4 <= n; i += 4) {
-    sum_re += lanes_at<Four>(re + i);
-    sum_im += lanes_at<Four>(im + i);
+    sum_re += lanes_at<Four>(re + i).v;
+    sum_im += lanes_at<Four>(im + i).v;
   }
   for (int lane = 0; i < n; ++i, ++lane) {
     sum_re[lane] += re[i];

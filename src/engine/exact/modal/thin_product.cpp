@@ -19,8 +19,8 @@ template <std::size_t Rows, std::size_t Vectors>
   std::ptrdiff_t k = 0;
   for (; k + 4 <= columns; k += 4)
     for (std::size_t r = 0; r < Rows; ++r) {
-      const Four& entry = lanes_at<Four>(row + static_cast<std::ptrdiff_t>(r) * columns + k);
-      for (std::size_t s = 0; s < Vectors; ++s) sum[r][s] += entry * lanes_at<Four>(x[s] + k);
+      const Four entry = lanes_at<Four>(row + static_cast<std::ptrdiff_t>(r) * columns + k).v;
+      for (std::size_t s = 0; s < Vectors; ++s) sum[r][s] += entry * lanes_at<Four>(x[s] + k).v;
     }
   for (std::size_t r = 0; r < Rows; ++r)
     for (std::size_t s = 0; s < Vectors; ++s) {

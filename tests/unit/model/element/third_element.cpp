@@ -1,9 +1,10 @@
 // An element that the program does not have: all that takes elements takes it, and answers by closed forms.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "base/eigen_dense.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/drawing.hpp"
 #include "model/assembly/geometric.hpp"
@@ -55,7 +56,7 @@ struct Sheet {
 };
 
 Vector answer(const Assembly& assembly, const Vector& load) {
-  return Eigen::MatrixXd(assembly.stiffness).fullPivLu().solve(load);
+  return solve_dense(Eigen::MatrixXd(assembly.stiffness), load);
 }
 
 }  // namespace

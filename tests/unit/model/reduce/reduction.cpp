@@ -1,9 +1,10 @@
 // A reduced model: modes up to the cutoff, and the static compliance of all others.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "base/eigen_dense.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/reduce/reduction.hpp"
 #include "study/check/check.hpp"
@@ -34,19 +35,18 @@ Scene cantilever() {
 /// Greatest displacement along the form for a unit force along `force`; K regular.
 double give(const Model& model, const Combination& form, const Combination& force) {
   const Eigen::MatrixXd k(model.stiffness);
-  return form.dot(Vector(k.ldlt().solve(full(force, model.size()))));
+  return form.dot(Vector(solve_dense(k, full(force, model.size()))));
 }
 
 /// The same for a structure with free motions, the whole of which are taken out by inertia (independently of
 /// the implementation: all modes of a dense decomposition; M regular).
 double give_elastic(const Model& model, const Combination& form, const Combination& force) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(model.stiffness),
-                                                                        Eigen::MatrixXd(model.mass));
+  const EigenPairs modes = generalized_eigen(Eigen::MatrixXd(model.stiffness), Eigen::MatrixXd(model.mass));
   double sum = 0.0;
-  for (Eigen::Index j = 0; j < modes.eigenvalues().size(); ++j) {
-    if (modes.eigenvalues()[j] < 1.0) continue;  // free
-    const Vector phi = modes.eigenvectors().col(j);
-    sum += form.dot(phi) * force.dot(phi) / modes.eigenvalues()[j];
+  for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
+    if (modes.values[j] < 1.0) continue;  // free
+    const Vector phi = modes.vectors.col(j);
+    sum += form.dot(phi) * force.dot(phi) / modes.values[j];
   }
   return sum;
 }
@@ -331,9 +331,8 @@ Scene equal_cantilevers(int count) {
 
 TEST_CASE("a large structure of equal parts: each repeated mode is found as often as it is there") {
   const Model one = build_model(equal_cantilevers(1)), all = build_model(cut(equal_cantilevers(1), 1e9));
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(one.stiffness),
-                                                                        Eigen::MatrixXd(one.mass));
-  const Vector omega = modes.eigenvalues().cwiseSqrt();
+  const Vector omega =
+      generalized_eigenvalues(Eigen::MatrixXd(one.stiffness), Eigen::MatrixXd(one.mass)).cwiseSqrt();
   for (int kept = 1; kept <= 2; ++kept) {
     const Model model = build_model(cut(equal_cantilevers(60), 0.5 * (omega[kept - 1] + omega[kept])));
     const Reduction& r = *model.reduction;

@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Core>
+#include <Eigen/LU>  // inverses of small matrices
 #include <algorithm>
 #include <numbers>
 

@@ -85,7 +85,7 @@ TEST_CASE("peaks of a contact with a gap and of a slider without one: values, ti
 
 TEST_CASE("a recorder is told of all that a run without derivatives tells; one that steers is refused") {
   const std::string text =
-      matrix_scene("t_end = 1.0\noutput_dt = 0.25\ninitial = { u = [0.3], v = [0.0] }",
+      matrix_scene("t_end = 2.0\noutput_dt = 0.25\ninitial = { u = [0.3], v = [0.0] }",
                    "mass = [[1.0]]\nstiffness = [[9.0]]",
                    "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 18.0",
                    "[[output]]\nname = \"u\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");

@@ -36,7 +36,7 @@ sanitize() {
 }
 
 build_with_clang() {
-  scripts/setup.sh clang
+  scripts/setup.sh clang-16 libomp-16-dev
   configure clang
   cmake --build build/clang -j "$(nproc)" -t all signorini_differential signorini_overhead signorini_exact_cost \
     signorini_newmark_errors signorini_reduction signorini_hard_cases
@@ -44,10 +44,10 @@ build_with_clang() {
 }
 
 tidy() {
-  scripts/setup.sh clang clang-tidy
+  scripts/setup.sh clang-16 libomp-16-dev clang-tidy-16
   configure clang
   cmake --build build/clang -j "$(nproc)" -t signorini_program  # precompiled headers
-  run-clang-tidy -quiet -p build/clang -j "$(nproc)" "$root/src/.*"
+  run-clang-tidy-16 -quiet -p build/clang -j "$(nproc)" "$root/src/.*"
 }
 
 threads() {
@@ -63,7 +63,7 @@ attack() {
 }
 
 fuzz() {
-  scripts/setup.sh clang
+  scripts/setup.sh clang-16 libomp-16-dev libclang-rt-16-dev
   validation/robustness/fuzz.sh "${FUZZ_SECONDS:-900}"
 }
 

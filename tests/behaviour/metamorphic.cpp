@@ -89,7 +89,7 @@ TEST_SUITE("behaviour/metamorphic") {
 
   TEST_CASE("heat, moments, supports that move, stops and stages, written in other ways") {
     Sums sums;
-    for (const std::uint64_t seed : {2, 3, 8})
+    for (const std::uint64_t seed : {2U, 3U, 8U})
       check_ways(parse_scene(draw_loaded_scene(seed), "drawn.toml"), seed, Engine::exact, sums);
     check_ways(parse_scene(draw_loaded_scene(10), "drawn.toml"), 10, Engine::ida, sums);
     CHECK(sums.scenes == 4);

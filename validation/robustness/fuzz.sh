@@ -11,7 +11,7 @@ targets=("$@")
 
 cmake -S "$root" -B "$root/build/fuzz" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
   "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -gline-tables-only -DNDEBUG" -DSIGNORINI_TESTS=OFF \
-  -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_C_COMPILER=clang-14 -DSIGNORINI_FUZZ=ON -DSIGNORINI_TOGETHER=ON
+  -DCMAKE_CXX_COMPILER=clang++-16 -DCMAKE_C_COMPILER=clang-16 -DSIGNORINI_FUZZ=ON -DSIGNORINI_TOGETHER=ON
 cmake --build "$root/build/fuzz" -j "${JOBS:-2}" --target "${targets[@]/#/fuzz_}"
 
 failed=()

@@ -103,7 +103,8 @@ TEST_CASE("what only seems to exceed all before is no turn: it would stand for t
       REQUIRE(lower.times().size() == 1);
       const double at = 0.4375;  // between two samples
       for (int k = 0; k < 3; ++k)
-        lower.series.forces(0, k) = std::vector<double>{level - sharp * at * at, 2.0 * sharp * at, -sharp}[k];
+        lower.series.forces(0, k) = std::vector<double>{level - sharp * at * at, 2.0 * sharp * at,
+                                                        -sharp}[static_cast<std::size_t>(k)];
       lower.turns.begins(0, ContactSeries::N, -1e9, 0.0, 0.0);  // lower than all that comes
       lower.contacts[0].fill(Contact{}, 0, lower.series, 2);
       CHECK(lower.times().empty());

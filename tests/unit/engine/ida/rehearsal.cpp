@@ -34,11 +34,12 @@ long steps_of_order(const Result& result, int order) {
 TEST_SUITE_BEGIN("unit/engine/ida/rehearsal");
 
 TEST_CASE("a polynomial of derivatives, and its own derivatives") {
-  constexpr std::array d = {0.7, -1.2, 3.1, 0.4, -2.2};  // of exp-like coefficients d_k x^k / k!
+  const std::vector<double> values = {0.7, -1.2, 3.1, 0.4, -2.2};
+  const double* const d = values.data();  // of exp-like coefficients d_k x^k / k!
   const double x = -0.37;
   const auto sum = [&](std::size_t p) {
     double total = 0.0, term = 1.0;
-    for (std::size_t k = p; k < d.size(); ++k) {
+    for (std::size_t k = p; k < values.size(); ++k) {
       total += d[k] * term;
       term *= x / static_cast<double>(k - p + 1);
     }

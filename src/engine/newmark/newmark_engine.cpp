@@ -58,7 +58,7 @@ void NewmarkEngine::start(const Segment& segment) {
   guards_.start(segment);
   guards_.weigh(end_, t1_);
   // What sticks does not move, so that doubling sees nothing of the load on it.
-  if (const double omega = segment.forcing->greatest_omega(); doubling_ && omega > 0.0)
+  if (const double omega = doubling_ ? segment.forcing->greatest_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
   ++counters.restarts;
 }

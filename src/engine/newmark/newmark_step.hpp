@@ -102,7 +102,7 @@ class NewmarkStep {
   double spent_ = 0.0;             // numbers that its solves took since rows changed
   Vector odd_x_, rest_, product_;  // the last solution at an odd length; scratch
   std::vector<Weights> weights_;
-  Vector u_, v_, none_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
+  Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
   long solves_ = 0;
 };
 

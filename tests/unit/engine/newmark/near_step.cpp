@@ -5,39 +5,18 @@
 #include <cmath>
 
 #include "engine/newmark/newmark_step.hpp"
-#include "unit/linear/rubbing_row.hpp"
+#include "unit/motion/lively_row.hpp"
 
 using namespace signorini;
 
 namespace {
-
-History wave(double amplitude, double omega, double phase) {
-  Piece piece;
-  piece.amplitude = amplitude;
-  piece.omega = omega;
-  piece.phase = phase;
-  return History(piece);
-}
-
-/// The row, with a load on each tenth degree of freedom and a surface that moves.
-Model driven_row(int masses) {
-  Model model = rubbing_row(masses);
-  for (int i = 0; i < model.size(); i += 10) {
-    Load load;
-    load.direction.terms = {{i, 3.0 - 0.1 * i}};
-    load.history = wave(1.0, 2.0, 0.3);
-    model.loads.push_back(load);
-  }
-  model.contacts[static_cast<std::size_t>(masses / 2)].surface_motion = wave(0.01, 3.0, 0.1);
-  return model;
-}
 
 struct Ends {
   const Model& model;
   Structure structure{model};
   Forcing forcing{model, 0.0, Side::after};
   Point from;
-  Ends(const Model& m, const std::vector<Rows>&) : model(m) {
+  explicit Ends(const Model& m) : model(m) {
     const Eigen::Index n = m.size();
     from = {m.u0, m.v0, Vector::Zero(2 * static_cast<Eigen::Index>(m.contacts.size())),
             Vector::LinSpaced(n, -1.0, 1.0)};
@@ -49,10 +28,10 @@ struct Ends {
 TEST_SUITE_BEGIN("unit/engine/newmark/near_step");
 
 TEST_CASE("at every contact, turned as it may be, the end of a step is that of the whole step") {
-  const Model m = driven_row(313);
+  const Model m = lively_row(313);
   for (const int number : {0, 11, 500}) {
     const std::vector<Rows> rows = rows_of(m, rubbing_mode(m, number));
-    Ends at(m, rows);
+    Ends at(m);
     NewmarkStep step(m, at.structure);
     step.set({number}, rows);
     const double longer = 0.05;
@@ -86,13 +65,13 @@ TEST_CASE("at every contact, turned as it may be, the end of a step is that of t
 TEST_CASE(
     "where K rules, and A^-1 hardly decays, more is seen the farther one looks; of a small structure "
     "nothing") {
-  Model m = driven_row(1501);
+  Model m = lively_row(1501);
   for (int i = 0; i < m.size(); ++i) m.stiffness.coeffRef(i, i) = 18.0001;  // next to a rope without a bed
   m.stiffness *= 1e4;
   for (Contact& contact : m.contacts) contact.normal_stiffness = contact.normal_damping = 1e-3;
   for (Contact& contact : m.contacts) contact.tangential_stiffness = 1e-3;
   const std::vector<Rows> rows = rows_of(m, rubbing_mode(m, 0));
-  Ends at(m, rows);
+  Ends at(m);
   NewmarkStep step(m, at.structure);
   step.set({0}, rows);
   const double longer = 1.0, h = 0.5;

@@ -532,7 +532,7 @@ void Decider::finish(Course& course) {
   d.unresolved = course.found.unresolved;
   d.slides_after = slides(course.after, d);
   d.after.reserve(course.mode.size());
-  d.guards.resize(guard_count(course.mode.size()));
+  d.guards.reserve(guard_count(course.mode.size()));
   for (std::size_t c = 0; c < course.mode.size(); ++c) {
     const MotionJet& jet = course.jets[c];
     const ContactMotion& now = jet.motion[0];
@@ -540,12 +540,10 @@ void Decider::finish(Course& course) {
     d.jumped[c] = std::abs(now.N - d.before[c].N) > course.noise_before[c].N + jet.noise[0].N ||
                   std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
     const bool clear = clearly_holds(course, c);
-    const GuardsOfState& guards = guards_.of(c, course.mode[c]);
-    for (std::size_t i = 0; i < guards.size(); ++i) {
-      const GuardForm& guard = guards[i];
+    for (const GuardForm& guard : guards_.of(c, course.mode[c])) {
+      GuardStart& start = d.guards.emplace_back();
       // Others may hold its slip rate at zero, whatever rounding makes of it: then it has none.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, course))) continue;
-      GuardStart& start = d.guards[guard_slot(c, i)];
       start.kind = guard.kind;
       start.form = guard.form;
       start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);

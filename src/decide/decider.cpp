@@ -128,6 +128,7 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, 
           [](const Contact& contact) { return contact.takes_impulses() || contact.sticks_rigidly(); })),
       max_rounds_(max_rounds),
       touching_(systems, jets_, capture_velocity),
+      guards_(model_),
       blocks_(coupled_contacts(model_)),
       block_of_(model_.contacts.size()) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
@@ -150,7 +151,7 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
   JetMaker::Told told;
   if (decide_alone_)
     told = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
-      return told_by(model_.contacts[c], c, mode[c], jet, orders, instant, unlucky);
+      return told_by(guards_.of(c, mode[c]), c, jet, orders, instant, unlucky);
     };
   std::optional<NearJets::Made> near;
   if (near_) {
@@ -211,7 +212,7 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
 }
 
 bool Decider::held_by_others(std::size_t c, const Course& course) const {
-  return systems_.held_by_others(c, course.mode, course.after, course.instant.t);
+  return systems_.may_share(c) && systems_.held_by_others(c, course.mode, course.after, course.instant.t);
 }
 
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
@@ -496,8 +497,33 @@ bool Decider::clearly_holds(const Course& course, std::size_t c) {
   return course.open && !std::binary_search(course.open->begin(), course.open->end(), c);
 }
 
+/// Of a guard that is not clearly positive: does it start at zero, and what does it do then?
+void Decider::look_at_start(Course& course, std::size_t c, const GuardForm& guard, GuardStart& start) const {
+  Decision& d = course.decision;
+  const MotionJet& jet = course.jets[c];
+  const Known known = course.found.known[c].of(guard.kind);
+  const MotionJet* base = course.so_far.empty() ? nullptr
+                                                : rested(model_.contacts[c], c, course.mode[c], guard,
+                                                         course.so_far[c], course.instant);
+  const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
+  start.at_zero =
+      known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
+  start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
+  if (start.at_zero && start.leading < 0)
+    for (std::size_t k = 0; k < start.loose.size(); ++k)
+      start.loose[k] = course.instant.blur * guard.form.magnitude(jet.noise[k + 2]);
+  const bool rests = rests_at_limit(course, c, start);
+  d.undecided = d.undecided || rests;
+  const double value = guard.form.value(jet.motion[0]);
+  if (rests || (known.zeros == 0 && meets_static_limit(course, c, start)))
+    d.at_limit.push_back({c, value, start.noise});
+  // What the decision took for zero is rounding to an engine, too.
+  if (start.at_zero && (start.leading < 0 || base != nullptr))
+    start.noise = std::max(start.noise, std::abs(value));
+}
+
 /// What an engine and the log want to know of the new mode.
-void Decider::finish(Course& course) const {
+void Decider::finish(Course& course) {
   Decision& d = course.decision;
   d.consistent = true;
   course.found.capture(every_, course.held);
@@ -513,39 +539,15 @@ void Decider::finish(Course& course) const {
     d.after.push_back(now);
     d.jumped[c] = std::abs(now.N - d.before[c].N) > course.noise_before[c].N + jet.noise[0].N ||
                   std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
-    for (const GuardForm& guard : guards(model_.contacts[c], course.mode[c])) {
-      // Others hold its slip rate at zero, whatever rounding makes of it.
-      if (guard.kind == Guard::sliding && held_by_others(c, course)) {
-        d.guards.emplace_back();
-        continue;
-      }
-      GuardStart start{guard.kind, guard.form};
-      if (guard.kind != Guard::none) {
-        start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
-        if (clearly_holds(course, c)) {
-          d.guards.push_back(std::move(start));
-          continue;
-        }
-        const Known known = course.found.known[c].of(guard.kind);
-        const MotionJet* base = course.so_far.empty() ? nullptr
-                                                      : rested(model_.contacts[c], c, course.mode[c], guard,
-                                                               course.so_far[c], course.instant);
-        const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
-        start.at_zero =
-            known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
-        start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
-        if (start.at_zero && start.leading < 0)
-          for (std::size_t k = 0; k < start.loose.size(); ++k)
-            start.loose[k] = course.instant.blur * guard.form.magnitude(jet.noise[k + 2]);
-        const bool rests = rests_at_limit(course, c, start);
-        d.undecided = d.undecided || rests;
-        if (rests || (known.zeros == 0 && meets_static_limit(course, c, start)))
-          d.at_limit.push_back({c, guard.form.value(now), start.noise});
-        // What the decision took for zero is rounding to an engine, too.
-        if (start.at_zero && (start.leading < 0 || base != nullptr))
-          start.noise = std::max(start.noise, std::abs(guard.form.value(now)));
-      }
-      d.guards.push_back(std::move(start));
+    const bool clear = clearly_holds(course, c);
+    for (const GuardForm& guard : guards_.of(c, course.mode[c])) {
+      GuardStart& start = d.guards.emplace_back();
+      // Others may hold its slip rate at zero, whatever rounding makes of it: then it has none.
+      if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, course))) continue;
+      start.kind = guard.kind;
+      start.form = guard.form;
+      start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
+      if (!clear) look_at_start(course, c, guard, start);
     }
   }
   note_left(course, d);

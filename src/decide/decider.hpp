@@ -68,7 +68,8 @@ class Decider {
   [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);
   [[nodiscard]] bool meets_static_limit(const Course& course, std::size_t c, const GuardStart& guard) const;
   [[nodiscard]] static bool clearly_holds(const Course& course, std::size_t c);
-  void finish(Course& course) const;
+  void look_at_start(Course& course, std::size_t contact, const GuardForm& guard, GuardStart& start) const;
+  void finish(Course& course);
   void note_left(const Course& course, Decision& decision) const;
   [[nodiscard]] Refusal held_at_rest(const Course& course) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
@@ -81,6 +82,7 @@ class Decider {
   bool decide_alone_;                     // no contact is decided with others
   int max_rounds_;
   Touching touching_;
+  GuardsInForce guards_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> block_of_;  // one a contact
   std::vector<MotionJet> room_;        // of the last decision, for the next one

@@ -99,11 +99,17 @@ bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& insta
   return std::abs(form.value(jet.motion[0])) <= zero;
 }
 
-bool told_by(const Contact& contact, std::size_t c, const ContactState& state, const MotionJet& jet,
-             std::size_t orders, const Instant& instant, double most_blur) {
+const GuardsOfState& GuardsInForce::of(std::size_t c, const ContactState& state) {
+  Known& known = known_[c];
+  if (!known.any || known.state != state) known = {true, state, guards(model_.contacts[c], state)};
+  return known.guards;
+}
+
+bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
+             const Instant& instant, double most_blur) {
   if (orders == MotionJet::orders) return true;
   const double blur = most_blur * instant.blur, resolution = most_blur * instant.resolution;
-  for (const GuardForm& guard : guards(contact, state)) {
+  for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
     if (instant.has_rested(c, guard.kind)) return false;  // differences to another motion count
     // What fell is zero, and a rate that rises is as well: failure_of().

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "decide/instant.hpp"
 #include "motion/jet.hpp"
@@ -81,11 +82,29 @@ struct Sign {
 [[nodiscard]] Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
+using GuardsOfState = std::array<GuardForm, guards_per_contact>;
+
 /// Do the noises of the first `orders` orders tell all that a decision without rigid contacts asks of this one: the signs
 /// of its guards, though zeros be blurred `most_blur` times?
-[[nodiscard]] bool told_by(const Contact& contact, std::size_t c, const ContactState& state,
-                           const MotionJet& jet, std::size_t orders, const Instant& instant,
-                           double most_blur);
+[[nodiscard]] bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
+                           std::size_t orders, const Instant& instant, double most_blur);
+
+/// Guards of contacts in the states that they were last asked for in: most have not changed since.
+class GuardsInForce {
+ public:
+  /// Must outlive it.
+  explicit GuardsInForce(const Model& model) : model_(model), known_(model.contacts.size()) {}
+  [[nodiscard]] const GuardsOfState& of(std::size_t contact, const ContactState& state);
+
+ private:
+  struct Known {
+    bool any = false;
+    ContactState state;
+    GuardsOfState guards;
+  };
+  const Model& model_;
+  std::vector<Known> known_;
+};
 
 struct Failure {
   std::size_t contact = 0;

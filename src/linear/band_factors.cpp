@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/rounding.hpp"
 #include "base/wide_lanes.hpp"
@@ -21,22 +22,23 @@ constexpr std::size_t lanes = 4;
 }
 
 struct Band {
-  std::size_t size, width, stride;
+  std::size_t width, stride;
   double* values;
   double* sums;
   double* inverse_pivot;
 };
 
-/// Row after row; sums[i] += |l_ik u_ki|. False: a pivot is zero or no number.
-SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band) {
-  for (std::size_t k = 0; k < band.size; ++k) {
+/// Rows [begin, end), row after row; sums[i] += |l_ik u_ki|. False: a pivot is zero or no number.
+SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, std::size_t end) {
+  for (std::size_t k = begin - std::min(begin, band.width); k < end; ++k) {
     const double* pivots = band.values + k * band.stride + band.width;
-    const double pivot = pivots[0];
-    if (!(std::abs(pivot) > 0.0)) return false;
-    const double inverse = 1.0 / pivot;
-    band.inverse_pivot[k] = inverse;
-    const std::size_t last = std::min(band.size - 1, k + band.width);
-    for (std::size_t i = k + 1; i <= last; ++i) {
+    if (k >= begin) {
+      if (!(std::abs(pivots[0]) > 0.0)) return false;
+      band.inverse_pivot[k] = 1.0 / pivots[0];
+    }
+    const double inverse = band.inverse_pivot[k];
+    const std::size_t last = std::min(end - 1, k + band.width);
+    for (std::size_t i = std::max(begin, k + 1); i <= last; ++i) {
       double* row = band.values + i * band.stride + band.width - (i - k);
       if (row[0] == 0.0) continue;
       const double factor = row[0] * inverse;
@@ -47,6 +49,38 @@ SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band) {
   }
   return true;
 }
+
+[[gnu::always_inline]] inline void solve_band_of(std::size_t width, std::size_t size, std::size_t stride,
+                                                 const double* values, const double* inverse_pivot,
+                                                 double* b) {
+  const auto forward = [&](std::size_t i, std::size_t count) {
+    const double *row = values + i * stride + width - count, *x = b + i - count;
+    double sum = b[i];
+    for (std::size_t c = 0; c < count; ++c) sum -= row[c] * x[c];
+    b[i] = sum;
+  };
+  const auto back = [&](std::size_t i, std::size_t count) {
+    const double *row = values + i * stride + width, *x = b + i;
+    double sum = b[i];
+    for (std::size_t c = count; c > 0; --c) sum -= row[c] * x[c];
+    b[i] = sum * inverse_pivot[i];
+  };
+  const std::size_t edge = std::min(width, size);
+  for (std::size_t i = 0; i < edge; ++i) forward(i, i);
+  for (std::size_t i = edge; i < size; ++i) forward(i, width);
+  for (std::size_t i = size; i-- > size - edge;) back(i, size - 1 - i);
+  for (std::size_t i = size - edge; i-- > 0;) back(i, width);
+}
+
+/// The same with a width that the compiler knows.
+template <std::size_t width>
+void solve_band(std::size_t size, std::size_t stride, const double* values, const double* inverse_pivot,
+                double* b) {
+  solve_band_of(width, size, stride, values, inverse_pivot, b);
+}
+
+/// Widths of two and of three unknowns a node in a row, and those below.
+constexpr std::size_t most_unrolled = 8;
 
 }  // namespace
 
@@ -59,15 +93,19 @@ BandFactors::BandFactors(std::size_t size, std::size_t width)
       diagonal_(size, 0.0),
       sums_(size, 0.0) {}
 
-void BandFactors::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
+void BandFactors::clear(std::size_t begin, std::size_t end) {
+  std::fill(row(begin), row(begin) + (end - begin) * stride_, 0.0);
+}
 
-bool BandFactors::factor() {
-  for (std::size_t i = 0; i < size_; ++i) diagonal_[i] = std::abs(values_[i * stride_ + width_]);
-  std::fill(sums_.begin(), sums_.end(), 0.0);
-  if (!eliminate_band({size_, width_, stride_, values_.data(), sums_.data(), inverse_pivot_.data()}))
+bool BandFactors::factor(std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    diagonal_[i] = std::abs(values_[i * stride_ + width_]);
+    sums_[i] = 0.0;
+  }
+  if (!eliminate_band({width_, stride_, values_.data(), sums_.data(), inverse_pivot_.data()}, begin, end))
     return false;
   bool holds = true;
-  for (std::size_t i = 0; i < size_; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const double pivot = std::abs(values_[i * stride_ + width_]), whole = sums_[i] + pivot;
     holds = holds && whole <= most_growth * diagonal_[i] && pivot > rounding::eps * whole;
   }
@@ -75,20 +113,13 @@ bool BandFactors::factor() {
 }
 
 void BandFactors::solve(double* b) const {
-  for (std::size_t i = 0; i < size_; ++i) {
-    const std::size_t count = std::min(i, width_);
-    const double *row = values_.data() + i * stride_ + width_ - count, *x = b + i - count;
-    double sum = b[i];
-    for (std::size_t c = 0; c < count; ++c) sum -= row[c] * x[c];
-    b[i] = sum;
-  }
-  for (std::size_t i = size_; i-- > 0;) {
-    const std::size_t count = std::min(size_ - 1 - i, width_);
-    const double *row = values_.data() + i * stride_ + width_, *x = b + i;
-    double sum = b[i];
-    for (std::size_t c = count; c > 0; --c) sum -= row[c] * x[c];
-    b[i] = sum * inverse_pivot_[i];
-  }
+  const auto with = [&]<std::size_t... W>(std::index_sequence<W...>) {
+    const bool narrow =
+        ((width_ == W && (solve_band<W>(size_, stride_, values_.data(), inverse_pivot_.data(), b), true)) ||
+         ...);
+    if (!narrow) solve_band_of(width_, size_, stride_, values_.data(), inverse_pivot_.data(), b);
+  };
+  with(std::make_index_sequence<most_unrolled + 1>());
 }
 
 }  // namespace signorini

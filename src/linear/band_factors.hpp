@@ -1,6 +1,8 @@
 // band_factors.hpp: L and U of a band matrix, without exchanges of rows.
 //
 //   A = L U,   a_ij = 0 for |i - j| > width
+// A row depends on the `width` rows before it: factors of some rows go on from those, and where as many rows come out as
+// they were, so do all that follow.
 //
 // For matrices that are symmetric and positive but for little: of such ones elimination needs no exchanges, for
 // sum_k |l_ik u_ki| is a_ii. How far that sum exceeds a_ii is what rounding may have grown by; beyond three digits there
@@ -18,13 +20,16 @@ class BandFactors {
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t width() const { return width_; }
-  /// Where a_ij stands; |i - j| <= width.
-  [[nodiscard]] std::size_t slot(std::size_t i, std::size_t j) const { return i * stride_ + width_ + j - i; }
-  /// All entries zero, to be filled.
-  void clear();
-  [[nodiscard]] double& at(std::size_t slot) { return values_[slot]; }
-  /// Of what stands there. False: it would lose more digits than it may, or is singular; then nothing is known.
-  [[nodiscard]] bool factor();
+  /// Numbers from one row to the next.
+  [[nodiscard]] std::size_t stride() const { return stride_; }
+  /// Row i, to be filled: a_ij at width() + j - i, |i - j| <= width; zeros elsewhere.
+  [[nodiscard]] double* row(std::size_t i) { return values_.data() + i * stride_; }
+  /// All entries of rows [begin, end) zero.
+  void clear(std::size_t begin, std::size_t end);
+  /// Of what stands in all rows. False: it would lose more digits than it may, or is singular; then nothing is known.
+  [[nodiscard]] bool factor() { return factor(0, size_); }
+  /// Of what stands in rows [begin, end), after factors of those before: to the last bit what factors of all have there.
+  [[nodiscard]] bool factor(std::size_t begin, std::size_t end);
   /// b := A^-1 b
   void solve(double* b) const;
 

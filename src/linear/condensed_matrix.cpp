@@ -1,103 +1,113 @@
 #include "linear/condensed_matrix.hpp"
 
 #include <algorithm>
-#include <set>
+#include <cstring>
 
-#include "linear/band_order.hpp"
 #include "linear/dof_kinds.hpp"
 
 namespace signorini {
+namespace {
+
+/// Rows that are made anew at once: a few widths of a narrow band.
+constexpr std::size_t rows_at_once = 32;
+
+}  // namespace
 
 bool is_economical(const Model& model, const Structure& structure, const SharedRows& shared) {
   return !has_massless(model) && shared.groups().empty() &&
          structure.size + 2 * static_cast<int>(model.contacts.size()) >= economical_from;
 }
 
-CondensedMatrix::CondensedMatrix(const Model& model, const Structure& structure, std::size_t most_width)
-    : structure_(structure) {
-  const BandOrder order = band_order(model, structure);
-  if (order.width > most_width) return;
-  const auto n = static_cast<std::size_t>(structure.size);
-  band_ = std::make_unique<BandFactors>(n, order.width);
-  for (const int place : order.place) place_.push_back(static_cast<std::size_t>(place));
-  for (std::size_t j = 0; j < n; ++j)
-    for (auto p = static_cast<std::size_t>(structure.column_start[j]);
-         p < static_cast<std::size_t>(structure.column_start[j + 1]); ++p)
-      slot_.push_back(band_->slot(place_[static_cast<std::size_t>(structure.row[p])], place_[j]));
-  for (const Contact& contact : model.contacts) {
-    std::set<int> dofs;
-    for (const Combination* form : {&contact.normal, &contact.tangent})
-      for (const auto& term : form->terms) dofs.insert(term.first);
-    for (const int dof : dofs) {
-      const auto i = static_cast<std::size_t>(dof);
-      touches_.push_back({i, place_[i], component(contact.normal, dof), component(contact.tangent, dof)});
-    }
-    end_.push_back(touches_.size());
-  }
-  held_.resize(model.contacts.size());
-  by_N_.resize(touches_.size());
-  by_T_.resize(touches_.size());
-  x_.resize(n);
+CondensedMatrix::CondensedMatrix(const CondensedRows& rows)
+    : rows_(rows),
+      band_(rows.size(), rows.width()),
+      by_N_(rows.contacts() > 0 ? rows.end_of_touches(rows.contacts() - 1) : 0),
+      by_T_(by_N_.size()),
+      x_(rows.size()) {}
+
+void CondensedMatrix::fill(std::size_t begin, std::size_t end) {
+  band_.clear(begin, end);
+  for (std::size_t i = begin; i < end; ++i) rows_.fill(i, weights_, by_N_.data(), by_T_.data(), band_.row(i));
 }
 
-/// What the forces of a contact add.
-void CondensedMatrix::add(const Rows& rows, const Weights& weights, std::size_t c) {
-  const Held& held = held_[c];
-  const std::size_t begin = c == 0 ? 0 : end_[c - 1], end = end_[c];
-  for (std::size_t i = begin; i < end; ++i) {
-    const Touch& at = touches_[i];
-    by_N_[i] = entry_of(rows.normal, at.n, at.t, weights) / held.normal_N;
-    by_T_[i] = (entry_of(rows.tangent, at.n, at.t, weights) - held.tangent_N * by_N_[i]) / held.tangent_T;
-  }
-  for (std::size_t i = begin; i < end; ++i)
-    for (std::size_t j = begin; j < end; ++j)
-      band_->at(band_->slot(touches_[i].place, touches_[j].place)) -=
-          touches_[i].n * by_N_[j] + touches_[i].t * by_T_[j];
-}
-
-bool CondensedMatrix::set(const std::vector<Rows>& rows, const Weights& w) {
-  const auto moves = [](const Form& f) { return f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0; };
-  for (std::size_t c = 0; c < rows.size(); ++c) {
-    const Form &normal = rows[c].normal, &tangent = rows[c].tangent;
-    // N from its own row, then T: no elimination that could lose digits.
-    const bool accelerates = normal.an != 0.0 || normal.at != 0.0 || tangent.an != 0.0 || tangent.at != 0.0;
-    if (accelerates || normal.T != 0.0 || normal.N == 0.0 || tangent.T == 0.0) return false;
-    held_[c] = {normal.N, tangent.N, tangent.T, moves(normal) || moves(tangent)};
-  }
+bool CondensedMatrix::factor() {
   ++factorisations;
-  band_->clear();
-  for (std::size_t p = 0; p < slot_.size(); ++p)
-    band_->at(slot_[p]) =
-        w.acceleration * structure_.m[p] + w.velocity * structure_.c[p] + w.displacement * structure_.k[p];
-  for (std::size_t c = 0; c < rows.size(); ++c)
-    if (held_[c].on_motion) add(rows[c], w, c);
-  return band_->factor();
+  for (std::size_t c = 0; c < rows_.contacts(); ++c)
+    if (rows_.held(c).on_motion) rows_.share(c, weights_, by_N_.data(), by_T_.data());
+  fill(0, rows_.size());
+  return band_.factor();
+}
+
+/// From a row on, to where rows are as they were. Nothing: the factors lose digits; else the first that stays.
+std::optional<std::size_t> CondensedMatrix::renew(std::size_t begin) {
+  const std::size_t stride = band_.stride(), count = std::max(rows_at_once, 2 * rows_.width());
+  before_.resize(count * stride);
+  for (std::size_t next = 0; begin < rows_.size(); begin = next) {
+    next = std::min(rows_.size(), begin + count);
+    std::copy(band_.row(begin), band_.row(begin) + (next - begin) * stride, before_.begin());
+    fill(begin, next);
+    if (!band_.factor(begin, next)) return std::nullopt;
+    renewed_rows += static_cast<long>(next - begin);
+    const std::size_t last = next - std::min(next - begin, rows_.width());
+    const bool same = std::memcmp(band_.row(last), before_.data() + (last - begin) * stride,
+                                  (next - last) * stride * sizeof(double)) == 0;
+    if (same) return next;
+  }
+  return begin;
+}
+
+bool CondensedMatrix::renew(std::span<const std::size_t> contacts) {
+  touched_.clear();
+  for (const std::size_t c : contacts) {
+    rows_.share(c, weights_, by_N_.data(), by_T_.data());
+    for (std::size_t i = rows_.first_touch(c); i < rows_.end_of_touches(c); ++i)
+      touched_.push_back(rows_.touch(i).place);
+  }
+  std::sort(touched_.begin(), touched_.end());
+  std::size_t done = 0;
+  for (const std::size_t place : touched_) {
+    if (place < done) continue;
+    const auto end = renew(place);
+    if (!end) return false;
+    done = *end;
+  }
+  return true;
+}
+
+bool CondensedMatrix::set(const Weights& weights) {
+  const auto changed = rows_.changed_since(version_);
+  version_ = rows_.version();
+  const bool at_them = is_at(weights) && changed;
+  weights_ = weights;
+  set_ = true;
+  if (at_them && changed->empty()) return holds_;
+  holds_ = rows_.tell() && (at_them && holds_ ? renew(*changed) : factor());
+  return holds_;
 }
 
 void CondensedMatrix::solve(double* x) {
-  const std::size_t n = place_.size();
+  const std::size_t n = rows_.size();
   double* forces = x + n;
-  for (std::size_t c = 0, i = 0; c < held_.size(); ++c) {
-    const Held& held = held_[c];
+  for (std::size_t c = 0; c < rows_.contacts(); ++c) {
+    const CondensedRows::Held& held = rows_.held(c);
     double &N = forces[2 * c], &T = forces[2 * c + 1];
     N /= held.normal_N;
     T = (T - held.tangent_N * N) / held.tangent_T;
-    const bool acts = N != 0.0 || T != 0.0;
-    for (; i < end_[c]; ++i)
-      if (acts) x[touches_[i].dof] -= touches_[i].n * N + touches_[i].t * T;
-  }
-  for (std::size_t i = 0; i < n; ++i) x_[place_[i]] = x[i];
-  band_->solve(x_.data());
-  for (std::size_t i = 0; i < n; ++i) x[i] = x_[place_[i]];
-  for (std::size_t c = 0, i = 0; c < held_.size(); ++c) {
-    if (!held_[c].on_motion) {
-      i = end_[c];
-      continue;
+    if (N == 0.0 && T == 0.0) continue;
+    for (std::size_t i = rows_.first_touch(c); i < rows_.end_of_touches(c); ++i) {
+      const CondensedRows::Touch& at = rows_.touch(i);
+      x[at.dof] -= at.n * N + at.t * T;
     }
+  }
+  for (std::size_t i = 0; i < n; ++i) x_[i] = x[rows_.dof_at(i)];
+  band_.solve(x_.data());
+  for (std::size_t i = 0; i < n; ++i) x[rows_.dof_at(i)] = x_[i];
+  for (std::size_t c = 0; c < rows_.contacts(); ++c) {
+    if (!rows_.held(c).on_motion) continue;
     double N = 0.0, T = 0.0;
-    for (; i < end_[c]; ++i) {
-      N += by_N_[i] * x[touches_[i].dof];
-      T += by_T_[i] * x[touches_[i].dof];
+    for (std::size_t i = rows_.first_touch(c); i < rows_.end_of_touches(c); ++i) {
+      N += by_N_[i] * x[rows_.touch(i).dof];
+      T += by_T_[i] * x[rows_.touch(i).dof];
     }
     forces[2 * c] -= N;
     forces[2 * c + 1] -= T;

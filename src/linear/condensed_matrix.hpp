@@ -6,13 +6,13 @@
 //
 // Where no row of a contact holds an acceleration, its forces are eliminated as they stand: a soft spring more at its
 // degrees of freedom. What is left has the band of the structure, whose factors cost less than the solves of a
-// general method, so that nothing of other states or lengths has to be kept.
+// general method, so that nothing of other states or lengths has to be kept. Where contacts have changed since, at the same
+// weights, rows of the factors are made anew from the first that they touch to where these are as they were, to the last
+// bit: what is far from a contact does not feel it.
 #pragma once
 
-#include <memory>
-
 #include "linear/band_factors.hpp"
-#include "linear/system_matrix.hpp"
+#include "linear/condensed_rows.hpp"
 
 namespace signorini {
 
@@ -27,38 +27,36 @@ class CondensedMatrix {
   /// The widest band for which this is worth it: its n width^2 products beside those of a sparse method.
   static constexpr std::size_t widest = 16;
 
-  /// Both must outlive it; of what is_economical().
-  CondensedMatrix(const Model& model, const Structure& structure, std::size_t most_width = widest);
+  /// rows: must outlive it.
+  explicit CondensedMatrix(const CondensedRows& rows);
 
-  /// False: the band is too wide.
-  [[nodiscard]] bool narrow() const { return band_ != nullptr; }
-  /// Factors of a state; narrow() holds. False: a row holds an acceleration or does not tell its force, or elimination
-  /// loses digits.
-  [[nodiscard]] bool set(const std::vector<Rows>& rows, const Weights& weights);
+  /// Factors of the rows in force. False: those do not tell their forces, or elimination loses digits.
+  [[nodiscard]] bool set(const Weights& weights);
+  /// Whether its factors are of these weights, but for contacts that have changed.
+  [[nodiscard]] bool is_at(const Weights& w) const {
+    return set_ && w.acceleration == weights_.acceleration && w.velocity == weights_.velocity &&
+           w.displacement == weights_.displacement;
+  }
   /// x := A^-1 x: n degrees of freedom, then N and T of each contact.
   void solve(double* x);
 
-  long factorisations = 0;
+  long factorisations = 0;  ///< of all rows
+  long renewed_rows = 0;    ///< made anew besides
 
  private:
-  struct Touch {  // a degree of freedom of a contact
-    std::size_t dof = 0, place = 0;
-    double n = 0.0, t = 0.0;
-  };
-  struct Held {  // a contact in force
-    double normal_N = 1.0, tangent_N = 0.0, tangent_T = 1.0;
-    bool on_motion = false;  // its forces follow the motion
-  };
-  void add(const Rows& rows, const Weights& weights, std::size_t contact);
+  [[nodiscard]] bool factor();
+  [[nodiscard]] bool renew(std::span<const std::size_t> contacts);
+  [[nodiscard]] std::optional<std::size_t> renew(std::size_t begin);
+  void fill(std::size_t begin, std::size_t end);
 
-  const Structure& structure_;
-  std::unique_ptr<BandFactors> band_;      // null: too wide
-  std::vector<std::size_t> place_, slot_;  // of degrees of freedom, of the structure's entries
-  std::vector<Touch> touches_;             // contact by contact
-  std::vector<std::size_t> end_;           // of each contact's
-  std::vector<Held> held_;                 // one a contact
-  std::vector<double> by_N_, by_T_;        // B^-1 R, one a touch
-  std::vector<double> x_;
+  const CondensedRows& rows_;
+  BandFactors band_;
+  Weights weights_;
+  long version_ = 0;                  // of the rows that it has factors of
+  bool set_ = false, holds_ = false;  // for weights_; there are factors
+  std::vector<double> by_N_, by_T_;   // B^-1 R, one a touch
+  std::vector<double> x_, before_;    // rows as they were
+  std::vector<std::size_t> touched_;  // places
 };
 
 }  // namespace signorini

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/rounding.hpp"
 #include "motion/term_size.hpp"
@@ -21,6 +22,10 @@ bool accelerates(const Contact& contact, const ContactState& state) {
   return false;
 }
 
+/// Of the greatest entry of a column of M^-1, and of the structure: beyond, such a column is rounding, or no saving.
+constexpr double of_nothing_here = rounding::eps / 16.0;
+constexpr std::size_t part_of_structure = 4;
+
 /// What the rest does to it at order 0.
 Vector from_outside(const Neighbourhood& near, const Point& now) {
   Vector P = Vector::Zero(near.model.size());
@@ -37,7 +42,74 @@ NearJets::NearJets(ModeSystems& systems, int least)
     : model_(systems.model()),
       possible_(model_.size() >= least && follows_from_motion(model_)),
       taylor_(systems) {
-  if (possible_) near_.emplace(systems, spread);
+  if (!possible_) return;
+  near_.emplace(systems, spread);
+  for (const Contact& c : model_.contacts) {
+    Soft soft;
+    const auto take = [&](const Combination& form, double& squared) {
+      soft.is = soft.is && form.terms.size() <= most_plane_terms;
+      for (const auto& [dof, factor] : form.terms) {
+        soft.is = soft.is && factor != 0.0 && !model_.dofs[static_cast<std::size_t>(dof)].rotation;
+        squared += factor * factor;
+        terms_.emplace_back(static_cast<std::size_t>(dof), factor);
+      }
+      return terms_.size();
+    };
+    soft.is = !c.is_pressed() && c.normal_damping == 0.0;
+    soft.gap = c.gap;
+    soft.first = terms_.size();
+    soft.middle = take(c.normal, soft.normal_squared);
+    soft.end = take(c.tangent, soft.tangent_squared);
+    soft_.push_back(soft);
+  }
+}
+
+/// What motion_of(), order_one() and bound_rounding() say of it, to the last bit, while nothing drives it: where its surface
+/// stands.
+void NearJets::tell_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
+                         MotionJet& result) const {
+  const Soft& c = soft_[contact];
+  const double *u = now.u.data(), *v = now.v.data(), *a = now.a.data();
+  ContactMotion &m = result.motion[0] = {}, &d = result.motion[1] = {}, &noise = result.noise[0] = {};
+  const auto along = [&](std::size_t first, std::size_t end, double squared, double& x, double& dx,
+                         double& ddx, double& size, double& dsize) {
+    double xx = 0.0, dd = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      const auto& [dof, factor] = terms_[i];
+      x += factor * u[dof];
+      dx += factor * v[dof];
+      ddx += factor * a[dof];
+      xx += u[dof] * u[dof];
+      dd += v[dof] * v[dof];
+    }
+    size = std::sqrt(squared * xx);
+    dsize = std::sqrt(squared * dd);
+  };
+  ContactMotion terms;
+  along(c.first, c.middle, c.normal_squared, m.gap, m.vn, m.an, terms.gap, terms.vn);
+  along(c.middle, c.end, c.tangent_squared, m.ut, m.vt, m.at, terms.ut, terms.vt);
+  m.gap += c.gap;
+  m.ut -= surface;
+  m.N = now.N(contact);
+  m.T = now.T(contact);
+  d.gap = m.vn;
+  d.ut = m.vt;
+  d.vn = m.an;
+  d.vt = m.at;
+  d.N = -(rows.normal.gap * d.gap) / rows.normal.N;
+  d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut) / rows.tangent.T;
+  constexpr double once = rounding::of_many;
+  terms.gap += std::abs(c.gap);
+  terms.ut += std::abs(surface);
+  terms.N = std::abs(rows.normal.gap * terms.gap) + std::abs(rows.normal.constant) + std::abs(m.N);
+  terms.T = std::abs(rows.tangent.N * terms.N) + std::abs(rows.tangent.ut * terms.ut) +
+            std::abs(rows.tangent.constant) + std::abs(m.T);
+  noise.N = 4.0 * once * terms.N;
+  noise.T = 5.0 * once * terms.T;
+  noise.gap = 3.0 * once * terms.gap;
+  noise.ut = 3.0 * once * terms.ut;
+  noise.vn = 3.0 * once * terms.vn;
+  noise.vt = 3.0 * once * terms.vt;
 }
 
 /// The rate of the motion but for g''' and ut'''. Forces by their own rows.
@@ -129,31 +201,105 @@ bool NearJets::stays(std::size_t contact, const Jet& jet, const Beside& beside) 
          std::all_of(c.tangent.terms.begin(), c.tangent.terms.end(), same);
 }
 
+/// Orders 0 to 2 of the whole structure; rates of forces are still to be told.
+Jet NearJets::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                     const Vector& v) {
+  taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
+  taylor_.extend(forcing, 0, series_);
+  Jet jet{t, series_.u, Eigen::MatrixXd(series_.forces.rows(), 2), system};
+  jet.u.col(2) *= 2.0;
+  jet.forces.col(0) = series_.forces.col(0);
+  return jet;
+}
+
+/// system: of any state.
+const NearJets::Columns& NearJets::columns_of(std::size_t contact, const ModeSystem& system) {
+  columns_.resize(model_.contacts.size());
+  Columns& columns = columns_[contact];
+  if (std::exchange(columns.known, true)) return columns;
+  const auto n = static_cast<std::size_t>(model_.size());
+  column_.resize(system.unknowns().size());
+  room_.resize(column_.size());
+  const auto solve = [&](const Combination& form, std::vector<std::pair<Eigen::Index, double>>& column) {
+    std::fill(column_.begin(), column_.end(), 0.0);
+    form.add_to(column_, 1.0);
+    system.solve(column_.data(), room_.data());
+    const auto felt = [&](std::size_t i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      return column_[i] * column_[i] * model_.mass.coeff(at, at);
+    };
+    double most = 0.0;
+    for (std::size_t i = 0; i < n; ++i) most = std::max(most, felt(i));
+    for (std::size_t i = 0; i < n; ++i)
+      if (felt(i) > of_nothing_here * of_nothing_here * most)
+        column.emplace_back(static_cast<Eigen::Index>(i), column_[i]);
+    column.shrink_to_fit();
+    return part_of_structure * column.size() <= n;
+  };
+  const Contact& c = model_.contacts[contact];
+  columns.few = solve(c.normal, columns.by_N) && solve(c.tangent, columns.by_T);
+  if (!columns.few) columns.by_N = columns.by_T = {};
+  return columns;
+}
+
+/// The same of states beside those of a jet that is known. Nothing: too many are others, or what they do is felt far away.
+std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                    const Beside& beside) {
+  const Mode &mode = system->mode(), &before = beside.jet.system->mode();
+  std::vector<std::size_t> others;
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (mode[c] != before[c]) others.push_back(c);
+  if (others.size() > most_open) return std::nullopt;
+  for (const std::size_t c : others)
+    if (!columns_of(c, *system).few) return std::nullopt;
+  Jet jet{t, beside.jet.u, beside.jet.forces, system};
+  series_.t = t;
+  for (const std::size_t c : others) {
+    const Contact& contact = model_.contacts[c];
+    const Rows& rows = system->rows()[c];
+    ContactMotion m;  // as far as no force stands in it
+    set_place(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
+    set_velocity(contact, jet.u.col(1), forcing.surface(c, t, 1), m);
+    m.pressing = forcing.pressing(c, t, 0);
+    const double N = -rows.normal.value(m) / rows.normal.N,
+                 T = -(rows.tangent.value(m) + rows.tangent.N * N) / rows.tangent.T;
+    const Columns& columns = columns_[c];
+    const auto change = [&](std::size_t slot, double force, const auto& column) {
+      double& old = jet.forces(static_cast<Eigen::Index>(slot), 0);
+      const double by = force - std::exchange(old, force);
+      for (const auto& [dof, x] : column) jet.u(dof, 2) -= by * x;
+    };
+    change(normal_slot(c), N, columns.by_N);
+    change(tangent_slot(c), T, columns.by_T);
+  }
+  return jet;
+}
+
 std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const Forcing& forcing, double t,
                                              const Vector& u, const Vector& v,
                                              std::vector<MotionJet>& motions, const JetMaker::Told& told,
                                              const std::optional<Beside>& beside) {
   if (!possible_ || !system->factorised().by_mass) return std::nullopt;
-  taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
-  taylor_.extend(forcing, 0, series_);
+  std::optional<Jet> followed = beside ? follow(system, forcing, t, *beside) : std::nullopt;
+  Jet jet = followed ? *std::move(followed) : expand(system, forcing, t, u, v);
   const std::size_t count = model_.contacts.size();
-  Jet jet{t, series_.u, Eigen::MatrixXd(series_.forces.rows(), 2), system};
-  jet.u.col(2) *= 2.0;
-  jet.forces.col(0) = series_.forces.col(0);
   const Point now{u, v, jet.forces.col(0), jet.u.col(2)};
   motions.resize(count);
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < count; ++c) {
     MotionJet& motion = motions[c];
-    const bool known = beside && stays(c, jet, *beside);
-    if (!known) {
+    const bool known = beside && stays(c, jet, *beside), soft = soft_[c].is && !forcing.drives(c);
+    if (!known && soft) {
+      tell_soft(system->rows()[c], forcing.surface(c, t, 0), now, c, motion);
+    } else if (!known) {
       motion.motion[0] = motion_of(model_.contacts[c], c, forcing, t, now);
       order_one(*system, forcing, c, motion);
       bound_rounding(*system, forcing, now, c, motion);
     }
     jet.forces(static_cast<Eigen::Index>(normal_slot(c)), 1) = motion.motion[1].N;
     jet.forces(static_cast<Eigen::Index>(tangent_slot(c)), 1) = motion.motion[1].T;
-    if (known || (!accelerates(model_.contacts[c], system->mode()[c]) && told(c, motion, 1))) continue;
+    if (known || ((soft || !accelerates(model_.contacts[c], system->mode()[c])) && told(c, motion, 1)))
+      continue;
     open.push_back(c);
     if (open.size() > most_open) return std::nullopt;
   }

@@ -3,6 +3,7 @@
 //   M a = P - C v - K u - sum ( n N + t T )        everywhere, once; with it every guard's value and rate
 //   |guard| > rounding + resolution |guard'|       most contacts are told by that
 //   derivatives of higher order                    of the others each on a neighbourhood W of its own (motion/jet.hpp)
+//   a - M^-1 (n dN + t dT)                         of other states at the same place, for contacts that have others
 //
 // W: motion/neighbourhoods.hpp. Of what lies beyond, it is given what that does at order 0, and its noise the difference that this
 // makes: the second time a jet is made (motion/jet.hpp) without. Where the noise then does not tell, nothing here tells.
@@ -42,6 +43,24 @@ class NearJets {
                                          const std::optional<Beside>& beside = {});
 
  private:
+  /// Soft, without a dashpot, on translations alone: what of it makes its motion and the rounding of that, close together.
+  struct Soft {
+    bool is = false;
+    std::size_t first = 0, middle = 0, end = 0;  // its normal's terms, its tangent's
+    double gap = 0.0, normal_squared = 0.0, tangent_squared = 0.0;
+  };
+  /// M^-1 n and M^-1 t of a contact, where they are more than rounding.
+  struct Columns {
+    bool known = false, few = false;  // few: of small part of the structure
+    std::vector<std::pair<Eigen::Index, double>> by_N, by_T;
+  };
+  [[nodiscard]] const Columns& columns_of(std::size_t contact, const ModeSystem& system);
+  [[nodiscard]] Jet expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                           const Vector& v);
+  [[nodiscard]] std::optional<Jet> follow(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                          const Beside& beside);
+  void tell_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
+                 MotionJet& motion) const;
   void order_one(const ModeSystem& system, const Forcing& forcing, std::size_t contact,
                  MotionJet& motion) const;
   void bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now, std::size_t contact,
@@ -54,6 +73,10 @@ class NearJets {
   bool possible_;
   Taylor taylor_;
   Series series_;
+  std::vector<Soft> soft_;             // one a contact
+  std::vector<Columns> columns_;       // the same
+  std::vector<double> column_, room_;  // of one of them
+  std::vector<std::pair<std::size_t, double>> terms_;
   std::optional<Neighbourhoods> near_;
   struct Work {  // at one of them
     explicit Work(ModeSystems& systems) : jets(systems) {}

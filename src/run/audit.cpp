@@ -125,7 +125,8 @@ void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mod
   const ContactMotion m = motion(k, forcing, t, point);
   const int index = static_cast<int>(k);
   Peak& peak = peaks_[k];
-  const Place place = place_of(k, forcing, t, mode[k].state, point);
+  const Place place = contact.borrows || contact.shear ? place_of(k, forcing, t, mode[k].state, point)
+                                                       : Place{contact.normal.dot(point.u), m.ut};
   peak.tangential = std::max(peak.tangential, std::abs(place.ut - at_start_[k].ut));
   peak.normal = std::max(peak.normal, std::abs(place.normal - at_start_[k].normal));
   bears(k, t, m.N, m.T);

@@ -16,19 +16,21 @@ IdaLinearSolver::IdaLinearSolver(const Model& model, const Structure& structure,
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(layout.dofs)),
       rhs_(static_cast<std::size_t>(matrix_.size())) {
-  if (is_economical(model, structure, matrix_.shared_rows())) condensed_.emplace(model, structure);
-  if (condensed_ && !condensed_->narrow()) condensed_.reset();
+  if (is_economical(model, structure, matrix_.shared_rows()))
+    condensed_rows_ = CondensedRows::of(model, structure, CondensedMatrix::widest);
+  if (condensed_rows_) condensed_.emplace(*condensed_rows_);
 }
 
 void IdaLinearSolver::set_mode(const Mode& mode) {
   rows_ = rows_of(model_, mode);
   fresh_ = true;
+  if (condensed_rows_) condensed_rows_->put(rows_);
   pinned_ = pinned_by(model_, rows_);
   held_.resize(pinned_.size());
 }
 
 bool IdaLinearSolver::factor() {
-  on_band_ = condensed_ && condensed_->set(rows_, {cj_, 1.0, 1.0 / cj_});
+  on_band_ = condensed_ && condensed_->set({cj_, 1.0, 1.0 / cj_});
   if (on_band_) return true;
   for (std::size_t i = 0; i < weights_.size(); ++i)
     weights_[i] = layout_.velocity[i] >= 0 ? Weights{cj_, 1.0, 1.0 / cj_} : Weights{0.0, cj_, 1.0};

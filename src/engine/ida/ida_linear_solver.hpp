@@ -47,7 +47,10 @@ class IdaLinearSolver {
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
   [[nodiscard]] const SharedRows& shared_rows() const { return matrix_.shared_rows(); }
   /// Replaces a row by its tangent where it is not linear.
-  void linearise(std::size_t contact, const Form& tangent) { rows_[contact].tangent = tangent; }
+  void linearise(std::size_t contact, const Form& tangent) {
+    rows_[contact].tangent = tangent;
+    if (condensed_rows_) condensed_rows_->put(contact, rows_[contact]);
+  }
   [[nodiscard]] long factorisations() const {
     return matrix_.klu().factorisations + (condensed_ ? condensed_->factorisations : 0);
   }
@@ -61,8 +64,9 @@ class IdaLinearSolver {
   const Model& model_;
   const Layout& layout_;
   SystemMatrix matrix_;
-  std::optional<CondensedMatrix> condensed_;  // where it is of use
-  bool on_band_ = false;                      // the last factors are its
+  std::optional<CondensedRows> condensed_rows_;  // where they are of use
+  std::optional<CondensedMatrix> condensed_;     // of those
+  bool on_band_ = false;                         // the last factors are its
   std::vector<Rows> rows_;
   std::vector<Weights> weights_;
   // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.

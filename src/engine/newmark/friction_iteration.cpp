@@ -75,7 +75,7 @@ void FrictionIteration::begin_sides() {
 
 /// Rows of the states of this iterate; factorisations are kept by what of them is in the matrix.
 void FrictionIteration::put_in_force() {
-  std::vector<Rows>& rows = step_.rows();
+  std::vector<Rows>& rows = step_.own_rows();
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const Side& side = sides_[k];

@@ -36,7 +36,7 @@ NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, Mod
       doubling_(run.step == StepControl::doubling),
       step_(model, structure),
       works_(model, structure),
-      watched_(guard_count(model.contacts.size())),
+      guards_(model),
       settles_(has_massless(model)),
       regular_(dt_) {}
 
@@ -46,91 +46,27 @@ void NewmarkEngine::start(const Segment& segment) {
   t0_ = t1_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   NewmarkStep::Key key;
-  for (const State s : states_of(decision.mode)) key.push_back(static_cast<int>(s));
-  step_.set(std::move(key), decision.system->rows());
+  key.reserve(decision.mode.size());
+  for (const ContactState& s : decision.mode) key.push_back(static_cast<int>(state_of_rows(s.state)));
+  step_.set(std::move(key),
+            std::shared_ptr<const std::vector<Rows>>(decision.system, &decision.system->rows()));
   inner_time_ = nan;
   a_before_.resize(0);
   h_ = h_before_ = 0.0;
   counted_length_ = 0.0;
   second_ = false;
-  arming_.start(decision.guards);
-  for (std::size_t slot = 0; slot < watched_.size(); ++slot) {
-    watched_[slot] = {};
-    if (!arming_.idle(slot)) watched_[slot].has_rate = rates_known(slot);
-  }
-  weigh(end_, t1_);
+  guards_.start(segment);
+  guards_.weigh(end_, t1_);
   // What sticks does not move, so that doubling sees nothing of the load on it.
-  if (const double omega = segment.forcing->greatest_omega(); doubling_ && omega > 0.0)
+  if (const double omega = doubling_ ? segment.forcing->greatest_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
   ++counters.restarts;
 }
 
-/// Does the derivative of the guard follow from displacements, velocities and accelerations?
-bool NewmarkEngine::rates_known(std::size_t slot) const {
-  const std::size_t k = contact_of_guard(slot);
-  const Form& form = segment_.decision->guards[slot].form;
-  const Rows& rows = segment_.decision->system->rows()[k];
-  const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
-  if (form.an != 0.0 || form.at != 0.0) return false;
-  if (through_N && (rows.normal.N != 1.0 || rows.normal.an != 0.0)) return false;
-  if (through_T && rows.tangent.T != 1.0) return false;
-  const auto massless = [&](const Combination& c) {
-    return std::any_of(c.terms.begin(), c.terms.end(), [&](const auto& term) {
-      return model_.dofs[static_cast<std::size_t>(term.first)].massless;
-    });
-  };
-  const bool accelerates = form.vn != 0.0 || form.vt != 0.0 || (through_N && rows.normal.vn != 0.0);
-  return !accelerates || (!massless(model_.contacts[k].normal) && !massless(model_.contacts[k].tangent));
-}
-
-/// Values and rates of all guards at the end of the step.
-void NewmarkEngine::weigh(const Point& point, double t) {
-  const Decision& decision = *segment_.decision;
-  const Forcing& forcing = *segment_.forcing;
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const std::size_t first = guard_slot(k, 0), end = guard_slot(k + 1, 0);
-    bool watched = false;
-    for (std::size_t slot = first; slot < end; ++slot) watched = watched || !arming_.idle(slot);
-    if (!watched) continue;
-    const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
-    ContactMotion d;  // its derivative as far as it is known
-    d.gap = m.vn;
-    d.ut = m.vt;
-    d.vn = m.an;
-    d.vt = m.at;
-    d.pressing = m.pressing_rate;
-    d.pressing_rate = forcing.pressing(k, t, 2);
-    const Form &normal = step_.rows()[k].normal, &tangent = step_.rows()[k].tangent;
-    d.N = -(normal.gap * d.gap + normal.vn * d.vn + normal.pressing * d.pressing);
-    d.T = -(tangent.N * d.N + tangent.ut * d.ut);  // rates_known: no row of T has velocities
-    for (std::size_t slot = first; slot < end; ++slot) {
-      if (arming_.idle(slot)) continue;
-      const GuardStart& guard = decision.guards[slot];
-      Watched& w = watched_[slot];
-      w.g1 = guard.form.value(m);
-      w.level = guard.noise + rounding::of_many * guard.form.magnitude(m);
-      if (w.has_rate) w.rate1 = guard.form.rate(d);
-    }
-  }
-}
-
-/// Where a guard that is positive at both ends may fall between them: by its rates there, or by its values
-/// alone, where modes far above the step make the rates useless.
-std::optional<double> NewmarkEngine::dip_of(const Watched& w, double h) const {
-  if (w.dismissed) return std::nullopt;
-  GuardPath path{w.g0, w.g1, h * w.rate0, h * w.rate1};
-  std::optional<double> x = w.has_rate ? path.dip() : std::nullopt;
-  if (!x) {
-    rates_from_values(path, h, w.before, h_before_);
-    x = path.dip();
-  }
+/// Where a guard that is positive at both ends may fall between them, and not at once.
+std::optional<double> NewmarkEngine::dip_of(std::size_t slot, double h) const {
+  const std::optional<double> x = guards_.dip(slot, h, h_before_);
   return x && *x * h > resolution_at(t0_, h) ? x : std::nullopt;
-}
-
-double NewmarkEngine::value_of(std::size_t slot, double t, const Point& point) const {
-  const std::size_t k = contact_of_guard(slot);
-  return segment_.decision->guards[slot].form.value(
-      motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
 }
 
 /// A step of length h from the beginning of this one, to t.
@@ -147,7 +83,15 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
   tried_ = 0.0;
   if (!take(h, t0_ + h, false, inner_)) return nan;
   tried_ = h;
-  return value_of(slot, t0_ + h, inner_);
+  return guards_.value(slot, t0_ + h, inner_);
+}
+
+/// The same by what is near to the contact; end_: of the step of length `longer`. NaN: nothing is.
+double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
+  const Point* near = step_.near(contact_of_guard(slot), *segment_.forcing, begin_, t0_ + h, h, end_, longer);
+  if (near == nullptr) return nan;
+  ++counters.guard_evaluations;
+  return guards_.value(slot, t0_ + h, *near);
 }
 
 /// Contacts without an element have forces that follow accelerations, and what is left of a gap, a slip rate or a force of
@@ -159,7 +103,7 @@ bool NewmarkEngine::is_soft(std::size_t slot) const {
 
 /// Up to this value a guard is zero: a search for its fall would follow its rounding.
 double NewmarkEngine::zero_of(std::size_t slot) const {
-  return is_soft(slot) ? rounding_of_guard * watched_[slot].level : 0.0;
+  return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
 
 double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
@@ -175,11 +119,30 @@ double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, dou
   return root_between(value, lo, hi, 0.25 * resolution_at(t0_ + hi, hi));
 }
 
+/// Along tangents and secants to the fall, by what is near to the contact: a whole step has to confirm it. Nothing: it
+/// is not found like this.
+std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t slot, double h, Tangent first) {
+  Tangent next = first;
+  double lo = 0.0, hi = h, before = nan, g_before = nan;
+  for (int i = 0; i < most_tangents && next.slope < 0.0; ++i) {
+    if (!(next.at > lo && next.at < hi)) return std::nullopt;
+    const double g = value_near(slot, next.at, h);
+    if (!std::isfinite(g)) return std::nullopt;
+    if (i > 0) next.slope = (g - g_before) / (next.at - before);
+    if (std::abs(g) <= zero_of(slot) || std::abs(g / next.slope) <= 0.25 * resolution_at(t0_ + h, h))
+      return next.slope < 0.0 ? std::optional(next) : std::nullopt;
+    (g > 0.0 ? lo : hi) = before = next.at;
+    g_before = g;
+    next.at -= g / next.slope;
+  }
+  return std::nullopt;
+}
+
 /// The fall of a guard that holds at the beginning of the step and not at its end: looked for first where its values and
 /// rates at both ends say, from there along tangents and secants.
 double NewmarkEngine::fall_near(std::size_t slot, double h) {
-  const Watched& w = watched_[slot];
-  double lo = 0.0, g_lo = w.g0, hi = h, g_hi = w.g1;
+  const GuardPath path = guards_.path(slot, h);
+  double lo = 0.0, g_lo = path.g0, hi = h, g_hi = path.g1;
   const auto narrow = [&](double at) {
     if (!(at > lo && at < hi)) return std::numeric_limits<double>::quiet_NaN();
     const double g = value_after(slot, at);
@@ -192,21 +155,24 @@ double NewmarkEngine::fall_near(std::size_t slot, double h) {
     }
     return g;
   };
-  const GuardPath path{w.g0, w.g1, h * w.rate0, h * w.rate1};
-  const auto fall = w.has_rate ? path.fall() : std::nullopt;
-  double at = fall ? fall->x * h : nan, slope = fall ? fall->slope / h : nan, before = nan, g_before = nan;
+  const auto fall = guards_.has_rate(slot) ? path.fall() : std::nullopt;
+  Tangent next = fall ? Tangent{fall->x * h, fall->slope / h} : Tangent{nan, nan};
+  const auto near = is_soft(slot) && fall ? tangent_near(slot, h, next) : std::nullopt;
+  if (near) next = *near;
+  double before = nan, g_before = nan;
   const int most = is_soft(slot) ? most_tangents : 1;
-  for (int i = 0; i < most && slope < 0.0; ++i) {
-    const double g = narrow(at);
-    if (std::abs(g) <= zero_of(slot)) return at;
-    if (i > 0) slope = (g - g_before) / (at - before);
-    if (is_soft(slot) && std::abs(g / slope) <= 0.25 * resolution_at(t0_ + h, h)) return at;
-    before = at;
+  for (int i = 0; i < most && next.slope < 0.0; ++i) {
+    const double g = narrow(next.at);
+    if (std::abs(g) <= zero_of(slot)) return next.at;
+    if (i > 0 && !near) next.slope = (g - g_before) / (next.at - before);
+    if (is_soft(slot) && std::abs(g / next.slope) <= 0.25 * resolution_at(t0_ + h, h)) return next.at;
+    if (i == 0 && near) step_.look_farther();
+    before = next.at;
     g_before = g;
-    at -= g / slope;
+    next.at -= g / next.slope;
   }
-  if (slope < 0.0 && g_before != 0.0)
-    (void)narrow(before - 2.0 * g_before / slope);  // to the other side of the fall
+  if (next.slope < 0.0 && g_before != 0.0)
+    (void)narrow(before - 2.0 * g_before / next.slope);  // to the other side of the fall
   return fall_between(slot, lo, g_lo, hi, g_hi);
 }
 
@@ -215,8 +181,9 @@ bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_
 /// The paper's single interpolation. If the guard has not fallen there, the event would not fire: on by
 /// twice the next interpolation, until it has.
 double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
-  const double g_hi = watched_[slot].g1;
-  double h = hi * GuardPath{watched_[slot].g0, g_hi}.linear();
+  const GuardPath path = guards_.path(slot, hi);
+  const double g_hi = path.g1;
+  double h = hi * path.linear();
   double g = value_after(slot, h);
   for (int i = 0; i < most_halvings && g > 0.0 && h < hi; ++i) {
     h = std::min(hi, h + 2.0 * (hi - h) * g / (g - g_hi) + resolution_at(t0_ + h, 0.0));
@@ -227,21 +194,20 @@ double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
 
 /// The guard that falls first in the step. `located`: the one of `slot` was found at its end, so only what
 /// has clearly fallen before counts.
-NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::size_t slot) const {
+NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::size_t slot) {
   Candidate first;
   const auto consider = [&](Candidate::Kind kind, std::size_t s, double x) {
     if (x < first.x) first = {kind, s, x};
   };
-  for (std::size_t s = 0; s < watched_.size(); ++s) {
-    const Watched& w = watched_[s];
-    if (arming_.idle(s) || (located && s == slot)) continue;
-    const double zero = located ? -w.level : 0.0;
-    if (!arming_.armed(s)) {
-      if (w.g1 < -w.level) consider(Candidate::Kind::sink, s, 0.0);
-    } else if (w.g1 <= zero) {
-      consider(Candidate::Kind::fall, s, GuardPath{w.g0, w.g1}.linear());
-    } else if (w.g1 > 0.0) {
-      if (const auto x = dip_of(w, h)) consider(Candidate::Kind::dip, s, *x);
+  for (const std::size_t s : guards_.noticed(h, h_before_)) {
+    if (located && s == slot) continue;
+    const GuardPath path = guards_.path(s, h);
+    if (!guards_.arming().armed(s)) {
+      if (path.g1 < -level(s)) consider(Candidate::Kind::sink, s, 0.0);
+    } else if (path.g1 <= (located ? -level(s) : 0.0)) {
+      consider(Candidate::Kind::fall, s, path.linear());
+    } else if (path.g1 > 0.0) {
+      if (const auto x = dip_of(s, h)) consider(Candidate::Kind::dip, s, *x);
     }
   }
   return first;
@@ -255,8 +221,7 @@ bool NewmarkEngine::has_sunk(std::size_t slot) const {
 
 bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
   const std::size_t slot = candidate.slot;
-  Watched& w = watched_[slot];
-  const double g1 = w.g1;
+  const GuardPath path = guards_.path(slot, h);
   switch (candidate.kind) {
     case Candidate::Kind::none:
       return false;
@@ -269,17 +234,17 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       ++counters.rolled_back;
       const double g = value_after(slot, x);
       if (!(g <= 0.0)) {
-        w.dismissed = true;
+        guards_.dismiss(slot);
         return false;
       }
-      h = interpolates(slot) ? x : fall_between(slot, 0.0, w.g0, x, g);
+      h = interpolates(slot) ? x : fall_between(slot, 0.0, path.g0, x, g);
       return true;
     }
     case Candidate::Kind::sink: {
       // It began at zero, rose, and fell again within the step. Decided again where it never rose, it rises by less than
       // its rounding: then it falls where it leaves that.
-      const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * w.level : 0.0;
-      double hi = h, g_hi = g1;
+      const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
+      double hi = h, g_hi = path.g1;
       for (int i = 0; i < most_halvings; ++i) {
         const double lo = 0.5 * hi;
         if (!(lo > resolution_at(t0_, 0.0))) break;
@@ -347,7 +312,7 @@ bool NewmarkEngine::end_after(double h) {
   else if (!take(h, t1_, false, end_))
     return false;
   tried_ = 0.0;
-  weigh(end_, t1_);
+  guards_.weigh(end_, t1_);
   return true;
 }
 
@@ -358,12 +323,7 @@ Step NewmarkEngine::advance() {
   std::swap(begin_, end_);
   t0_ = t1_;
   h_before_ = h_;
-  for (Watched& w : watched_) {
-    w.before = w.g0;
-    w.g0 = w.g1;
-    w.rate0 = w.rate1;
-    w.dismissed = false;
-  }
+  guards_.turn();
   const double remaining = segment_.end - t0_;
   double h = doubling_ ? doubled(remaining) : dt_;
   inner_time_ = nan;
@@ -379,7 +339,7 @@ Step NewmarkEngine::advance() {
   if (!(t1_ > t0_)) return failed("the step is below the resolution of time");
   if (!take(h, t1_, !last, end_)) return failed(singular);
   if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows");
-  weigh(end_, t1_);
+  guards_.weigh(end_, t1_);
 
   Step step;
   step.begin = t0_;
@@ -403,15 +363,15 @@ Step NewmarkEngine::advance() {
     step.kind = Step::Kind::event;
     step.fired = {{contact_of_guard(slot), segment_.decision->guards[slot].kind}};
   }
-  for (std::size_t s = 0; s < watched_.size(); ++s) arming_.see(s, watched_[s].g1, watched_[s].level);
+  guards_.see(t1_, end_);
   return step;
 }
 
 /// Does a guard that holds at both ends fail at t? Where a step is far longer than the periods of the
 /// highest modes, the step redone need not pass where the step itself went.
 bool NewmarkEngine::strays(double t, const Point& point) const {
-  for (std::size_t s = 0; s < watched_.size(); ++s)
-    if (!arming_.idle(s) && value_of(s, t, point) < -watched_[s].level) return true;
+  for (std::size_t s = 0; s < guards_.arming().size(); ++s)
+    if (!guards_.arming().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
   return false;
 }
 

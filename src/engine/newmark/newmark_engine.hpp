@@ -15,10 +15,10 @@
 
 #include <numbers>
 
-#include "engine/falls/arming.hpp"
 #include "engine/falls/guard_path.hpp"
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/newmark/newmark_works.hpp"
+#include "engine/newmark/step_guards.hpp"
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
 #include "motion/consistent.hpp"
@@ -47,14 +47,6 @@ class NewmarkEngine final : public Stepper {
                                    std::size_t contact) const override;
 
  private:
-  struct Watched {
-    bool has_rate = false;      // the equations yield its rate
-    bool dismissed = false;     // a dip in this step that the step redone did not confirm
-    double level = 0.0;         // below this its sign at the end of the step is rounding
-    double before = 0.0;        // its value at the beginning of the step before
-    double g0 = 0.0, g1 = 0.0;  // at the ends of the step
-    double rate0 = 0.0, rate1 = 0.0;
-  };
   /// Where a guard falls in the step: not yet located.
   struct Candidate {
     enum class Kind { none, fall, dip, sink } kind = Kind::none;
@@ -65,15 +57,21 @@ class NewmarkEngine final : public Stepper {
   [[nodiscard]] bool take(double h, double t, bool kept, Point& to);
   [[nodiscard]] bool strays(double t, const Point& point) const;
   [[nodiscard]] const Point& inside(double t);
-  void weigh(const Point& point, double t);
-  [[nodiscard]] std::optional<double> dip_of(const Watched& w, double h) const;
-  [[nodiscard]] double value_of(std::size_t slot, double t, const Point& point) const;
+  [[nodiscard]] std::optional<double> dip_of(std::size_t slot, double h) const;
+  /// At the end of the step: below this the sign of a guard is rounding.
+  [[nodiscard]] double level(std::size_t slot) const { return guards_.level(slot, t1_, end_); }
   [[nodiscard]] double value_after(std::size_t slot, double h);
-  [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
+  [[nodiscard]] double value_near(std::size_t slot, double h, double longer);
+  [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot);
   [[nodiscard]] bool is_soft(std::size_t slot) const;
   [[nodiscard]] double zero_of(std::size_t slot) const;
   [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
                                     double floor = 0.0);
+  /// Where a guard is thought to fall: its value there is over its slope away from zero.
+  struct Tangent {
+    double at = 0.0, slope = 0.0;
+  };
+  [[nodiscard]] std::optional<Tangent> tangent_near(std::size_t slot, double h, Tangent first);
   [[nodiscard]] double fall_near(std::size_t slot, double h);
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
@@ -81,7 +79,6 @@ class NewmarkEngine final : public Stepper {
   /// Narrows the step to the candidate. False: it is none.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool end_after(double h);
-  [[nodiscard]] bool rates_known(std::size_t slot) const;
   [[nodiscard]] double doubled(double remaining);
   Step failed(std::string reason) const;
 
@@ -94,8 +91,7 @@ class NewmarkEngine final : public Stepper {
   NewmarkStep step_;
   NewmarkWorks works_;
   Segment segment_;
-  Arming arming_;
-  std::vector<Watched> watched_;
+  StepGuards guards_;
   bool settles_ = false;  // parts without mass: their velocities follow from the equations
   Point begin_, end_, inner_, fine_, coarse_;
   Vector a_before_;                  // at the beginning of the step before; empty: there was none

@@ -23,6 +23,14 @@ constexpr double least_gain = 0.1;
 constexpr int most_rounds = 8;
 constexpr double left_of_rounding = rounding::eps / 16.0;  // of what a refined solution may be off, in parts
 
+/// r += C v + K u
+void add_forces(const Structure& s, const double* v, const double* u, double* r) {
+  std::size_t p = 0;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(s.size); ++j)
+    for (const auto end = static_cast<std::size_t>(s.column_start[j + 1]); p < end; ++p)
+      r[s.row[p]] += s.c[p] * v[j] + s.k[p] * u[j];
+}
+
 }  // namespace
 
 NewmarkStep::NewmarkStep(const Model& model, const Structure& structure, std::size_t widest_band)
@@ -37,19 +45,31 @@ NewmarkStep::NewmarkStep(const Model& model, const Structure& structure, std::si
       economical_(is_economical(model, structure, odd_.shared_rows())),
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
-  v_ = none_ = u_;
+  v_ = u_;
   x_.setZero(structure.size + 2 * static_cast<Eigen::Index>(model.contacts.size()));
   work_ = x_;
-  if (economical_) condensed_.emplace(model, structure, widest_band);
-  if (condensed_ && !condensed_->narrow()) condensed_.reset();
+  if (economical_) condensed_ = CondensedRows::of(model, structure, widest_band);
+  if (!condensed_) return;
+  kept_band_.emplace(*condensed_);
+  odd_band_.emplace(*condensed_);
+  near_.emplace(model, *condensed_);
 }
 
 void NewmarkStep::set(Key key, std::vector<Rows> rows) {
-  key_ = std::move(key);
+  own_rows_ = std::make_shared<std::vector<Rows>>(std::move(rows));
+  set(std::move(key), std::shared_ptr<const std::vector<Rows>>(own_rows_));
+}
+
+void NewmarkStep::set(Key key, std::shared_ptr<const std::vector<Rows>> rows) {
   rows_ = std::move(rows);
-  if (massless_) in_rows_ = kinds_in_mode(own_kinds_, model_, rows_);
+  if (condensed_) {
+    const bool beside = key.size() == key_.size() && key.size() == rows_->size();
+    for (std::size_t k = 0; k < rows_->size(); ++k)
+      if (!beside || key[k] != key_[k]) condensed_->put(k, (*rows_)[k]);
+  }
+  key_ = std::move(key);
+  if (massless_) in_rows_ = kinds_in_mode(own_kinds_, model_, *rows_);
   last_ = nullptr;
-  condensed_h_ = 0.0;
   updates_ = false;
   spent_ = 0.0;
 }
@@ -64,7 +84,7 @@ void NewmarkStep::weigh(double h) {
 /// Pivots of other states serve where each contact's forces are their own pivots.
 bool NewmarkStep::factor(SystemMatrix& matrix, double h, bool fresh) {
   weigh(h);
-  return matrix.set(rows_, weights_, fresh && !(economical_ && !own_forces(rows_).empty()),
+  return matrix.set(*rows_, weights_, fresh && !(economical_ && !own_forces(*rows_).empty()),
                     in_rows_.undamped);
 }
 
@@ -76,10 +96,11 @@ std::vector<ChangedRow> NewmarkStep::changed_rows() const {
     return Form{a.N - b.N,   a.T - b.T,   a.gap - b.gap, a.ut - b.ut,
                 a.vn - b.vn, a.vt - b.vt, a.an - b.an,   a.at - b.at};
   };
-  for (std::size_t k = 0; k < rows_.size() && changed.size() <= UpdatedFactors::most_rows; ++k)
+  const std::vector<Rows>& rows = *rows_;
+  for (std::size_t k = 0; k < rows.size() && changed.size() <= UpdatedFactors::most_rows; ++k)
     for (const bool normal : {true, false}) {
-      const Form d = normal ? difference(rows_[k].normal, base_rows_[k].normal)
-                            : difference(rows_[k].tangent, base_rows_[k].tangent);
+      const Form d = normal ? difference(rows[k].normal, base_rows_[k].normal)
+                            : difference(rows[k].tangent, base_rows_[k].tangent);
       if (d == Form{}) continue;
       ChangedRow row{n + (normal ? normal_slot(k) : tangent_slot(k)), {}};
       for (const auto& [dof, factor] : model_.contacts[k].normal.terms)
@@ -107,16 +128,25 @@ bool NewmarkStep::update(double h) {
 }
 
 /// x_ := A^-1 x_ by factors of a band. False: there are none, and x_ is as it was.
-bool NewmarkStep::solve_condensed(double h) {
+bool NewmarkStep::solve_condensed(double h, bool kept) {
   if (!condensed_) return false;
-  if (condensed_h_ != h) {
-    condensed_h_ = h;
-    condenses_ = condensed_->set(rows_, {1.0, 0.5 * h, 0.25 * h * h});
-  }
-  if (!condenses_) return false;
-  condensed_->solve(x_.data());
+  const Weights weights{1.0, 0.5 * h, 0.25 * h * h};
+  CondensedMatrix& band =
+      kept_band_->is_at(weights) || (kept && !odd_band_->is_at(weights)) ? *kept_band_ : *odd_band_;
+  if (!band.set(weights)) return false;
+  band.solve(x_.data());
   ++solves_;
   return true;
+}
+
+const Point* NewmarkStep::near(std::size_t contact, const Forcing& forcing, const Point& from, double t1,
+                               double h, const Point& whole, double longer) {
+  if (!near_ || !condensed_->tell()) return nullptr;
+  return near_->end(contact, forcing, *rows_, from, t1, h, whole, longer);
+}
+
+void NewmarkStep::look_farther() {
+  if (near_) near_->look_farther();
 }
 
 /// x_ := A^-1 x_, A of a length that will come again.
@@ -137,7 +167,7 @@ bool NewmarkStep::solve_kept(double h) {
       kept_.insert(place, last_, last_->bytes());
       if (economical_) {
         updated_.start(last_);
-        base_rows_ = rows_;
+        base_rows_ = *rows_;
         base_h_ = h;
         updates_ = false;
       }
@@ -155,9 +185,9 @@ void NewmarkStep::take_rest(const Vector& b, const Vector& x, double h) {
   v_.noalias() = 0.5 * h * x.head(n);
   product_.setZero(x.size());
   structure_.add_product(x.data(), v_.data(), u_.data(), product_.data());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
+  for (std::size_t k = 0; k < rows_->size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const Form &normal = rows_[k].normal, &tangent = rows_[k].tangent;
+    const Form &normal = (*rows_)[k].normal, &tangent = (*rows_)[k].tangent;
     const Eigen::Index N = n + static_cast<Eigen::Index>(normal_slot(k)),
                        T = n + static_cast<Eigen::Index>(tangent_slot(k));
     ContactMotion m;
@@ -265,20 +295,21 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   know_motion(from, h);
   // r = P - C v - K u
   x_.setZero();
-  structure_.add_product(none_.data(), v_.data(), u_.data(), x_.data());
+  add_forces(structure_, v_.data(), u_.data(), x_.data());
   for (std::size_t i = 0; i < n; ++i) x_.data()[i] = -x_.data()[i];
   forcing.add_load(t1, 0, x_.data());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
+  const std::vector<Rows>& rows = *rows_;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     ContactMotion m;  // as far as it is known
     set_place(contact, u_, forcing.surface(k, t1, 0), m);
     set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
     m.pressing = forcing.pressing(k, t1, 0);
-    x_.data()[n + normal_slot(k)] = -rows_[k].normal.value(m);
-    x_.data()[n + tangent_slot(k)] = -rows_[k].tangent.value(m);
+    x_.data()[n + normal_slot(k)] = -rows[k].normal.value(m);
+    x_.data()[n + tangent_slot(k)] = -rows[k].tangent.value(m);
   }
-  if (!solve_condensed(h)) {
+  if (!solve_condensed(h, kept)) {
     if (!(kept ? solve_kept(h) : solve_odd(h))) return false;
     if (economical_) {
       if (!kept) odd_x_ = x_;
@@ -291,8 +322,8 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   const double* x = x_.data();
   for (std::size_t i = n; i < static_cast<std::size_t>(x_.size()); ++i) to.forces.data()[i - n] = x[i];
   // The limit itself, not what the solve leaves of it: no drift.
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-    if (const Form& tangent = rows_[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
       to.forces.data()[tangent_slot(k)] = -tangent.N * to.forces.data()[normal_slot(k)];
   return true;
 }
@@ -300,7 +331,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
 void NewmarkStep::count(Counters& counters) const {
   counters.solves = solves_ + updated_.solves();
   counters.factorisations = odd_.klu().factorisations + workshop_.klu().factorisations +
-                            (condensed_ ? condensed_->factorisations : 0);
+                            (condensed_ ? kept_band_->factorisations + odd_band_->factorisations : 0);
   counters.refactorisations = odd_.klu().refactorisations + workshop_.klu().refactorisations;
 }
 

@@ -8,8 +8,8 @@
 // The unknown of a degree of freedom is a1, v1 where it has a damper but no mass, u1 where it has neither:
 // nothing is divided by h, so a step may be as short as the clock tells.
 //
-// Large structures (`economical_from`) with compliant contacts and a narrow band are factorised anew for each state and
-// length (linear/condensed_matrix.hpp). Factorisations of others:
+// Large structures (`economical_from`) with compliant contacts and a narrow band are factorised anew for each length that
+// will not come again; for others, factors follow changes of state (linear/condensed_matrix.hpp). Factorisations of others:
 //   after a change of state at the full length   an update of low rank of the last one (linear/updated_factors.hpp), until
 //                                                its solves have cost as much as a factorisation
 //   at a length near the last odd one            x += A_odd^-1 (b - A x), until rounding is left
@@ -18,6 +18,7 @@
 #include <optional>
 
 #include "base/bounded_cache.hpp"
+#include "engine/newmark/near_step.hpp"
 #include "linear/condensed_matrix.hpp"
 #include "linear/system_matrix.hpp"
 #include "linear/undamped_motion.hpp"
@@ -43,18 +44,26 @@ class NewmarkStep {
 
   /// Puts rows in force.
   void set(Key key, std::vector<Rows> rows);
-  /// Constants of rows may change without a new factorisation.
-  [[nodiscard]] std::vector<Rows>& rows() { return rows_; }
-  [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
+  /// The same of rows that are somebody else's.
+  void set(Key key, std::shared_ptr<const std::vector<Rows>> rows);
+  /// Of rows that are its own: constants may change without a new factorisation.
+  [[nodiscard]] std::vector<Rows>& own_rows() { return *own_rows_; }
+  [[nodiscard]] const std::vector<Rows>& rows() const { return *rows_; }
   /// From `from` at t1 - h to `to` at t1. `kept`: steps of this length will come again, so their
   /// factorisation is kept. False: the matrix is singular.
   [[nodiscard]] bool take(const Forcing& forcing, const Point& from, double t1, double h, bool kept,
                           Point& to);
+  /// What of the end of such a step is seen at one contact, by what is near to it: the rest of the point is not to be read.
+  /// whole: the end of the step of length `longer` from the same point. Null: nothing is near, or it would save nothing.
+  [[nodiscard]] const Point* near(std::size_t contact, const Forcing& forcing, const Point& from, double t1,
+                                  double h, const Point& whole, double longer);
+  /// What near() has told was not near enough.
+  void look_farther();
   void count(Counters& counters) const;
 
  private:
   using Factors = std::shared_ptr<const TriangularFactors>;
-  [[nodiscard]] bool solve_condensed(double h);
+  [[nodiscard]] bool solve_condensed(double h, bool kept);
   [[nodiscard]] bool solve_kept(double h);
   [[nodiscard]] bool solve_odd(double h);
   [[nodiscard]] bool factor(SystemMatrix& matrix, double h, bool fresh);
@@ -69,7 +78,8 @@ class NewmarkStep {
   const Model& model_;
   const Structure& structure_;
   Key key_;
-  std::vector<Rows> rows_;
+  std::shared_ptr<std::vector<Rows>> own_rows_;
+  std::shared_ptr<const std::vector<Rows>> rows_;
   const std::vector<DofKind> own_kinds_;  // by the structure alone
   const bool massless_;
   MotionKinds in_rows_;  // which unknown each degree of freedom has
@@ -81,17 +91,18 @@ class NewmarkStep {
   Factors last_;        // of a length that is kept, used last; null after a change of rows
   double last_h_ = 0.0;
   const bool economical_;
-  std::optional<CondensedMatrix> condensed_;  // where the band is narrow
-  double condensed_h_ = 0.0;                  // of its factors; 0: of none
-  bool condenses_ = false;                    // it has factors for that length
-  UpdatedFactors updated_;                    // of rows in force from base_rows_, both at base_h_
-  std::vector<Rows> base_rows_;               // of its base
+  std::optional<CondensedRows> condensed_;    // where the band is narrow
+  std::optional<CondensedMatrix> kept_band_;  // of those, for a length that comes again
+  std::optional<CondensedMatrix> odd_band_;   // for others
+  std::optional<NearStep> near_;
+  UpdatedFactors updated_;       // of rows in force from base_rows_, both at base_h_
+  std::vector<Rows> base_rows_;  // of its base
   double base_h_ = 0.0;
   bool updates_ = false;           // it is in force, for last_h_
   double spent_ = 0.0;             // numbers that its solves took since rows changed
   Vector odd_x_, rest_, product_;  // the last solution at an odd length; scratch
   std::vector<Weights> weights_;
-  Vector u_, v_, none_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
+  Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
   long solves_ = 0;
 };
 

@@ -18,7 +18,8 @@ void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a,
     const double slip = slip_of(contact, contact.tangent.dot(du_) - surface, b.T(k) - a.T(k));
     const ContactPath path{slip, surface, contact.normal.dot(du_), contact.normal.dot(v_), h};
     works.add(k, work_on(contact, state, 0.5 * (a.N(k) + b.N(k)), 0.5 * (a.T(k) + b.T(k)), path), factor);
-    works.damping += factor * inside_loss(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
+    if (state == State::inside)
+      works.damping += factor * inside_loss(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
   }
 }
 

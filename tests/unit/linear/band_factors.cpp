@@ -24,11 +24,17 @@ Eigen::MatrixXd banded(Eigen::Index n, Eigen::Index width, double skew, double s
   return a;
 }
 
-bool factor(const Eigen::MatrixXd& a, Eigen::Index width, BandFactors& band) {
-  band.clear();
-  for (Eigen::Index i = 0; i < a.rows(); ++i)
+/// Rows [begin, end) of a.
+void fill(const Eigen::MatrixXd& a, Eigen::Index width, Eigen::Index begin, Eigen::Index end,
+          BandFactors& band) {
+  band.clear(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+  for (Eigen::Index i = begin; i < end; ++i)
     for (Eigen::Index j = std::max<Eigen::Index>(0, i - width); j < std::min(a.rows(), i + width + 1); ++j)
-      band.at(band.slot(static_cast<std::size_t>(i), static_cast<std::size_t>(j))) = a(i, j);
+      band.row(static_cast<std::size_t>(i))[width + j - i] = a(i, j);
+}
+
+bool factor(const Eigen::MatrixXd& a, Eigen::Index width, BandFactors& band) {
+  fill(a, width, 0, a.rows(), band);
   return band.factor();
 }
 
@@ -83,6 +89,30 @@ TEST_CASE("a matrix that needs exchanges of rows, or is singular, has no factors
     a << 1, 1, 0, 1, 2, 1, 0, 1, 1;  // the sum of rows with signs + - + is zero
     CHECK_FALSE(factors(a));
   }
+}
+
+TEST_CASE("factors of some rows go on from those before, to the last bit") {
+  const Eigen::Index n = 97;
+  for (const Eigen::Index width : {1, 3, 5, 8, 9})
+    for (const Eigen::Index first : {0, 1, 40, 90}) {
+      CAPTURE(width);
+      CAPTURE(first);
+      Eigen::MatrixXd a = banded(n, width, 0.6, 1.0);
+      BandFactors band = room(a, width), whole = room(a, width);
+      REQUIRE(factor(a, width, band));
+      a(first, first) *= 1.7;
+      if (first > 0) a(first, first - 1) += 0.3;
+      REQUIRE(factor(a, width, whole));
+      for (Eigen::Index begin = first; begin < n; begin += 20) {
+        const Eigen::Index end = std::min(n, begin + 20);
+        fill(a, width, begin, end, band);
+        REQUIRE(band.factor(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)));
+      }
+      Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1.0, -2.3), y = x;
+      band.solve(x.data());
+      whole.solve(y.data());
+      CHECK(x == y);
+    }
 }
 
 TEST_SUITE_END();

@@ -94,6 +94,51 @@ TEST_CASE("what contacts ask for near them is what the whole structure says, wit
 }
 
 TEST_CASE(
+    "in other states at the same place accelerations change near the contacts that have others, and as they "
+    "should") {
+  Bench bench(lively_row(long_row));
+  const double t = 0.37;
+  const Forcing forcing(bench.model, t, Side::after);
+  const auto told = [](std::size_t c, const MotionJet&, std::size_t orders) {
+    return orders >= 3 || c != 153;
+  };
+  Mode mode = rubbing_mode(bench.model, 77);
+  for (const std::size_t other : {0U, 150U, 153U}) {
+    CAPTURE(other);
+    NearJets jets(bench.systems, 400), again(bench.systems, 400);
+    std::vector<MotionJet> motions, alone;
+    const auto before =
+        jets.make(bench.systems.of(mode), forcing, t, bench.model.u0, bench.model.v0, motions, told);
+    REQUIRE(before);
+    mode[other].state = mode[other].state == State::stick ? State::open : State::stick;
+    mode[other + 2].state = State::slip_plus;
+    const ModeSystemPtr system = bench.systems.of(mode);
+    const auto beside = jets.make(system, forcing, t, bench.model.u0, bench.model.v0, motions, told,
+                                  NearJets::Beside{before->jet, before->open});
+    const auto made = again.make(system, forcing, t, bench.model.u0, bench.model.v0, alone, told);
+    REQUIRE(beside);
+    REQUIRE(made);
+    const Vector was = before->jet.u.col(2), now = beside->jet.u.col(2), whole = made->jet.u.col(2);
+    CHECK((now - was).cwiseAbs().maxCoeff() > 1e-3 * whole.cwiseAbs().maxCoeff());
+    CHECK((now - whole).cwiseAbs().maxCoeff() <= rounding::of_many * whole.cwiseAbs().maxCoeff());
+    CHECK((now.array() == was.array()).count() > long_row);  // more than half of them
+    CHECK(beside->jet.system == system);
+    CHECK(beside->open == made->open);
+    const double force = made->jet.forces.cwiseAbs().maxCoeff();
+    CHECK((beside->jet.forces - made->jet.forces).cwiseAbs().maxCoeff() <= rounding::of_many * force);
+    for (std::size_t c = 0; c < motions.size(); ++c) {
+      CAPTURE(c);
+      ContactMotion m = motions[c].motion[0];
+      m.an = alone[c].motion[0].an;  // accelerations are compared above, their rounding is nobody's here
+      m.at = alone[c].motion[0].at;
+      check_same(m, alone[c].motion[0], alone[c].noise[0]);
+      CHECK(motions[c].noise[0].N == doctest::Approx(alone[c].noise[0].N).epsilon(1e-6));
+      CHECK(motions[c].noise[0].T == doctest::Approx(alone[c].noise[0].T).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE(
     "a row that is no longer than its neighbourhoods, and one that asks everywhere, take the whole "
     "structure") {
   const auto asks = [](std::size_t, const MotionJet&, std::size_t orders) { return orders > 2; };

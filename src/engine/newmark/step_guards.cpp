@@ -1,0 +1,214 @@
+#include "engine/newmark/step_guards.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "base/rounding.hpp"
+#include "motion/clock.hpp"
+
+namespace signorini {
+namespace {
+
+/// Only terms of N, T, g, ut and their rates.
+bool is_plain(const Form& f) {
+  return f.an == 0.0 && f.at == 0.0 && f.pressing == 0.0 && f.pressing_rate == 0.0 && f.limit == 0.0 &&
+         f.limit_rate == 0.0;
+}
+
+}  // namespace
+
+StepGuards::StepGuards(const Model& model)
+    : model_(model), seen_(model.contacts.size()), before_(guard_count(model.contacts.size()), 1.0) {
+  g0_ = g1_ = before_;
+  rate0_.assign(before_.size(), 0.0);
+  rate1_ = rate0_;
+  has_rate_.assign(before_.size(), 0);
+  for (const Contact& contact : model.contacts) {
+    std::map<int, std::pair<double, double>> parts;
+    for (const auto& [dof, factor] : contact.normal.terms) parts[dof].first += factor;
+    for (const auto& [dof, factor] : contact.tangent.terms) parts[dof].second += factor;
+    for (const auto& [dof, part] : parts)
+      terms_.push_back({static_cast<std::size_t>(dof), part.first, part.second});
+    ends_.push_back(terms_.size());
+  }
+}
+
+void StepGuards::start(const Segment& segment) {
+  const bool others = segment_.forcing != segment.forcing || !segment.same_forcing;
+  segment_ = segment;
+  const Decision& decision = *segment.decision;
+  arming_.start(decision.guards);
+  waiting_.clear();
+  for (std::size_t slot = 0; slot < arming_.size(); ++slot)
+    if (!arming_.idle(slot) && !arming_.armed(slot)) waiting_.push_back(slot);
+  dismissed_.clear();
+  const bool all = others || mode_.size() != decision.mode.size();
+  mode_.resize(decision.mode.size());
+  for (std::size_t k = 0; k < seen_.size(); ++k)
+    if (all || decision.mode[k] != mode_[k] || !seen_[k].plain) gather(k);
+}
+
+void StepGuards::gather(std::size_t k) {
+  const Decision& decision = *segment_.decision;
+  const Rows& rows = decision.system->rows()[k];
+  mode_[k] = decision.mode[k];
+  Seen& seen = seen_[k];
+  seen = {};
+  // Of what sticks rigidly others may hold a guard.
+  seen.plain = is_plain(rows.normal) && is_plain(rows.tangent) && rows.normal.vn == 0.0 &&
+               !segment_.forcing->drives(k) && !model_.contacts[k].sticks_rigidly();
+  seen.gap = model_.contacts[k].gap;
+  seen.surface = segment_.forcing->surface(k, decision.jet.t, 0);
+  seen.normal_gap = rows.normal.gap;
+  seen.tangent_N = rows.tangent.N;
+  seen.tangent_ut = rows.tangent.ut;
+  for (std::size_t i = 0; i < guards_per_contact; ++i) {
+    const std::size_t slot = guard_slot(k, i);
+    const bool idle = arming_.idle(slot);
+    has_rate_[slot] = !idle && rates_known(slot);
+    for (std::vector<double>* values : {&before_, &g0_, &g1_}) (*values)[slot] = 1.0;
+    rate0_[slot] = rate1_[slot] = 0.0;
+    seen.guards[i].constant = 1.0;
+    if (idle) continue;
+    seen.watched = true;
+    const Form& f = decision.guards[slot].form;
+    seen.plain = seen.plain && is_plain(f);
+    seen.accelerates = seen.accelerates || (has_rate_[slot] && (f.vn != 0.0 || f.vt != 0.0));
+    seen.guards[i] = {f.N, f.T, f.gap, f.ut, f.vn, f.vt, f.constant};
+  }
+}
+
+/// Does the derivative of the guard follow from displacements, velocities and accelerations?
+bool StepGuards::rates_known(std::size_t slot) const {
+  const std::size_t k = contact_of_guard(slot);
+  const Form& form = segment_.decision->guards[slot].form;
+  const Rows& rows = segment_.decision->system->rows()[k];
+  const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
+  if (form.an != 0.0 || form.at != 0.0) return false;
+  if (through_N && (rows.normal.N != 1.0 || rows.normal.an != 0.0)) return false;
+  if (through_T && rows.tangent.T != 1.0) return false;
+  const auto massless = [&](const Combination& c) {
+    return std::any_of(c.terms.begin(), c.terms.end(), [&](const auto& term) {
+      return model_.dofs[static_cast<std::size_t>(term.first)].massless;
+    });
+  };
+  const bool accelerates = form.vn != 0.0 || form.vt != 0.0 || (through_N && rows.normal.vn != 0.0);
+  return !accelerates || (!massless(model_.contacts[k].normal) && !massless(model_.contacts[k].tangent));
+}
+
+void StepGuards::weigh(const Point& point, double t) {
+  for (std::size_t k = 0; k < seen_.size(); ++k) {
+    if (!seen_[k].watched) continue;
+    if (seen_[k].plain)
+      weigh_plain(k, point);
+    else
+      weigh_any(k, point, t);
+  }
+}
+
+void StepGuards::weigh_plain(std::size_t k, const Point& point) {
+  const Seen& seen = seen_[k];
+  const double *u = point.u.data(), *v = point.v.data(), *a = point.a.data();
+  double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, an = 0.0, at = 0.0;
+  for (std::size_t i = ends_[k]; i < ends_[k + 1]; ++i) {
+    const Term& term = terms_[i];
+    gap += term.n * u[term.dof];
+    ut += term.t * u[term.dof];
+    vn += term.n * v[term.dof];
+    vt += term.t * v[term.dof];
+    if (!seen.accelerates) continue;
+    an += term.n * a[term.dof];
+    at += term.t * a[term.dof];
+  }
+  gap += seen.gap;
+  ut -= seen.surface;
+  const double N = point.N(k), T = point.T(k);
+  const double dN = -(seen.normal_gap * vn), dT = -(seen.tangent_N * dN + seen.tangent_ut * vt);
+  for (std::size_t i = 0; i < guards_per_contact; ++i) {
+    const Plain& g = seen.guards[i];
+    const std::size_t slot = guard_slot(k, i);
+    g1_[slot] = g.constant + (g.N * N + g.T * T + g.gap * gap + g.ut * ut + g.vn * vn + g.vt * vt);
+    if (has_rate_[slot]) rate1_[slot] = g.N * dN + g.T * dT + g.gap * vn + g.ut * vt + g.vn * an + g.vt * at;
+  }
+}
+
+void StepGuards::weigh_any(std::size_t k, const Point& point, double t) {
+  const Forcing& forcing = *segment_.forcing;
+  const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
+  ContactMotion d;  // its derivative as far as it is known
+  d.gap = m.vn;
+  d.ut = m.vt;
+  d.vn = m.an;
+  d.vt = m.at;
+  d.pressing = m.pressing_rate;
+  d.pressing_rate = forcing.pressing(k, t, 2);
+  const Rows& rows = segment_.decision->system->rows()[k];
+  d.N = -(rows.normal.gap * d.gap + rows.normal.vn * d.vn + rows.normal.pressing * d.pressing);
+  d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // rates_known: no row of T has velocities
+  for (std::size_t slot = guard_slot(k, 0); slot < guard_slot(k + 1, 0); ++slot) {
+    if (arming_.idle(slot)) continue;
+    const Form& form = segment_.decision->guards[slot].form;
+    g1_[slot] = form.value(m);
+    if (has_rate_[slot]) rate1_[slot] = form.rate(d);
+  }
+}
+
+void StepGuards::turn() {
+  before_.swap(g0_);
+  g0_.swap(g1_);
+  rate0_.swap(rate1_);
+  dismissed_.clear();
+}
+
+double StepGuards::value(std::size_t slot, double t, const Point& point) const {
+  const std::size_t k = contact_of_guard(slot);
+  return segment_.decision->guards[slot].form.value(
+      motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
+}
+
+double StepGuards::level(std::size_t slot, double t, const Point& point) const {
+  const std::size_t k = contact_of_guard(slot);
+  const GuardStart& guard = segment_.decision->guards[slot];
+  return guard.noise + rounding::of_many * guard.form.magnitude(
+                                               motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
+}
+
+std::optional<double> StepGuards::dip(std::size_t slot, double h, double h_before) const {
+  if (std::find(dismissed_.begin(), dismissed_.end(), slot) != dismissed_.end()) return std::nullopt;
+  GuardPath along = path(slot, h);
+  std::optional<double> x = has_rate(slot) ? along.dip() : std::nullopt;
+  if (!x) {
+    rates_from_values(along, h, before_[slot], h_before);
+    x = along.dip();
+  }
+  return x;
+}
+
+const std::vector<std::size_t>& StepGuards::noticed(double h, double h_before) {
+  noticed_.clear();
+  for (std::size_t slot = 0; slot < g1_.size(); ++slot) {
+    const double g0 = g0_[slot], g1 = g1_[slot];
+    bool holds = g1 > 0.0 && g0 + h * rate0_[slot] / 3.0 > 0.0 && g1 - h * rate1_[slot] / 3.0 > 0.0;
+    if (h_before > 0.0) {
+      GuardPath along{g0, g1};
+      rates_from_values(along, h, before_[slot], h_before);
+      holds = holds && g0 + along.r0 / 3.0 > 0.0 && g1 - along.r1 / 3.0 > 0.0;
+    }
+    if (!holds) noticed_.push_back(slot);
+  }
+  const auto own = static_cast<std::ptrdiff_t>(noticed_.size());
+  noticed_.insert(noticed_.end(), waiting_.begin(), waiting_.end());
+  std::inplace_merge(noticed_.begin(), noticed_.begin() + own, noticed_.end());
+  noticed_.erase(std::unique(noticed_.begin(), noticed_.end()), noticed_.end());
+  return noticed_;
+}
+
+void StepGuards::see(double t, const Point& point) {
+  std::erase_if(waiting_, [&](std::size_t slot) {
+    arming_.see(slot, g1_[slot], level(slot, t, point));
+    return arming_.armed(slot);
+  });
+}
+
+}  // namespace signorini

@@ -1,0 +1,94 @@
+// condensed_rows.hpp: compliant contacts in force on a structure, row by row of its band.
+//
+//   row i of  M w_a + C w_v + K w_u - H B^-1 R      i: a place in the band; H, B, R: linear/condensed_matrix.hpp
+//
+// What does not depend on the weights: entries in the order in which a band is filled, and the rows of each contact. Which
+// contacts have changed is remembered, so that factors can follow.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "linear/system_matrix.hpp"
+
+namespace signorini {
+
+class CondensedRows {
+ public:
+  /// An entry of the structure, in a row whose diagonal stands at width().
+  struct Entry {
+    std::uint32_t at = 0, dof = 0;
+    double m = 0.0, c = 0.0, k = 0.0;
+  };
+  /// A degree of freedom of a contact.
+  struct Touch {
+    std::uint32_t dof = 0, place = 0, contact = 0;
+    double n = 0.0, t = 0.0;
+  };
+  /// A contact in force.
+  struct Held {
+    double normal_N = 1.0, tangent_N = 0.0, tangent_T = 1.0;
+    double normal_gap = 0.0, normal_ut = 0.0, normal_vn = 0.0, normal_vt = 0.0;
+    double tangent_gap = 0.0, tangent_ut = 0.0, tangent_vn = 0.0, tangent_vt = 0.0;
+    bool on_motion = false;  ///< its forces follow the motion
+    bool told = false;       ///< by their own rows, without accelerations
+  };
+
+  /// Of what is_economical(), without contacts in force. Nothing: the band is wider.
+  [[nodiscard]] static std::optional<CondensedRows> of(const Model& model, const Structure& structure,
+                                                       std::size_t most_width);
+
+  [[nodiscard]] std::size_t size() const { return dof_at_.size(); }
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] std::size_t contacts() const { return held_.size(); }
+
+  /// Puts the rows of a contact in force, of all.
+  void put(std::size_t contact, const Rows& rows);
+  void put(const std::vector<Rows>& rows);
+  /// False: a row holds an acceleration or does not tell its force.
+  [[nodiscard]] bool tell() const { return untold_ == 0; }
+  /// Grows with every change.
+  [[nodiscard]] long version() const { return forgotten_ + static_cast<long>(changed_.size()); }
+  /// Contacts that have been put in force since, some perhaps twice. Nothing: it is not remembered.
+  [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
+
+  [[nodiscard]] std::size_t dof_at(std::size_t place) const { return dof_at_[place]; }
+  [[nodiscard]] std::span<const Entry> entries(std::size_t place) const {
+    return {entries_.data() + entries_end_[place], entries_.data() + entries_end_[place + 1]};
+  }
+  [[nodiscard]] const Held& held(std::size_t contact) const { return held_[contact]; }
+  /// Touches of a contact: [first, end) of touch().
+  [[nodiscard]] std::size_t first_touch(std::size_t contact) const { return touches_end_[contact]; }
+  [[nodiscard]] std::size_t end_of_touches(std::size_t contact) const { return touches_end_[contact + 1]; }
+  [[nodiscard]] const Touch& touch(std::size_t i) const { return touches_[i]; }
+  /// Those at a place, ascending by contact.
+  [[nodiscard]] std::span<const std::uint32_t> touches_at(std::size_t place) const {
+    return {at_place_.data() + at_place_end_[place], at_place_.data() + at_place_end_[place + 1]};
+  }
+
+  /// B^-1 R of a contact on its touches, at these weights; by_N, by_T: one a touch.
+  void share(std::size_t contact, const Weights& weights, double* by_N, double* by_T) const;
+  /// The row at a place; out: 2 width() + 1 numbers that are zero before, with the diagonal in the middle.
+  void fill(std::size_t place, const Weights& weights, const double* by_N, const double* by_T,
+            double* out) const;
+
+ private:
+  CondensedRows() = default;
+
+  std::size_t width_ = 0;
+  std::vector<std::size_t> dof_at_;  // of a place
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> entries_end_{0};  // place by place
+  std::vector<Touch> touches_;               // contact by contact
+  std::vector<std::size_t> touches_end_{0};  // of each contact's
+  std::vector<std::uint32_t> at_place_;      // touches, place by place
+  std::vector<std::size_t> at_place_end_{0};
+  std::vector<Held> held_;
+  std::size_t untold_ = 0;            // contacts
+  std::vector<std::size_t> changed_;  // the last of them
+  long forgotten_ = 0;                // changes before those
+};
+
+}  // namespace signorini

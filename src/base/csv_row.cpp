@@ -25,6 +25,10 @@ bool read_csv_row(std::istream& in, std::vector<std::string>& cells) {
       cell += c;
     }
   }
+  if (size > 0) {
+    if (!cell.empty() && cell.back() == '\r') cell.pop_back();
+    cells.push_back(std::move(cell));
+  }
   return false;
 }
 

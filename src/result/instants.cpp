@@ -128,7 +128,7 @@ InstantReader::InstantReader(const std::filesystem::path& directory, const Model
 }
 
 void InstantReader::fail(std::size_t column, const std::string& expected) const {
-  throw FileError(path_.string(), fmt::format("line {}: {}: found \"{}\", expected {}", line_,
+  throw FileError(path_.string(), fmt::format("line {}: {}: found \"{}\", expected {}", reader_.line(),
                                               header_[column], excerpt(reader_.cell(column)), expected));
 }
 
@@ -214,7 +214,6 @@ void InstantReader::take_impulses(std::size_t contact, std::size_t column, Insta
 }
 
 std::optional<InstantRow> InstantReader::next() {
-  ++line_;
   if (!reader_.next()) return std::nullopt;
   InstantRow row;
   row.t = number(at_t);
@@ -226,14 +225,12 @@ std::optional<InstantRow> InstantReader::next() {
   row.located = flag(at_located);
   row.forgiven = number(at_forgiven);
   row.dependence = number(at_dependence);
-  row.dependence = number(at_dependence);
   take_side(row.before, false);
-  ++line_;
   if (!reader_.next())
     throw FileError(
         path_.string(),
-        fmt::format("line {}: missing, expected the side \"after\" of t = {:.9g}; the file is cut", line_,
-                    row.t));
+        fmt::format("line {}: missing, expected the side \"after\" of t = {:.9g}; the file is cut",
+                    reader_.line(), row.t));
   if (reader_.cell(at_side) != "after") fail(at_side, "after");
   if (number(at_t) != row.t) fail(at_t, fmt::format("{}, the time of the side before", shortest(row.t)));
   take_side(row.after, true);

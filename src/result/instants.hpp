@@ -41,6 +41,8 @@ class InstantReader {
   InstantReader(const std::filesystem::path& directory, const Model& model);
   /// Nothing: the file has ended.
   [[nodiscard]] std::optional<InstantRow> next();
+  /// Of the last row, from 1; at the end that behind it.
+  [[nodiscard]] const CsvReader& rows() const { return reader_; }
 
  private:
   [[noreturn]] void fail(std::size_t column, const std::string& expected) const;
@@ -56,7 +58,6 @@ class InstantReader {
   const Model& model_;
   std::vector<std::string> header_;
   CsvReader reader_;
-  int line_ = 1;
 };
 
 }  // namespace signorini

@@ -42,6 +42,7 @@ RecordedEvent recorded_event(const Event& event) {
   result.type = to_string(event.type);
   result.from = event.from;
   result.to = event.to;
+  result.gap = event.gap;
   result.N = event.N;
   result.T = event.T;
   result.N_after = event.N_after;

@@ -46,7 +46,7 @@ constexpr Key table_of_keys[] = {
 
     {"units", "force", choice, "", "required", "N kN MN", "Unit of force; must be mass * length / time^2."},
     {"units", "mass", choice, "", "required", "kg t", "Unit of mass."},
-    {"units", "length", choice, "", "required", "m mm cm", "Unit of length."},
+    {"units", "length", choice, "", "required", "m mm", "Unit of length."},
     {"units", "time", choice, "", "required", "s ms", "Unit of time."},
 
     {"run", "t_end", positive, "time", "required", "", "End time of the computation, which starts at t = 0."},

@@ -71,7 +71,7 @@ double second_in(const Units& units) { return units.time == "ms" ? 1000.0 : 1.0;
 
 /// One m/s^2 in the scene's units.
 double metric_acceleration(const Units& units) {
-  const double metre = units.length == "mm" ? 1000.0 : units.length == "cm" ? 100.0 : 1.0;
+  const double metre = units.length == "mm" ? 1000.0 : 1.0;
   return metre / (second_in(units) * second_in(units));
 }
 

@@ -11,9 +11,9 @@ namespace signorini {
 namespace {
 
 double si_factor(const std::string& unit) {
-  static const std::map<std::string, double> factors = {{"N", 1.0}, {"kN", 1e3}, {"MN", 1e6},  {"kg", 1.0},
-                                                        {"t", 1e3}, {"m", 1.0},  {"cm", 1e-2}, {"mm", 1e-3},
-                                                        {"s", 1.0}, {"ms", 1e-3}};
+  static const std::map<std::string, double> factors = {{"N", 1.0},   {"kN", 1e3}, {"MN", 1e6},
+                                                        {"kg", 1.0},  {"t", 1e3},  {"m", 1.0},
+                                                        {"mm", 1e-3}, {"s", 1.0},  {"ms", 1e-3}};
   return factors.at(unit);
 }
 

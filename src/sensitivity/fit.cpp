@@ -125,13 +125,22 @@ class Fitter {
     result.iterations = iterations_;
     result.chi_squared = place_.chi_squared;
     result.freedom = static_cast<long>(problem_.rows()) - static_cast<long>(here_.rank);
-    result.reason = reason(known);
+    at_bound_.assign(result.keys.size(), false);
+    for (const auto& [p, side] : walls_)
+      at_bound_[p] = at_bound_[p] || (known && side * here_.slope[p] < 0.0);
+    std::string bounds;
+    for (std::size_t p = 0; p < result.keys.size() && !settled(); ++p)
+      if (at_bound_[p]) bounds += (bounds.empty() ? "" : ", ") + result.keys[p].path;
+    result.reason = bounds.empty() ? reason(known) : "at its bound: " + bounds + beyond;
     if (!known || !settled()) result.doubts.push_back(result.reason);
     if (known) take_keys(result);
     explain(result);
   }
 
  private:
+  static constexpr const char* beyond =
+      "; the sum of squares falls beyond it, where the scene allows no value or the run has not the measured "
+      "events";
   /// What the run at these keys says to first order, there or on the side from which they came.
   bool linear_at(const std::vector<double>& keys) {
     if (!problem_.residuals(keys, *f_)) return false;
@@ -161,11 +170,16 @@ class Fitter {
     level_ = linear_at(place_.keys) && leads_to_place(place_.keys);
     falls_ = kink_ = false;
     slopes_.clear();
+    walls_.clear();
     for (std::size_t p = 0; p < problem_.keys(); ++p)
       for (const double side : {1.0, -1.0}) {
         std::vector<double> keys = place_.keys;
         keys[p] += side * FitProblem::beside * problem_.size()[p];
-        if (!problem_.complete(keys) || !linear_at(keys)) continue;
+        if (!problem_.complete(keys)) {
+          walls_.emplace_back(p, side);
+          continue;
+        }
+        if (!linear_at(keys)) continue;
         std::vector<double> slope = here_.slope;
         for (std::size_t k = 0; k < slope.size(); ++k) slope[k] *= problem_.size()[k];
         slopes_.push_back(slope);
@@ -218,7 +232,7 @@ class Fitter {
         if (here_.determined[i] && here_.determined[j])
           result.covariance[i][j] = factor() * here_.covariance[i][j];
       result.keys[i].value = here_.determined[i] ? place_.keys[i] : none;
-      result.keys[i].sigma = std::sqrt(result.covariance[i][i]);
+      result.keys[i].sigma = at_bound_[i] ? none : std::sqrt(result.covariance[i][i]);
     }
     if (!loose.empty())
       result.doubts.push_back(
@@ -255,8 +269,10 @@ class Fitter {
   FitPlace place_;
   std::vector<std::vector<double>> slopes_;  // beside the place, in sizes of keys
   int iterations_ = 0;
-  bool level_ = false;  // the slope is zero at the place
-  bool kink_ = false;   // the sides say something else
+  std::vector<std::pair<std::size_t, double>> walls_;  // keys, and their sides on which there is no such run
+  std::vector<bool> at_bound_;                         // keys beyond whose wall the sum of squares falls
+  bool level_ = false;                                 // the slope is zero at the place
+  bool kink_ = false;                                  // the sides say something else
   bool falls_ = false;  // away from the place, and nothing lower was found there
 };
 

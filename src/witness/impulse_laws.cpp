@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/rounding.hpp"
 #include "witness/laws.hpp"
 
 namespace signorini {
 
+/// What is no normal number has no digits: a limit below all of these would be one of nothing.
 void Finder::add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave) {
+  limit = std::max(limit, std::numeric_limits<double>::min());
+  if (value <= limit) return;
   Violation v;
   v.t = record_.t;
   v.contact = contact;
@@ -57,7 +61,10 @@ void Finder::momentum() {
     push(model_.contacts[k].tangent, record_.captures[at + 1]);
   }
   Vector jump = Vector::Zero(model_.size()), speed = jump;
-  double translation = record_.before.v_reach[0], rotation = record_.before.v_reach[1];
+  // Velocities are known to the least normal number, and no better: below it they have no digits.
+  constexpr double unknown = std::numeric_limits<double>::min() / rounding::of_elimination;
+  double translation = std::max(unknown, record_.before.v_reach[0]),
+         rotation = std::max(unknown, record_.before.v_reach[1]);
   for (int i = 0; i < model_.size(); ++i) {
     if (!bench_.has_mass(i)) continue;
     jump[i] = after[i] - before[i];

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,7 @@ struct RecordedEvent {
   double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
   double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
   double impulse_n = 0.0, impulse_t = 0.0;  ///< 0: the row has none
+  std::optional<double> gap = {};
 };
 
 struct InstantRecord {

@@ -87,6 +87,13 @@ class Bench {
   mutable std::optional<std::array<double, 2>> lightness_;
 };
 
+/// Of a stretch, by its ends: just after one instant, just before the next, at t.
+[[nodiscard]] std::vector<Violation> stretch_laws(const Bench& bench, double t, const WitnessedSide& from,
+                                                  const WitnessedSide& to);
+/// Rows with mass just after an instant; the worst one. load: P.
+[[nodiscard]] std::vector<Violation> equilibrium_law(const Bench& bench, double t, const WitnessedSide& side,
+                                                     const Vector& load);
+
 /// A row without mass whose forces, or their rates, do not balance.
 struct Unbalanced {
   int dof = 0;
@@ -139,6 +146,11 @@ class Finder {
   [[nodiscard]] double unsure_without_mass(int dof) const;
   [[nodiscard]] Sight touching(std::size_t k, const WitnessedSide& side) const;
   void row_of(const RecordedEvent& event);
+  void row_before(const RecordedEvent& event, const Sight& before, const Sight& after);
+  void row_gap(const RecordedEvent& event, const Sight& after);
+  void row_check(const RecordedEvent& event, double off, double limit, const Unit& unit);
+  [[nodiscard]] double force_noise_before(std::size_t k, const Sight& before, const Sight& after) const;
+  [[nodiscard]] double settled(const RecordedEvent& event) const;
   [[nodiscard]] bool is_released(std::size_t k) const;
   [[nodiscard]] double left_terms(const Contact& c) const;
   /// A contact in its old state, and by how much rounding of accelerations moves its forces.

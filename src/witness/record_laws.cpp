@@ -97,13 +97,80 @@ Sight Finder::touching(std::size_t k, const WitnessedSide& side) const {
   return m;
 }
 
+void Finder::row_check(const RecordedEvent& event, double off, double limit, const Unit& unit) {
+  if (off > limit) add(static_cast<int>(event.contact), "row", off, limit, unit, false);
+}
+
+/// By how much a guard of this row may be off zero, so that what it is of was written as zero.
+double Finder::settled(const RecordedEvent& event) const {
+  return of_uncertainty * std::max(event.t_uncertainty, record_.resolution) * std::abs(event.guard_rate);
+}
+
+/// What N and T just before are known to, in two sums of the same u and v: one of the engine, one of the decision, which
+/// takes out velocities that tolerances have left. Forces that hold accelerations are differences of the structure's.
+double Finder::force_noise_before(std::size_t k, const Sight& before, const Sight& after) const {
+  const Contact& c = model_.contacts[k];
+  const WitnessLimits& tol = bench_.limits;
+  const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
+  const ContactState& state = (*record_.before.mode)[k];
+  const double of_captures = cn * bench_.moved_by(record_.captures, k);
+  double limit = rounding::of_elimination *
+                     (2.0 * (size_of_normal(c, before) + kt * (before.place + std::abs(state.anchor))) +
+                      std::abs(before.N) + std::abs(before.T)) +
+                 of_tolerance * ((kn + kt) * (tol.rtol * before.place + tol.displacement) +
+                                 cn * (tol.rtol * before.speed + tol.velocity) +
+                                 tol.rtol * (std::abs(before.N) + std::abs(before.T)) + tol.force) +
+                 of_captures;
+  const OwnResponse* own = bench_.own_response(k);
+  if (own == nullptr || (c.has_spring() && c.tangential_stiffness)) return limit;
+  limit +=
+      force_noise() + (rounding::of_elimination + of_tolerance * tol.rtol) * bench_.balance(record_.before);
+  const Vector swung = bench_.swung(record_);
+  for (const auto& [form, response] : {std::pair(&c.normal, own->nn), std::pair(&c.tangent, own->tt)}) {
+    if (!(response > 0.0)) continue;
+    limit += rounding::of_elimination * after.push / response;
+    if (swung.size() > 0) limit += of_uncertainty * std::abs(form->dot(swung)) / response;
+  }
+  return limit;
+}
+
+/// Where states were found at the end of a step, both sides are that after.
+void Finder::row_before(const RecordedEvent& event, const Sight& before, const Sight& after) {
+  if (record_.start || moves_at_once(event.contact)) return;  // guessed; decided anew
+  const Contact& c = model_.contacts[event.contact];
+  const double most = std::max(c.friction.static_, c.friction.kinetic);
+  const bool zero = event.type == "separation" && event.N == 0.0 && event.T == 0.0;
+  const double limit =
+      force_noise_before(event.contact, before, after) + (zero ? (1.0 + most) * settled(event) : 0.0);
+  const auto off = [&](double row, double Sight::*force) {
+    const double by = std::abs(row - before.*force);
+    return record_.located ? by : std::min(by, std::abs(row - after.*force));
+  };
+  row_check(event, off(event.N, &Sight::N), limit, seen::force);
+  row_check(event, off(event.T, &Sight::T), limit, seen::force);
+}
+
+/// The gap is that after; of borrowed springs the surfaces'.
+void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
+  const Contact& c = model_.contacts[event.contact];
+  if (!event.gap) return;
+  const bool touches = c.borrows && !is_open((*record_.after.mode)[event.contact].state);
+  const double g = touches ? 0.0 : after.g;
+  double limit = rounding::of_elimination * after.place;
+  if (*event.gap == 0.0) {
+    const bool by_force = event.type == "separation" && c.has_spring();
+    limit += of_tolerance * (bench_.limits.rtol * after.place + bench_.limits.displacement) +
+             settled(event) / (by_force ? c.normal_stiffness : 1.0);
+  }
+  row_check(event, std::abs(*event.gap - g), limit, seen::length);
+}
+
 /// What a row of the events says of both sides is what they are. Values before are those of the decision, which takes
-/// out what tolerances have left.
+/// out what tolerances have left: that is in its captures.
 void Finder::row_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const Sight b = touching(k, record_.before), a = touching(k, record_.after);
-  const WitnessLimits& tol = bench_.limits;
   const int contact = static_cast<int>(k);
   // What forces that hold accelerations are known to is a sum over the structure: rarely asked for.
   const auto check = [&](double row, double side, double limit, const Unit& unit, bool holds = false) {
@@ -119,12 +186,13 @@ void Finder::row_of(const RecordedEvent& event) {
   const double speed = rounding::of_elimination * (a.speed + b.speed);
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.shear) check(event.vt_after, a.dut, speed, seen::velocity);
-  const double loose =
-      speed + of_tolerance * (tol.rtol * b.speed + tol.velocity) + bench_.moved_by(record_.captures, k);
+  const double loose = speed + bench_.moved_by(record_.captures, k);
   if (!moves_at_once(k)) {  // those of parts without mass are decided anew
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.shear) check(event.vt, b.dut, loose, seen::velocity);
   }
+  row_before(event, b, a);
+  row_gap(event, a);
   double n = 0.0, t = 0.0, of_impulses = 0.0;
   for (const RecordedImpulse& p : record_.impulses) {
     if (p.contact != k) continue;

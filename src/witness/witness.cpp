@@ -33,6 +33,14 @@ std::vector<Violation> Witness::instant(const InstantRecord& record) const {
   return found;
 }
 
+std::vector<Violation> Witness::stretch(double t, const WitnessedSide& from, const WitnessedSide& to) const {
+  return stretch_laws(parts_->bench, t, from, to);
+}
+
+std::vector<Violation> Witness::equilibrium(double t, const WitnessedSide& side, const Vector& load) const {
+  return equilibrium_law(parts_->bench, t, side, load);
+}
+
 std::array<double, 2> Witness::modal_size(double norm) const {
   std::array<double, 2> size = parts_->bench.lightness();
   for (double& s : size) s *= norm;

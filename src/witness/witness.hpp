@@ -44,6 +44,12 @@ class Witness {
   [[nodiscard]] std::vector<Violation> instant(const InstantRecord& record) const;
   /// Guards and rows at a point of the motion inside a stretch.
   [[nodiscard]] std::vector<Violation> between(double t, const WitnessedSide& now) const;
+  /// What both ends of the stretch up to t say: just after one instant, just before the next.
+  [[nodiscard]] std::vector<Violation> stretch(double t, const WitnessedSide& from,
+                                               const WitnessedSide& to) const;
+  /// M a + C v + K u + contact forces = P, with mass, just after an instant. load: P.
+  [[nodiscard]] std::vector<Violation> equilibrium(double t, const WitnessedSide& side,
+                                                   const Vector& load) const;
   /// Guards of one contact's state, by what is known of its motion; accelerates: g'' and ut'' are. of_held: the size of
   /// the terms that forces are differences of which hold accelerations.
   void contact(double t, std::size_t k, const ContactState& state, const Sight& m, bool accelerates,

@@ -255,6 +255,29 @@ TEST_CASE("fit: events are those that were measured, and other columns of their 
   CHECK(std::abs(found.keys[0].value - 1.0) < 1e-7);
 }
 
+TEST_CASE("a key at its bound is named, and has no sigma") {
+  // Swings that are greater than those without any friction.
+  Measurements data;
+  for (int i = 1; i < 9; ++i) data.rows.push_back({0, "", "d0.u", 1.0 * i, 1.06 * std::cos(2.0 * i), 1.0});
+  const Fit found = fit(rubbed(), {"contacts.c.friction"}, data);
+  CHECK_FALSE(found.converged);
+  CHECK(found.reason.find("at its bound: contacts.c.friction;") == 0);
+  CHECK(found.keys[0].value < 1e-5);
+  CHECK(std::isnan(found.keys[0].sigma));
+}
+
+TEST_CASE("measurements: a last line without its line break counts, a byte order mark does not") {
+  const auto path = written("unended.csv",
+                            "\xEF\xBB\xBF"
+                            "t,d0.u\r\n1,0.5\r\n2,0.75");
+  const Measurements data = read_measurements(path.string());
+  std::filesystem::remove(path);
+  REQUIRE(data.rows.size() == 2);
+  CHECK(data.rows[1].t == 2.0);
+  CHECK(data.rows[1].value == 0.75);
+  CHECK(data.rows[1].line == 3);
+}
+
 TEST_CASE("tables that are no measurements, and measurements that the run has not") {
   const auto refused = [](const std::string& text, const std::string& said) {
     const auto path = written("bad.csv", text);
@@ -269,11 +292,22 @@ TEST_CASE("tables that are no measurements, and measurements that the run has no
     CAPTURE(message);
     CHECK(message.find(said) != std::string::npos);
   };
-  refused("event_index,contact\n1,c\n", ":1: expected a column t");
-  refused("event_index,t\n1,0.5\n0,0.6\n", ":3: event_index: found 0, expected a row of events.csv, from 1");
-  refused("event_index,t\n1,soon\n", ":2: t: found \"soon\", expected a finite number");
-  refused("t,d0.u,sigma\n1,0.5,-1\n", ":2: sigma: found -1, expected more than zero");
-  refused("t,d0.u\n", ":2: expected at least one row");
+  refused("event_index,contact\n1,c\n", ":1: found the columns \"event_index,contact\", expected a column t");
+  refused("event_index,t\n1,0.5\n0,0.6\n",
+          ":3:1: event_index: found 0, expected a row of events.csv, from 1");
+  refused("event_index,t\n1,soon\n", ":2:2: t: found \"soon\", expected a finite number");
+  refused("t,d0.u,sigma\n1,0.5,-1\n", ":2:3: sigma: found -1, expected more than zero");
+  refused("t,d0.u\n", ":2: found no measurement, expected at least one row");
+  refused("t,d0.u\n1,0.5\n2\n", ":3: found 1 cells, expected 2 as in the header");
+  refused("t,d0.u\n1,0.5,3\n", ":2: found 3 cells, expected 2 as in the header");
+  refused("t,d0.u\n1,0.5\n\n2,0.6\n", ":3: found a blank line, expected 2 as in the header");
+  refused("t,d0.u\n-0.1,0.5\n", ":2:1: t: found -0.1, expected a time from 0");
+  refused("event_index,t\n1,-0.1\n", ":2:2: t: found -0.1, expected a time from 0");
+  refused("event_index,t\n1,0.5\n2,0.6\n1,0.5\n",
+          ":4: event_index: found 1 again, expected each event once; it stands in line 2");
+  refused("t,d0.u\n1,0.5\n1,0.6\n",
+          ":3: d0.u: found t = 1 again, expected each time once; it stands in line 2");
+  refused(std::string("\x01\xFF\x13", 3), ":1: found the columns ");
   Measurements data;
   data.rows.push_back({0, "", "d9.u", 1.0, 0.0, 1.0});
   CHECK_THROWS_WITH_AS(fit(rubbed(), {"contacts.c.friction"}, data), "the run has no column \"d9.u\"",

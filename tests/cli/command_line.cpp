@@ -114,7 +114,7 @@ TEST_CASE("cli: wrong measurements are wrong data, as a wrong load table is") {
   };
   const Ending number = fit("d.csv"), column = fit("e.csv"), missing = fit("nope.csv");
   CHECK(number.code == 3);
-  CHECK(number.err == "error: d.csv:2: t: found \"abc\", expected a finite number\n");
+  CHECK(number.err == "error: d.csv:2:1: t: found \"abc\", expected a finite number\n");
   CHECK(column.code == 3);
   CHECK(column.err == "error: e.csv:1: the run has no column \"nobody.ux\"\n");
   CHECK(missing.code == 6);

@@ -155,6 +155,8 @@ TEST_CASE("cli study: wrong command lines are told before anything is written") 
   };
   wrong({"--engines", "idea"}, "--engines idea");
   wrong({"--engines", "ida,ida"}, "stands twice");
+  wrong({"--engines", ",", "-o", "st"}, "--engines: found \",\", expected engines by name");
+  wrong({"--engines", "exact,,ida"}, "--engines: found \"exact,,ida\", expected engines by name");
   wrong({"--rtol", "1e-4:0"}, "--rtol 1e-4:0: found \"0\"");
   wrong({"--dt", "x"}, "--dt x");
   wrong({"--repeats", "0"}, "--repeats 0");

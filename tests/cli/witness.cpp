@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -90,6 +91,41 @@ Alteration dropped(const std::string& key, const std::string& value) {
   };
 }
 
+/// The cell of such a row is this text.
+Alteration written_as(const std::string& key, const std::string& value, const std::string& name,
+                      const std::string& text) {
+  return [=](std::vector<Cells>& table) {
+    const std::size_t k = column_called(table, key), x = column_called(table, name);
+    table[row_with(table, [&](const Cells& c) { return c[k] == value && !c[x].empty(); })][x] = text;
+  };
+}
+
+/// An instant, at which a contact changes its state, is in no file: its rows of instants.csv and events.csv, its counts.
+void forget_an_event(const Shell& shell) {
+  std::vector<Cells> events = cells_of(shell.read("kept/events.csv"));
+  const std::size_t type = column_called(events, "event");
+  const std::string t = events[row_with(events, [&](const Cells& c) { return c[type] == "stick"; })][0];
+  auto summary = nlohmann::ordered_json::parse(shell.read("kept/summary.json"));
+  for (const Cells& row : events) {
+    if (row[0] != t) continue;
+    summary["events"]["total"] = summary["events"]["total"].get<long>() - 1;
+    summary["events"]["by_type"][row[type]] = summary["events"]["by_type"][row[type]].get<long>() - 1;
+  }
+  std::vector<Cells> instants = cells_of(shell.read("kept/instants.csv"));
+  for (std::vector<Cells>* table : {&events, &instants})
+    std::erase_if(*table, [&](const Cells& row) { return row[0] == t; });
+  shell.write("kept/events.csv", text_of_table(events));
+  shell.write("kept/instants.csv", text_of_table(instants));
+  shell.write("kept/summary.json", summary.dump());
+}
+
+/// The table up to a part of its rows.
+std::string first_rows(const std::string& text, double part) {
+  std::vector<Cells> table = cells_of(text);
+  table.resize(1 + static_cast<std::size_t>(part * static_cast<double>(table.size() - 1)));
+  return text_of_table(table);
+}
+
 void halve_a_blow(std::vector<Cells>& table) {
   const std::size_t x = column_called(table, "floor.blows");
   const std::size_t row =
@@ -130,6 +166,74 @@ TEST_CASE("cli witness: a run that nobody touched keeps all laws, by its files a
     }
 }
 
+TEST_CASE(
+    "cli witness: a pendulum under a force that varies, and a surface that moves far between two instants") {
+  const char* pendulum = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 3.0
+rtol = 1e-11
+initial = { a = { ux = 0.038242109364224425, uy = 0.03221088436188455, vx = 0.1529684374568977, vy = 0.1288435374475382 } }
+[nodes]
+a = [0.3, -0.2]
+[[masses]]
+node = "a"
+mass = 2.0
+[[springs]]
+node = "a"
+direction = [-0.644217687237691, 0.7648421872844885]
+stiffness = 1000.0
+[[loads]]
+node = "a"
+direction = [0.7648421872844885, 0.644217687237691]
+amplitude = 6.0
+history = { type = "harmonic", omega = 4.0 }
+[[pendulums]]
+name = "p"
+node = "a"
+normal = [-1.932653061713073, 2.2945265618534654]
+radius = 0.5
+normal_force = { type = "harmonic", offset = 20.0, amplitude = 12.0, omega = 7.0 }
+tangential_stiffness = 400.0
+friction = { static = 0.1, kinetic = 0.07 }
+)";
+  const char* surface = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 1.5
+output_dt = 0.5
+rtol = 1e-10
+[nodes]
+a = [0.0, 0.0]
+[[masses]]
+node = "a"
+mass = 2.5
+[[supports]]
+node = "a"
+fix = ["uy"]
+[[contacts]]
+name = "c"
+node = "a"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 1000.0
+friction = 0.9
+tangential_stiffness = 40.0
+surface_velocity = { type = "harmonic", frequency = 2.1, start = 0.2, end = 1.4, amplitude = 0.8, offset = 0.15 }
+)";
+  for (const auto& [text, engine] :
+       {std::pair(pendulum, "ida"), std::pair(surface, "exact"), std::pair(surface, "ida")}) {
+    CAPTURE(text);
+    CAPTURE(engine);
+    const Shell shell;
+    shell.write("planted.toml", text);
+    REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", engine}).code == 0);
+    const Ending ending = shell.run({"witness", "kept"});
+    CHECK(ending.code == 0);
+    if (ending.code != 0) MESSAGE(ending.out);
+  }
+}
+
 TEST_CASE("cli witness: a run that stops has rows of a step that leads to no instant, and no peak of it") {
   // Slides from 1.5 m/s until two sliders would stick on the one degree of freedom,
   // which share no force, as one is on a belt that starts later.
@@ -149,13 +253,14 @@ TEST_CASE("cli witness: a run that stops has rows of a step that leads to no ins
     const Ending ending = shell.run({"witness", "kept"});
     CHECK(ending.code == 0);
     if (ending.code != 0) MESSAGE(ending.out);
-    // A run that came to its end has no such rows (`ida` has looked at the ends of its steps).
-    if (engine != std::string("exact")) continue;
+    // A run that came to its end has an instant there, and no such rows.
     std::string summary = shell.read("kept/summary.json");
     const std::size_t kind = summary.find("\"stopped\"");
     REQUIRE(kind != std::string::npos);
     shell.write("kept/summary.json", summary.replace(kind, 9, "\"done\""));
-    CHECK(shell.run({"witness", "kept"}).out.find("peak") != std::string::npos);
+    const Ending done = shell.run({"witness", "kept"});
+    CHECK(done.code == 6);
+    CHECK(done.err.find("found no more, expected the instant at t = ") != std::string::npos);
   }
 }
 
@@ -185,6 +290,17 @@ TEST_CASE("cli witness: every alteration of a file is found") {
       {"contacts.csv", "ratio", scaled("state", "slip+", "ratio", 1.001)},
       {"motion.csv", "ratio", scaled("state", "stick", "ratio", 1.001)},
       {"motion.csv", "peak", scaled("contact", "foot", "ut", 1e4)},
+      {"events.csv", "row", scaled("event", "stick", "N", 1.001)},
+      {"events.csv", "row", scaled("event", "stick", "N", -1.0)},
+      {"events.csv", "row", scaled("event", "slip", "T", 1.001)},
+      {"events.csv", "row", scaled("event", "slip", "T", -1.0)},
+      {"events.csv", "row", scaled("event", "slip", "gap", 1.001)},
+      {"events.csv", "row", written_as("event", "slip", "gap", "")},
+      {"events.csv", "row", scaled("event", "slip", "vn", 1.0 + 1e-6)},
+      {"instants.csv", "equilibrium", scaled("side", "after", "A.ux.acceleration", 1.01)},
+      {"instants.csv", "equilibrium", scaled("side", "after", "B.uy.acceleration", 1.01)},
+      {"instants.csv", "unbroken state", scaled("foot.state", "stick", "foot.p", 1.0 + 1e-9)},
+      {"contacts.csv", "slip", scaled("state", "stick", "slip", 1.001)},
   };
   for (const Altered& one : all) {
     const std::string which = std::string(one.file) + ": " + one.law;
@@ -212,6 +328,155 @@ TEST_CASE("cli witness: every alteration of a file is found") {
   const Ending ending = shell.run({"witness", "kept"});
   CHECK(ending.code == 5);
   CHECK(ending.out.find("peak") != std::string::npos);
+}
+
+TEST_CASE(
+    "cli witness: values before an event are known with an engine of tolerances, too, and to rigid "
+    "contacts") {
+  const Shell shell;
+  for (const auto& [text, engine] :
+       {std::pair(scene_text, "ida"), std::pair(feet_text, "exact"), std::pair(feet_text, "ida")}) {
+    CAPTURE(engine);
+    shell.write("planted.toml", text);
+    REQUIRE(
+        shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--force", "--engine", engine}).code ==
+        0);
+    const std::string kept = shell.read("kept/events.csv");
+    for (const char* force : {"N", "T"})
+      for (const double factor : {100.0, -1.0, 1.01}) {
+        CAPTURE(force);
+        CAPTURE(factor);
+        std::vector<Cells> table = cells_of(kept);
+        scaled("event", "slip", force, factor)(table);
+        shell.write("kept/events.csv", text_of_table(table));
+        const Ending ending = shell.run({"witness", "kept"});
+        CHECK(ending.code == 5);
+        CHECK(ending.out.find("row") != std::string::npos);
+      }
+    for (const char* speed : {"vn", "vt"}) {
+      if (text != scene_text) continue;
+      CAPTURE(speed);
+      std::vector<Cells> table = cells_of(kept);
+      scaled("event", "stick", speed, 1.0 + 1e-6)(table);
+      shell.write("kept/events.csv", text_of_table(table));
+      CHECK(shell.run({"witness", "kept"}).code == 5);
+    }
+    shell.write("kept/events.csv", kept);
+    CHECK(shell.run({"witness", "kept"}).code == 0);
+  }
+}
+
+TEST_CASE("cli witness: an event that is in no file breaks the states before the next one") {
+  const Shell shell;
+  shell.write("planted.toml", scene_text);
+  for (const char* engine : {"exact", "ida", "newmark"}) {
+    CAPTURE(engine);
+    REQUIRE(
+        shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--force", "--engine", engine}).code ==
+        0);
+    forget_an_event(shell);
+    const Ending ending = shell.run({"witness", "kept"});
+    CHECK(ending.code == 5);
+    CHECK(ending.out.find("unbroken state") != std::string::npos);
+    CHECK(ending.out.find("count of") == std::string::npos);
+  }
+}
+
+TEST_CASE("cli witness: a scene that is not that of the run") {
+  const Shell shell;
+  shell.write("planted.toml", scene_text);
+  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", "exact"}).code == 0);
+  const std::string kept = shell.read("kept/run.toml");
+  struct Edit {
+    const char *from, *to, *law;
+  };
+  const Edit edits[] = {
+      {"gravity = [0.7, -9.6]", "gravity = [0.7, -9.61]", "equilibrium"},
+      {"mass = 1.3", "mass = 1.3001", "equilibrium"},
+      {"stiffness = 170.0", "stiffness = 170.1", "equilibrium"},
+      {"amplitude = 27.0", "amplitude = 27.01", "equilibrium"},
+      {"frequency = 3.1", "frequency = 3.101", "equilibrium"},
+      {"vx = 1.3", "vx = 1.300001", "initial values"},
+      {"engine = \"exact\"", "engine = \"ida\"", "engine"},
+      {"t_end = 1.5", "t_end = 1.2", "rows"},
+  };
+  for (const Edit& edit : edits) {
+    CAPTURE(edit.to);
+    std::string text = kept;
+    const std::size_t at = text.find(edit.from);
+    REQUIRE(at != std::string::npos);
+    shell.write("kept/run.toml", text.replace(at, std::string(edit.from).size(), edit.to));
+    const Ending ending = shell.run({"witness", "kept"});
+    CHECK(ending.code == 5);
+    CHECK(ending.out.find(edit.law) != std::string::npos);
+  }
+}
+
+TEST_CASE("cli witness: a summary that says something else than the tables") {
+  const Shell shell;
+  shell.write("planted.toml", scene_text);
+  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", "exact"}).code == 0);
+  const std::string kept = shell.read("kept/summary.json");
+  const auto ends = [&](int code, const std::string& what,
+                        const std::function<void(nlohmann::ordered_json&)>& alter) {
+    auto summary = nlohmann::ordered_json::parse(kept);
+    alter(summary);
+    shell.write("kept/summary.json", summary.dump());
+    const Ending ending = shell.run({"witness", "kept"});
+    CAPTURE(what);
+    CHECK(ending.code == code);
+    CHECK((ending.out + ending.err).find(what) != std::string::npos);
+  };
+  using Json = nlohmann::ordered_json;
+  ends(5, "count of events", [](Json& s) { s["events"]["total"] = s["events"]["total"].get<long>() + 1; });
+  ends(5, "load", [](Json& s) { s["contacts"][1]["load"]["N"]["least"]["value"] = -1.0; });
+  ends(6, "outcome.kind: found \"running\"", [](Json& s) { s["outcome"]["kind"] = "running"; });
+  ends(6, "contacts: found 1, expected 2 as in run.toml", [](Json& s) { s["contacts"].erase(0); });
+  ends(6, "units.force: found \"kN\", expected \"N\" as in run.toml",
+       [](Json& s) { s["units"]["force"] = "kN"; });
+}
+
+TEST_CASE("cli witness: tables that end before the run does") {
+  const Shell shell;
+  shell.write("planted.toml", scene_text);
+  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", "exact"}).code == 0);
+  const auto cut = [&](const std::string& file, const std::string& left, const std::string& what) {
+    const std::string name = "kept/" + file, whole = shell.read(name);
+    CAPTURE(file);
+    CAPTURE(what);
+    shell.write(name, left);
+    const Ending ending = shell.run({"witness", "kept"});
+    CHECK(ending.code == 6);
+    CHECK(ending.err.find(name + ": line ") != std::string::npos);
+    CHECK(ending.err.find(what) != std::string::npos);
+    CHECK(ending.err.find("the file is cut") != std::string::npos);
+    CHECK(ending.out == "");
+    shell.write(name, whole);
+  };
+  const std::string contacts = shell.read("kept/contacts.csv"), motion = shell.read("kept/motion.csv"),
+                    events = shell.read("kept/events.csv"), instants = shell.read("kept/instants.csv");
+  // 501 times of two contacts behind the header.
+  cut("contacts.csv", first_rows(contacts, 0.5),
+      "line 503: found no more, expected the row of contact \"foot\" at t = 0.75");
+  cut("contacts.csv", first_rows(contacts, 0.0),
+      "line 2: found no more, expected the row of contact \"floor\" at t = 0;");
+  cut("contacts.csv", contacts.substr(0, contacts.size() - 1),
+      "found no line break, expected the row of contact \"foot\" at t = 1.5");
+  cut("motion.csv", first_rows(motion, 0.0), "line 2: found no more, expected rows of contact \"floor\"");
+  cut("motion.csv", first_rows(motion, 0.1), "expected rows of contact \"foot\"");
+  cut("motion.csv", first_rows(motion, 0.9), "expected rows of contact \"foot\" up to t = 1.5");
+  cut("motion.csv", motion.substr(0, motion.size() - 1), "found no line break");
+  cut("events.csv", events.substr(0, events.size() - 1), "found no line break");
+  cut("events.csv", first_rows(events, 0.5), "found no more, expected ");
+  cut("instants.csv", instants.substr(0, instants.size() - 1), "");
+  std::vector<Cells> halves = cells_of(instants);
+  halves.resize(1 + 2 * (halves.size() / 4));
+  cut("instants.csv", text_of_table(halves), "expected the instant at t = 1.5");
+  // Beside curves.csv, which is written together with it, motion.csv was there.
+  std::filesystem::remove(shell / "kept/motion.csv");
+  const Ending ending = shell.run({"witness", "kept"});
+  CHECK(ending.code == 6);
+  CHECK(ending.err.find("kept/motion.csv: not found, expected it beside curves.csv") != std::string::npos);
 }
 
 TEST_CASE("cli witness: JSON, for programs") {

@@ -1,9 +1,14 @@
 #include "study/witness/directory_witness.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <tuple>
 
+#include "base/number.hpp"
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/parts.hpp"
 #include "result/instants.hpp"
@@ -12,6 +17,7 @@
 #include "study/prepared_run.hpp"
 #include "study/witness/table_rows.hpp"
 #include "study/witness/told_run.hpp"
+#include "witness/sight.hpp"
 
 namespace signorini {
 namespace {
@@ -46,6 +52,7 @@ class DirectoryWitness {
  public:
   DirectoryWitness(const fs::path& directory, const Scene& scene, DirectoryTestimony& result)
       : directory_(directory),
+        scene_(scene),
         model_(result.model),
         result_(result),
         told_(told_summary(directory, model_)),
@@ -55,27 +62,21 @@ class DirectoryWitness {
         motion_(model_, engine_),
         rows_(model_, engine_, witness_, told_.stopped) {
     result_.complete = told_.ended;
-    for (Event& event : told_events(directory, model_)) events_.push_back(std::move(event));
+    for (Event& event : told_events(directory, model_, told_.ended)) events_.push_back(std::move(event));
+    if (!events_.empty()) last_event_ = events_.back().t;
     result_.events = static_cast<long>(events_.size());
   }
 
   void run() {
     count_events();
-    InstantReader reader(directory_, model_);
-    double t = 0.0;
-    while (const auto row = reader.next()) {
-      if (result_.instants == 0 && !row->start) missing(row->t, "start");
-      if (row->t < t) missing(row->t, "order");
-      t = row->t;
-      instant(*row);
-      ++result_.instants;
-    }
+    instants();
     while (!events_.empty()) unmatched();
     const auto found = [this](Violation v) { add(std::move(v)); };
-    result_.rows = rows_.check(directory_ / "contacts.csv", true, found);
-    if (std::error_code none; fs::exists(directory_ / "motion.csv", none))
-      result_.rows += rows_.check(directory_ / "motion.csv", false, found);
+    const RunSpan span{scene_.run.grid(), told_.ended, told_.stopped, told_.ended ? told_.t : t_};
+    result_.rows = rows_.contacts(directory_ / "contacts.csv", span, found);
+    if (has_motion()) result_.rows += rows_.motion(directory_ / "motion.csv", span, found);
     rows_.check_peaks(told_.peaks, found);
+    rows_.check_loads(told_.loads, told_.peaks, found);
     result_.testimony.checked = result_.instants;
   }
 
@@ -86,6 +87,42 @@ class DirectoryWitness {
       result_.testimony.violations.push_back(std::move(v));
   }
   void missing(double t, const char* law) { add({t, instants_file, -1, law, 1.0, 0.0, {}, true}); }
+  void instants() {
+    InstantReader reader(directory_, model_);
+    while (const auto row = reader.next()) {
+      if (result_.instants == 0 && !row->start) missing(row->t, "start");
+      if (row->t < t_) missing(row->t, "order");
+      t_ = row->t;
+      instant(*row);
+      ++result_.instants;
+    }
+    refuse_if_cut(reader.rows());
+  }
+
+  /// A run that came to its end has an instant there; every event is at an instant; every change has its event.
+  void refuse_if_cut(const CsvReader& reader) const {
+    const auto refuse = [](const std::string& file, const std::string& why) { throw FileError(file, why); };
+    const double end = told_.ended && !told_.stopped ? told_.t : last_event_;
+    const std::string path = (directory_ / instants_file).string();
+    if (told_.ended && t_ < end - rounding::of_few * end)
+      refuse(path, cut_at(reader, fmt::format("the instant at t = {:.9g}", end)));
+    if (told_.ended && reader.is_cut()) refuse(path, cut_at(reader, "a line break"));
+    if (last_change_ > last_event_ && lacking_ > 0)
+      refuse((directory_ / "events.csv").string(),
+             fmt::format("line {}: found no more, expected {}, up to t = {:.9g}; the file is cut",
+                         result_.events + 2, count_of(static_cast<std::size_t>(lacking_), "event"),
+                         last_change_));
+  }
+
+  /// `run --no-plots` leaves out tables for pictures; else they are written together.
+  [[nodiscard]] bool has_motion() const {
+    std::error_code none;
+    if (fs::exists(directory_ / "motion.csv", none)) return true;
+    if (fs::exists(directory_ / "curves.csv", none))
+      throw FileError((directory_ / "motion.csv").string(), "not found, expected it beside curves.csv");
+    return false;
+  }
+
   /// A row of events.csv at a time that is no instant.
   void unmatched() {
     add({events_.front().t, "events.csv", events_.front().contact, "record", 1.0, 0.0, {}, true});
@@ -95,8 +132,18 @@ class DirectoryWitness {
   void count_events() {
     if (!told_.ended) return;
     std::map<std::string, long> counts;
+    const auto of_summary = [this](const char* law, double off) {
+      if (off > 0.0) add({told_.t, "summary.json", -1, law, off, 0.0, {}, true});
+    };
+    for (const auto& [type, count] : told_.events_by_type) lacking_ += count;
+    of_summary("count of events", std::abs(static_cast<double>(lacking_ - told_.total)));
+    of_summary("engine",
+               scene_.run.engine != Engine::automatic && scene_.run.engine != told_.engine ? 1.0 : 0.0);
     for (const Event& event : events_)
-      if (event.type != EventType::time || event.contact < 0) ++counts[to_string(event.type)];
+      if (event.type != EventType::time || event.contact < 0) {
+        ++counts[to_string(event.type)];
+        --lacking_;
+      }
     for (const auto& [type, count] : told_.events_by_type)
       if (const long off = std::abs(count - counts[type]); off > 0)
         add({told_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
@@ -140,11 +187,50 @@ class DirectoryWitness {
     record.before = motion_.side(Forcing(model_, row.t, side), row.t, row.dependence);
     record.after = motion_.side(Forcing(model_, row.t, Side::after), row.t, row.dependence);
     point_to(row, record);
-    for (const Event& event : events_of(row))
-      if (event.contact >= 0) record.events.push_back(recorded(event, row));
+    for (const Event& event : events_of(row)) {
+      if (event.contact < 0) continue;
+      record.events.push_back(recorded(event, row));
+      if (model_.contacts[record.events.back().contact].has_gap() != event.gap.has_value())
+        add({row.t, to_string(event.type), event.contact, "row", 1.0, 0.0, {}, true});
+    }
     for (Violation& v : witness_.instant(record)) add(std::move(v));
+    beside_others(row, record);
     rows_.instant(row, record);
     motion_.leave(Forcing(model_, row.t, Side::after), row.t);
+    for (std::size_t k = 0; k < model_.contacts.size() && !row.start; ++k)
+      if (to_string(row.before.states[k].state) != std::string(to_string(row.after.states[k].state)))
+        last_change_ = row.t;
+  }
+
+  /// What a run's own witness need not ask: how an instant follows from the one before, from the start of the scene, and
+  /// from the forces on the structure.
+  void beside_others(const InstantRow& row, const InstantRecord& record) {
+    if (row.start) given_start(row);
+    if (last_ && engine_.located) {
+      WitnessedSide from = record.before;
+      from.u = &last_->after.u;
+      from.v = &last_->after.v;
+      from.mode = &last_->after.states;
+      from.forces = &last_->after.forces;
+      from.driven = left_driven_;
+      for (Violation& v : witness_.stretch(row.t, from, record.before)) add(std::move(v));
+    }
+    Vector load = Vector::Zero(model_.size());
+    Forcing(model_, row.t, Side::after).add_load(row.t, 0, load.data());
+    for (Violation& v : witness_.equilibrium(row.t, record.after, load)) add(std::move(v));
+    last_ = row;
+    left_driven_ = record.after.driven;
+  }
+
+  /// Initial values of the scene; those of a static start are checked by their forces.
+  void given_start(const InstantRow& row) {
+    if (model_.static_start || model_.reduction) return;
+    for (const auto& [told, asked, unit] : {std::tuple(&row.before.u, &model_.u0, seen::length),
+                                            std::tuple(&row.before.v, &model_.v0, seen::velocity)}) {
+      const double limit = rounding::of_few * asked->lpNorm<Eigen::Infinity>();
+      const double off = (*told - *asked).lpNorm<Eigen::Infinity>();
+      if (off > limit) add({row.t, "start", -1, "initial values", off, limit, unit, false});
+    }
   }
 
   void point_to(const InstantRow& row, InstantRecord& record) const {
@@ -177,6 +263,7 @@ class DirectoryWitness {
   }
 
   fs::path directory_;
+  const Scene& scene_;
   const Model& model_;
   DirectoryTestimony& result_;
   ToldSummary told_;
@@ -185,6 +272,11 @@ class DirectoryWitness {
   WitnessedMotion motion_;
   TableRows rows_;
   std::deque<Event> events_;
+  std::optional<InstantRow> last_;               // instant
+  std::vector<Driven> left_driven_;              // after it
+  double t_ = 0.0;                               // of the last instant
+  double last_event_ = 0.0, last_change_ = 0.0;  // of a state
+  long lacking_ = 0;                             // events that events.csv has not
 };
 
 }  // namespace

@@ -1,42 +1,14 @@
 #include "study/witness/table_rows.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "base/excerpt.hpp"
-#include "base/number.hpp"
 #include "base/rounding.hpp"
 #include "contact/motion.hpp"
-#include "result/csv_read.hpp"
-#include "signorini/error.hpp"
 #include "witness/laws.hpp"
 
 namespace signorini {
 namespace {
-
-constexpr const char* heading[] = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T", "ratio"};
-
-constexpr std::size_t columns = std::size(heading), ratio_column = columns - 1;
-
-double number(const CsvReader& reader, std::size_t column, const std::filesystem::path& file, int line) {
-  const std::optional<double> value = parse_number(reader.cell(column));
-  if (!value || !std::isfinite(*value))
-    throw FileError(file.string(), fmt::format("line {}: {}: found \"{}\", expected a number", line,
-                                               heading[column], excerpt(reader.cell(column))));
-  return *value;
-}
-
-/// Does the table have ratio? Older runs lack it.
-bool has_ratios(const CsvReader& reader, const std::filesystem::path& file) {
-  const std::vector<std::string>& found = reader.header();
-  const bool ratios = found.size() == columns;
-  if ((!ratios && found.size() != ratio_column) ||
-      !std::equal(found.begin(), found.end(), std::begin(heading)))
-    throw FileError(file.string(), "line 1: expected t,contact,state,gap,ut,vt,slip,N,T,ratio");
-  return ratios;
-}
 
 Violation violation(const char* file, double t, std::size_t contact, const char* law, double value,
                     double limit, const Unit& unit) {
@@ -51,7 +23,9 @@ TableRows::TableRows(const Model& model, const WitnessedEngine& engine, const Wi
       witness_(witness),
       stopped_(stopped),
       sizes_(model.contacts.size()),
-      peaks_(model.contacts.size()) {}
+      peaks_(model.contacts.size()),
+      loads_(model.contacts.size()),
+      reached_(model.contacts.size(), false) {}
 
 void TableRows::instant(const InstantRow& row, const InstantRecord& record) {
   states_.push_back({row.t, row.resolution, row.before.states, row.after.states});
@@ -85,40 +59,32 @@ std::vector<ContactState> TableRows::states_at(std::size_t contact, double t) co
   return states;
 }
 
-long TableRows::check(const std::filesystem::path& file, bool complete, const Found& found) {
-  const ContactNames names(model_);
-  const std::string name = file.filename().string();
-  CsvReader reader(file);
-  const bool ratios = has_ratios(reader, file);
+long TableRows::contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
+  ToldRowReader reader(file, model_);
+  TableSpan span(model_, run, found);
   long rows = 0;
-  std::size_t due = 0;
-  double t = 0.0;
-  int line = 1;
-  while (reader.next()) {
-    ++line;
-    Row row;
-    row.t = number(reader, 0, file, line);
-    row.contact = static_cast<std::size_t>(names.at(reader.cell(1), file, line));
-    row.state = reader.cell(2);
-    if (!reader.cell(3).empty()) row.gap = number(reader, 3, file, line);
-    double* const numbers[] = {&row.ut, &row.vt, &row.slip, &row.N, &row.T};
-    for (std::size_t i = 0; i < std::size(numbers); ++i) *numbers[i] = number(reader, 4 + i, file, line);
-    if (ratios && !reader.cell(ratio_column).empty()) row.ratio = number(reader, ratio_column, file, line);
-    if (ratios) check_ratio(row, name.c_str(), found);
-    if (complete && (row.contact != due || (due > 0 && row.t != t))) {
-      found(violation(name.c_str(), row.t, due, "rows", 1.0, 0.0, {}));
-      due = row.contact;
-    }
-    t = row.t;
-    due = (due + 1) % model_.contacts.size();
-    check(row, name.c_str(), found);
-    ++rows;
+  for (; const auto row = reader.next(); ++rows) {
+    span.grid_row(*row);
+    check(*row, reader, "contacts.csv", found);
   }
-  if (complete && due != 0) found(violation(name.c_str(), t, due, "rows", 1.0, 0.0, {}));
+  span.end_of_grid(reader);
   return rows;
 }
 
-void TableRows::check(const Row& row, const char* file, const Found& found) {
+long TableRows::motion(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
+  ToldRowReader reader(file, model_);
+  TableSpan span(model_, run, found);
+  long rows = 0;
+  for (; const auto row = reader.next(); ++rows) {
+    span.block_row(*row);
+    check(*row, reader, "motion.csv", found);
+  }
+  span.end_of_blocks(reader);
+  return rows;
+}
+
+void TableRows::check(const ToldRow& row, const ToldRowReader& reader, const char* file, const Found& found) {
+  if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
   std::optional<std::vector<Violation>> least;  // of the states at its time that have the row's name
   for (const ContactState& state : states_at(row.contact, row.t)) {
@@ -136,7 +102,7 @@ void TableRows::check(const Row& row, const char* file, const Found& found) {
 }
 
 /// What a row of a contact in this state breaks.
-std::vector<Violation> TableRows::broken_by(const Row& row, const ContactState& state,
+std::vector<Violation> TableRows::broken_by(const ToldRow& row, const ContactState& state,
                                             const char* file) const {
   const Contact& c = model_.contacts[row.contact];
   Sight m;
@@ -146,7 +112,7 @@ std::vector<Violation> TableRows::broken_by(const Row& row, const ContactState& 
   m.g = row.gap.value_or(0.0);
   m.ut = row.ut;
   m.dut = row.vt;
-  m.place = size.place;
+  m.place = size.place + model_.scales.displacement;
   m.speed = size.speed;
   if (c.borrows && !is_open(state.state)) {  // of its springs, whatever they are
     m.g = row.N / c.normal_stiffness;
@@ -163,7 +129,7 @@ std::vector<Violation> TableRows::broken_by(const Row& row, const ContactState& 
   return broken;
 }
 
-void TableRows::check_forces(const Row& row, const ContactState& state, const char* file,
+void TableRows::check_forces(const ToldRow& row, const ContactState& state, const char* file,
                              const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
   const double kn = c.normal_stiffness, kt = c.tangential_stiffness.value_or(0.0),
@@ -176,6 +142,7 @@ void TableRows::check_forces(const Row& row, const ContactState& state, const ch
     if (const double off = std::abs(force - asked); off > limit)
       found(violation(file, row.t, row.contact, law, off, limit, seen::force));
   };
+  if (!c.own && !c.shear) check_slip(row, file, limit, found);
   if (is_open(state.state) && !c.is_pressed()) {
     check("normal force", row.N, 0.0);
     check("friction force", row.T, 0.0);
@@ -189,7 +156,24 @@ void TableRows::check_forces(const Row& row, const ContactState& state, const ch
     check("friction force", c.borrows ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
-void TableRows::check_ratio(const Row& row, const char* file, const Found& found) const {
+/// slip = ut - T/kt; of borrowed springs ut is the surfaces'. of_force: what T is known to.
+void TableRows::check_slip(const ToldRow& row, const char* file, double of_force, const Found& found) const {
+  const Contact& c = model_.contacts[row.contact];
+  const double kt = c.borrows ? 0.0 : c.tangential_stiffness.value_or(0.0);
+  const double by_force = kt > 0.0 ? row.T / kt : 0.0;
+  // Of a surface that moves, place knows where it was at instants.
+  const double surface = c.surface_motion.is_constant()
+                             ? 0.0
+                             : std::abs(Forcing(model_, row.t, Side::after).surface(row.contact, row.t, 0));
+  const double size = sizes_[row.contact].place + surface + std::abs(row.ut) + std::abs(by_force);
+  const double limit = rounding::of_elimination * size +
+                       of_tolerance * (engine_.limits.rtol * size + engine_.limits.displacement) +
+                       (kt > 0.0 ? of_force / kt : 0.0);
+  if (const double off = std::abs(row.slip - (row.ut - by_force)); off > limit)
+    found(violation(file, row.t, row.contact, "slip", off, limit, seen::length));
+}
+
+void TableRows::check_ratio(const ToldRow& row, const char* file, const Found& found) const {
   const bool due =
       model_.contacts[row.contact].has_friction() && row.state != to_string(State::open) && row.N != 0.0;
   const double asked = due ? std::abs(row.T / row.N) : 0.0, limit = rounding::of_few * asked;
@@ -198,7 +182,7 @@ void TableRows::check_ratio(const Row& row, const char* file, const Found& found
     found(violation(file, row.t, row.contact, "ratio", off, limit, {}));
 }
 
-void TableRows::reach(const Row& row) {
+void TableRows::reach(const ToldRow& row) {
   // A run that stopped has rows of a step that leads to no instant: no peak takes part in it.
   if (stopped_ && !states_.empty() && row.t > states_.back().t) return;
   Peak& peak = peaks_[row.contact];
@@ -209,24 +193,63 @@ void TableRows::reach(const Row& row) {
   if (row.gap) peak.normal = std::max(peak.normal, std::abs(*row.gap - size.gap_at_start));
   peak.N = std::max(peak.N, std::abs(row.N));
   peak.T = std::max(peak.T, std::abs(row.T));
+  ToldSummary::Load& load = loads_[row.contact];
+  if (!reached_[row.contact]) load = {row.N, row.N, row.T, row.T};
+  reached_[row.contact] = true;
+  load.least_N = std::min(load.least_N, row.N);
+  load.greatest_N = std::max(load.greatest_N, row.N);
+  load.least_T = std::min(load.least_T, row.T);
+  load.greatest_T = std::max(load.greatest_T, row.T);
+}
+
+double TableRows::noise_of_length(std::size_t k) const {
+  return rounding::of_elimination * (sizes_[k].place + model_.scales.displacement) +
+         of_tolerance * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
+}
+
+double TableRows::noise_of_force(std::size_t k) const {
+  const Contact& c = model_.contacts[k];
+  return (rounding::of_elimination + of_tolerance * engine_.limits.rtol) * (peaks_[k].N + peaks_[k].T) +
+         of_tolerance * engine_.limits.force +
+         (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * noise_of_length(k);
+}
+
+/// No row is beyond its extremes, and the farther one of a force is its peak.
+void TableRows::check_loads(const std::vector<std::optional<ToldSummary::Load>>& told,
+                            const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    if (!told[k]) continue;
+    const bool held = !model_.contacts[k].has_spring();
+    const double noise = noise_of_force(k) + (held ? rounding::of_elimination * sizes_[k].force : 0.0);
+    const auto check = [&](double off, double limit) {
+      if (off > limit) found(violation("summary.json", 0.0, k, "load", off, limit, seen::force));
+    };
+    const auto check_peak = [&](double least, double greatest, double peak) {
+      const double farthest = std::max(std::abs(least), std::abs(greatest));
+      check(std::abs(farthest - peak), noise);
+    };
+    if (peaks[k]) {
+      check_peak(told[k]->least_N, told[k]->greatest_N, peaks[k]->N);
+      check_peak(told[k]->least_T, told[k]->greatest_T, peaks[k]->T);
+    }
+    if (engine_.limits.step > 0.0 || !reached_[k]) continue;
+    check(told[k]->least_N - loads_[k].least_N, noise);
+    check(loads_[k].greatest_N - told[k]->greatest_N, noise);
+    check(told[k]->least_T - loads_[k].least_T, noise);
+    check(loads_[k].greatest_T - told[k]->greatest_T, noise);
+  }
 }
 
 void TableRows::check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const {
   if (engine_.limits.step > 0.0) return;  // they are those of the ends of steps
   for (std::size_t k = 0; k < told.size(); ++k) {
     if (!told[k]) continue;
-    const Contact& c = model_.contacts[k];
-    const double length =
-        rounding::of_elimination * (sizes_[k].place + model_.scales.displacement) +
-        of_tolerance * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
+    const double length = noise_of_length(k);
     const auto check = [&](double seen_one, double told_one, double limit, const Unit& unit) {
       if (const double off = seen_one - told_one; off > limit)
         found(violation("summary.json", 0.0, k, "peak", off, limit, unit));
     };
-    const double force =
-        (rounding::of_elimination + of_tolerance * engine_.limits.rtol) * (peaks_[k].N + peaks_[k].T) +
-        of_tolerance * engine_.limits.force +
-        (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length;
+    const double force = noise_of_force(k);
     check(peaks_[k].tangential, told[k]->tangential, length, seen::length);
     check(peaks_[k].normal, told[k]->normal, length, seen::length);
     check(peaks_[k].N, told[k]->N, force, seen::force);

@@ -2,11 +2,11 @@
 //
 //   state of a row = that after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
 //   ratio = |T| / |N| where there is friction, the contact is closed and N is not 0
-//   contacts.csv: every contact has a row at every time;   peaks of summary.json >= rows up to the last instant of a run that stopped
+//   peaks of summary.json >= rows up to the last instant of a run that stopped
 //
 //   TableRows rows(model, engine, witness);
 //   for each instant: rows.instant(record);
-//   rows.check(directory / "contacts.csv", true, found);
+//   rows.contacts(directory / "contacts.csv", run, found);        which rows there must be: table_span.hpp
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,9 @@
 #include <vector>
 
 #include "run/witnessed_motion.hpp"
-#include "study/witness/told_run.hpp"
+#include "study/witness/table_span.hpp"
 
 namespace signorini {
-
-class CsvReader;
 
 class TableRows {
  public:
@@ -28,19 +26,15 @@ class TableRows {
   TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness, bool stopped);
   /// In the order of time.
   void instant(const InstantRow& row, const InstantRecord& record);
-  /// complete: all contacts have a row at each time. Returns how many rows there were. Errors: FileError.
-  long check(const std::filesystem::path& file, bool complete, const Found& found);
+  /// Of contacts.csv, of motion.csv: all rows, and whether they are all. Return how many there were. Errors: FileError.
+  long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
+  long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   /// Of the rows that were checked, and of the instants.
   void check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const;
+  void check_loads(const std::vector<std::optional<ToldSummary::Load>>& told,
+                   const std::vector<std::optional<Peak>>& peaks, const Found& found) const;
 
  private:
-  struct Row {
-    double t = 0.0;
-    std::size_t contact = 0;
-    std::string state;
-    std::optional<double> gap, ratio;
-    double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
-  };
   struct States {
     double t = 0.0, resolution = 0.0;
     std::vector<ContactState> before, after;
@@ -50,12 +44,16 @@ class TableRows {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
   [[nodiscard]] std::vector<ContactState> states_at(std::size_t contact, double t) const;
-  void check(const Row& row, const char* file, const Found& found);
-  [[nodiscard]] std::vector<Violation> broken_by(const Row& row, const ContactState& state,
+  void check(const ToldRow& row, const ToldRowReader& reader, const char* file, const Found& found);
+  [[nodiscard]] std::vector<Violation> broken_by(const ToldRow& row, const ContactState& state,
                                                  const char* file) const;
-  void check_forces(const Row& row, const ContactState& state, const char* file, const Found& found) const;
-  void check_ratio(const Row& row, const char* file, const Found& found) const;
-  void reach(const Row& row);
+  void check_forces(const ToldRow& row, const ContactState& state, const char* file,
+                    const Found& found) const;
+  void check_slip(const ToldRow& row, const char* file, double of_force, const Found& found) const;
+  void check_ratio(const ToldRow& row, const char* file, const Found& found) const;
+  void reach(const ToldRow& row);
+  [[nodiscard]] double noise_of_length(std::size_t k) const;
+  [[nodiscard]] double noise_of_force(std::size_t k) const;
 
   const Model& model_;
   const WitnessedEngine& engine_;
@@ -64,6 +62,8 @@ class TableRows {
   std::vector<States> states_;
   std::vector<Size> sizes_;
   std::vector<Peak> peaks_;
+  std::vector<ToldSummary::Load> loads_;  // of rows
+  std::vector<bool> reached_;             // by a row
 };
 
 }  // namespace signorini

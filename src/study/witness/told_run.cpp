@@ -25,7 +25,6 @@ class EventCells {
   }
 
   [[nodiscard]] std::optional<Event> next() {
-    ++line_;
     if (!reader_.next()) return std::nullopt;
     Event event;
     for (std::size_t i = 0; i < event_columns.size(); ++i) {
@@ -40,10 +39,15 @@ class EventCells {
     return event;
   }
 
+  /// A last line without its line break was left out.
+  void refuse_if_cut() const {
+    if (reader_.is_cut()) throw FileError(file_.string(), cut_at(reader_, "a line break"));
+  }
+
  private:
   [[noreturn]] void fail(const std::string& expected) const {
-    throw FileError(file_.string(), fmt::format("line {}: {}: found \"{}\", expected {}", line_, name_,
-                                                excerpt(*cell_), expected));
+    throw FileError(file_.string(), fmt::format("line {}: {}: found \"{}\", expected {}", reader_.line(),
+                                                name_, excerpt(*cell_), expected));
   }
   static bool optional(const EventColumn::Field& field) {
     return std::holds_alternative<std::optional<double> Event::*>(field);
@@ -54,7 +58,7 @@ class EventCells {
     value = *found;
   }
   void take(std::optional<double>& value) const { take(value.emplace()); }
-  void take(int& contact) const { contact = names_.at(*cell_, file_, line_); }
+  void take(int& contact) const { contact = names_.at(*cell_, file_, reader_.line()); }
   void take(EventType& type) const {
     for (const EventTypeName& known : all_event_types)
       if (*cell_ == known.name) {
@@ -78,7 +82,6 @@ class EventCells {
   std::vector<std::size_t> at_;
   const std::string* cell_ = nullptr;
   const char* name_ = "";
-  int line_ = 1;
 };
 
 std::optional<Peak> peak_of(const Json& contact) {
@@ -86,6 +89,50 @@ std::optional<Peak> peak_of(const Json& contact) {
   if (peaks == contact.end()) return std::nullopt;
   return Peak{peaks->at("tangential").get<double>(), peaks->at("normal").get<double>(),
               peaks->at("N").get<double>(), peaks->at("T").get<double>()};
+}
+
+std::optional<ToldSummary::Load> load_of(const Json& contact) {
+  const auto load = contact.find("load");
+  if (load == contact.end()) return std::nullopt;
+  const auto value = [&](const char* force, const char* which) {
+    return load->at(force).at(which).at("value").get<double>();
+  };
+  return ToldSummary::Load{value("N", "least"), value("N", "greatest"), value("T", "least"),
+                           value("T", "greatest")};
+}
+
+/// What an ended run says of itself.
+void take_end(const Json& json, const Model& model, const std::string& file, ToldSummary& told) {
+  const auto refuse = [&](const std::string& why) { throw FileError(file, why); };
+  const Json& outcome = json.at("outcome");
+  told.t = outcome.at("t").get<double>();
+  const std::string kind = outcome.value("kind", "");
+  if (kind != "done" && kind != "stopped" && kind != "interrupted")
+    refuse("outcome.kind: found \"" + excerpt(kind) + "\" beside the events of a run that has ended");
+  told.stopped = kind != "done";
+  told.total = json.at("events").at("total").get<long>();
+  told.events_by_type = json.at("events").at("by_type").get<std::map<std::string, long>>();
+  const Json& contacts = json.at("contacts");
+  if (contacts.size() != model.contacts.size())
+    refuse(fmt::format("contacts: found {}, expected {} as in run.toml", contacts.size(),
+                       model.contacts.size()));
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    if (const std::string name = contacts[k].value("name", ""); name != model.contacts[k].name)
+      refuse("contacts: found \"" + excerpt(name) + "\", expected \"" + model.contacts[k].name + "\"");
+    told.peaks.push_back(peak_of(contacts[k]));
+    told.loads.push_back(load_of(contacts[k]));
+  }
+}
+
+void check_units(const Json& json, const Model& model, const std::string& file) {
+  const auto units = json.find("units");
+  if (units == json.end()) return;
+  for (const auto& [what, asked] :
+       {std::pair("force", &model.units.force), std::pair("mass", &model.units.mass),
+        std::pair("length", &model.units.length), std::pair("time", &model.units.time)})
+    if (const std::string found = units->value(what, *asked); found != *asked)
+      throw FileError(file, fmt::format("units.{}: found \"{}\", expected \"{}\" as in run.toml", what,
+                                        excerpt(found), *asked));
 }
 
 }  // namespace
@@ -104,10 +151,16 @@ int ContactNames::at(const std::string& name, const std::filesystem::path& file,
   return found->second;
 }
 
-std::vector<Event> told_events(const std::filesystem::path& directory, const Model& model) {
+std::string cut_at(const CsvReader& reader, const std::string& lacks) {
+  return fmt::format("line {}: found {}, expected {}; the file is cut", reader.line(),
+                     reader.is_cut() ? "no line break" : "no more", lacks);
+}
+
+std::vector<Event> told_events(const std::filesystem::path& directory, const Model& model, bool ended) {
   EventCells cells(directory / "events.csv", model);
   std::vector<Event> events;
   while (auto event = cells.next()) events.push_back(std::move(*event));
+  if (ended) cells.refuse_if_cut();
   return events;
 }
 
@@ -119,7 +172,7 @@ ToldSummary told_summary(const std::filesystem::path& directory, const Model& mo
   try {
     const Json json = parse_json(file);
     ToldSummary told;
-    const Json& outcome = json.at("outcome");
+    static_cast<void>(json.at("outcome"));
     told.ended = json.contains("events");
     const std::string engine = json.value("engine", "");
     const std::optional<Engine> known = engine_called(engine);
@@ -131,14 +184,8 @@ ToldSummary told_summary(const std::filesystem::path& directory, const Model& mo
     told.engine = *known;
     if (const auto settings = json.find("settings"); settings != json.end())
       told.flow = settings->value("flow", "");
-    if (!told.ended) return told;
-    told.t = outcome.at("t").get<double>();
-    told.stopped = outcome.value("kind", "") != "done";
-    told.events_by_type = json["events"].at("by_type").get<std::map<std::string, long>>();
-    told.peaks.resize(model.contacts.size());
-    const Json& contacts = json.at("contacts");
-    for (std::size_t k = 0; k < model.contacts.size() && k < contacts.size(); ++k)
-      told.peaks[k] = peak_of(contacts[k]);
+    check_units(json, model, path.string());
+    if (told.ended) take_end(json, model, path.string(), told);
     return told;
   } catch (const Json::exception& error) {
     throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "behaviour/scene_parts.hpp"
 #include "unit/model/scenes.hpp"
 
 using namespace signorini;
@@ -21,5 +22,49 @@ TEST_SUITE("unit/model/scales") {
     CHECK(there.rotation == doctest::Approx(here.rotation));
     CHECK(there.angular_velocity == doctest::Approx(here.angular_velocity));
     CHECK(there.displacement == doctest::Approx(here.displacement));
+  }
+
+  /// A mass of 4 on a spring of 100: w = 5.
+  Scales under(const std::string& history, const std::string& amplitude = "10.0",
+               const std::string& run = "") {
+    return build_model(
+               parse_scene(tests::parts::head + "[run]\nt_end = 1.0\n" + run +
+                               tests::parts::nodes({{"A", 0, 0}}) + tests::parts::point_mass("A", 4.0) +
+                               tests::parts::fixed("A", "uy, rz") +
+                               tests::parts::spring("A", "[1.0, 0.0]", 100.0) +
+                               "[[loads]]\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = " + amplitude +
+                               "\nhistory = " + history + "\n",
+                           "test.toml"))
+        .scales;
+  }
+
+  TEST_CASE("a load that lasts counts with its amplitude, whatever its history") {
+    for (const char* history :
+         {"{ type = \"constant\" }", "{ type = \"step\", start = 0.9999 }",
+          "{ type = \"rectangle\", start = 0.5, end = 0.55 }", "{ type = \"half_sine\", duration = 0.05 }",
+          "{ type = \"harmonic\", omega = 300.0, start = 0.1 }",
+          "{ type = \"rectangle\", start = 0.0, end = 0.003, period = 0.02 }",
+          "{ type = \"table\", times = [0.0, 0.02, 0.04, 0.06], values = [0.0, 1.0, -1.0, 0.0] }"}) {
+      CAPTURE(history);
+      const Scales s = under(history);
+      CHECK(s.displacement == doctest::Approx(0.1).epsilon(1e-13));
+      CHECK(s.force == doctest::Approx(10.0).epsilon(1e-13));
+    }
+  }
+
+  TEST_CASE("a short pulse counts with 16 times the swing that its impulse leaves, however strong it is") {
+    // J / (m w) = 0.05, m w = 20
+    for (const double duration : {1e-3, 1e-6, 1e-9, 1e-13}) {
+      CAPTURE(duration);
+      const Scales s = under(fmt::format("{{ type = \"rectangle\", start = 0.0, end = {} }}", duration),
+                             fmt::format("{}", 1.0 / duration));
+      CHECK(s.displacement == doctest::Approx(0.8).epsilon(1e-9));
+      CHECK(s.velocity == doctest::Approx(4.0).epsilon(1e-9));
+      CHECK(s.force == doctest::Approx(80.0).epsilon(1e-9));
+    }
+    const auto twice = under("{ type = \"rectangle\", start = 0.0, end = 1e-6, period = 1e-3 }", "1e6");
+    CHECK(twice.displacement > 50.0);  // 200 of them in the time of 1/w
+    const auto alone = under("{ type = \"rectangle\", start = 0.0, end = 1e-6, period = 0.5 }", "1e6");
+    CHECK(alone.displacement == doctest::Approx(0.8).epsilon(1e-6));
   }
 }

@@ -1,0 +1,61 @@
+#include "model/felt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/history/history_internal.hpp"
+#include "model/modes/held.hpp"
+#include "model/statics/null_motions.hpp"
+
+namespace signorini {
+namespace {
+
+/// Loads that last longer than this part of 1/w keep their amplitude: scales are sizes, and what they measure of longer
+/// pulses is right within this factor.
+constexpr double full_above = 1.0 / 16.0;
+
+/// felt / A at this frequency.
+double share_at(const History& f, double amplitude, double t_end, double omega) {
+  return std::min(1.0, omega * greatest_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
+}
+
+/// Frequencies of the swings along the static answers to loads; 0 where there is none.
+class Swings {
+ public:
+  Swings(const Model& model, const Holding& holding) : model_(model) {
+    const SparseMatrix k = with_springs(model.stiffness, holding.springs);
+    if (null_motions(with_grips(k, holding.fixed)).cols() == 0) structure_.emplace(k, holding.fixed);
+  }
+  [[nodiscard]] double along(const Vector& p) const {
+    if (!structure_) return 0.0;
+    const Vector u = structure_->solve(p);
+    const double squared = u.dot(p) / u.dot(model_.mass * u);
+    return std::isfinite(squared) && squared > 0.0 ? std::sqrt(squared) : 0.0;
+  }
+
+ private:
+  const Model& model_;
+  std::optional<HeldStructure> structure_;
+};
+
+}  // namespace
+
+std::vector<FeltLoad> felt_loads(const Model& model, const Holding& holding, double omega, double t_end) {
+  std::vector<FeltLoad> felt(model.loads.size());
+  std::optional<Swings> swings;
+  for (std::size_t i = 0; i < felt.size(); ++i) {
+    const Load& load = model.loads[i];
+    const double amplitude = load.history.is_constant() ? 0.0 : magnitude(load.history, t_end);
+    // The share only grows with the frequency, and the lowest one is known.
+    const double lowest = omega > 0.0 ? omega : 1.0 / t_end;
+    if (!(amplitude > 0.0) || share_at(load.history, amplitude, t_end, lowest) == 1.0) continue;
+    if (!swings) swings.emplace(model, holding);
+    const double own = std::max(lowest, swings->along(full(load.direction, model.size())));
+    felt[i].share = share_at(load.history, amplitude, t_end, own);
+    if (felt[i].share < 1.0) felt[i].thrown = share_at(load.history, amplitude, t_end, 1.0 / t_end);
+  }
+  return felt;
+}
+
+}  // namespace signorini

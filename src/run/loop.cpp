@@ -52,6 +52,8 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
   report_.method = std::move(method);
   decider_.trace(company.listener);
   report_.warnings = model.warnings;
+  for (std::string& sentence : swings_within_steps(model, spec))
+    report_.warnings.push_back(std::move(sentence));
 }
 
 void Loop::begin() { going_ = start() && steered(); }

@@ -37,7 +37,7 @@ Result run_of(const std::string& text) {
 TEST_SUITE_BEGIN("behaviour/short_pulses");
 
 TEST_CASE("an oscillator that is struck: the swing of the impulse, in any time") {
-  for (const char* engine : {"ida", "exact"})
+  for (const char* engine : {"ida", "exact", "newmark"})
     for (const char* type : {"rectangle", "triangle", "half_sine"})
       for (const double duration : {1e-4, 1e-6, 1e-9, 1e-11, 1e-12}) {
         CAPTURE(engine);

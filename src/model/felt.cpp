@@ -15,6 +15,10 @@ namespace {
 /// pulses is right within this factor.
 constexpr double full_above = 1.0 / 16.0;
 
+/// rad: what turns by less than one in the run is free, and has as short pulses as what turns by so many. A thousandth of
+/// the run then counts in full.
+constexpr double of_free = 64.0;
+
 /// felt / A at this frequency.
 double share_at(const History& f, double amplitude, double t_end, double omega) {
   return std::min(1.0, omega * greatest_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
@@ -48,11 +52,12 @@ std::vector<FeltLoad> felt_loads(const Model& model, const Holding& holding, dou
     const Load& load = model.loads[i];
     const double amplitude = load.history.is_constant() ? 0.0 : magnitude(load.history, t_end);
     // The share only grows with the frequency, and the lowest one is known.
-    const double lowest = omega > 0.0 ? omega : 1.0 / t_end;
+    const double lowest = std::max(omega, 1.0 / t_end);
     if (!(amplitude > 0.0) || share_at(load.history, amplitude, t_end, lowest) == 1.0) continue;
     if (!swings) swings.emplace(model, holding);
-    const double own = std::max(lowest, swings->along(full(load.direction, model.size())));
-    felt[i].share = share_at(load.history, amplitude, t_end, own);
+    const double along = swings->along(full(load.direction, model.size()));
+    const double own = along > 0.0 ? along : omega;
+    felt[i].share = share_at(load.history, amplitude, t_end, own * t_end > 1.0 ? own : of_free / t_end);
     if (felt[i].share < 1.0) felt[i].thrown = share_at(load.history, amplitude, t_end, 1.0 / t_end);
   }
   return felt;

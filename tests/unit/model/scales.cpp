@@ -52,6 +52,27 @@ TEST_SUITE("unit/model/scales") {
     }
   }
 
+  TEST_CASE("what the run sees nothing of the swing of is free: a thousandth of the run counts in full") {
+    const auto of = [](double duration) {
+      return build_model(
+                 parse_scene(
+                     tests::parts::head + tests::parts::run_table(3.0, 0.1) +
+                         tests::parts::nodes({{"A", 0, 0}}) + tests::parts::point_mass("A", 4.0) +
+                         tests::parts::fixed("A", "uy, rz") + tests::parts::spring("A", "[1.0, 0.0]", 4e-6) +
+                         fmt::format("[[loads]]\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = 30.0\n"
+                                     "history = {{ type = \"half_sine\", start = 0.5, duration = {} }}\n",
+                                     duration),
+                     "test.toml"))
+          .scales;
+    };
+    CHECK(of(0.1).force == doctest::Approx(30.0).epsilon(1e-13));
+    CHECK(of(0.003).force == doctest::Approx(30.0).epsilon(1e-13));
+    // 16 w J = 16 (64 / 3) (30 1e-6)
+    CHECK(of(1e-6).force == doctest::Approx(0.01024).epsilon(1e-9));
+    // thrown by 16 J / t_end for t_end: 8 J t_end / m
+    CHECK(of(1e-6).displacement == doctest::Approx(8.0 * 30e-6 * 3.0 / 4.0).epsilon(1e-9));
+  }
+
   TEST_CASE("a short pulse counts with 16 times the swing that its impulse leaves, however strong it is") {
     // J / (m w) = 0.05, m w = 20
     for (const double duration : {1e-3, 1e-6, 1e-9, 1e-13}) {

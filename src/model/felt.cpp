@@ -45,20 +45,29 @@ class Swings {
 
 }  // namespace
 
-std::vector<FeltLoad> felt_loads(const Model& model, const Holding& holding, double omega, double t_end) {
-  std::vector<FeltLoad> felt(model.loads.size());
+Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, double t_end) {
   std::optional<Swings> swings;
-  for (std::size_t i = 0; i < felt.size(); ++i) {
-    const Load& load = model.loads[i];
-    const double amplitude = load.history.is_constant() ? 0.0 : magnitude(load.history, t_end);
-    // The share only grows with the frequency, and the lowest one is known.
-    const double lowest = std::max(omega, 1.0 / t_end);
-    if (!(amplitude > 0.0) || share_at(load.history, amplitude, t_end, lowest) == 1.0) continue;
+  const auto own = [&](double along) { return along * t_end > 1.0 ? along : of_free / t_end; };
+  // The share only grows with the frequency, and the lowest one is known.
+  const double lowest = std::max(omega, 1.0 / t_end);
+  const auto lasts = [&](const History& f, double amplitude) {
+    return f.is_constant() || !(amplitude > 0.0) || share_at(f, amplitude, t_end, lowest) == 1.0;
+  };
+  Felt felt;
+  for (const Load& load : model.loads) {
+    FeltLoad& part = felt.loads.emplace_back();
+    const double amplitude = magnitude(load.history, t_end);
+    if (lasts(load.history, amplitude)) continue;
     if (!swings) swings.emplace(model, holding);
     const double along = swings->along(full(load.direction, model.size()));
-    const double own = along > 0.0 ? along : omega;
-    felt[i].share = share_at(load.history, amplitude, t_end, own * t_end > 1.0 ? own : of_free / t_end);
-    if (felt[i].share < 1.0) felt[i].thrown = share_at(load.history, amplitude, t_end, 1.0 / t_end);
+    part.share = share_at(load.history, amplitude, t_end, own(along > 0.0 ? along : omega));
+    if (part.share < 1.0) part.thrown = share_at(load.history, amplitude, t_end, 1.0 / t_end);
+  }
+  for (const Contact& contact : model.contacts) {
+    double& share = felt.compressions.emplace_back(1.0);
+    const double amplitude = contact.is_pressed() ? magnitude(contact.normal_force, t_end) : 0.0;
+    if (!lasts(contact.normal_force, amplitude))
+      share = share_at(contact.normal_force, amplitude, t_end, own(omega));
   }
   return felt;
 }

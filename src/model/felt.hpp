@@ -1,4 +1,4 @@
-// felt.hpp: how large a load counts where its amplitude acts for a short time only.
+// felt.hpp: how large a load or a compression counts where its amplitude acts for a short time only.
 //
 //   felt = min( A, c w J ),   A = max |f|,   J = max_t int_t^(t + 1/w) |f| dt,   c = 16
 //
@@ -22,8 +22,12 @@ struct FeltLoad {
   double thrown = 1.0;  ///< the same of what is thrown in the time of the run, J over all of it
 };
 
+struct Felt {
+  std::vector<FeltLoad> loads;
+  std::vector<double> compressions;  ///< share of each slider's normal_force, w the lowest frequency
+};
+
 /// omega: the lowest frequency of what is held; 0: it has none.
-[[nodiscard]] std::vector<FeltLoad> felt_loads(const Model& model, const Holding& holding, double omega,
-                                               double t_end);
+[[nodiscard]] Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, double t_end);
 
 }  // namespace signorini

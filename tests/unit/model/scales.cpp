@@ -52,6 +52,25 @@ TEST_SUITE("unit/model/scales") {
     }
   }
 
+  TEST_CASE("a compression that is short counts with its impulse, too") {
+    const auto force = [](double duration, double amplitude) {
+      return build_model(
+                 parse_scene(
+                     tests::parts::head + tests::parts::run_table(1.0, 0.1) +
+                         tests::parts::nodes({{"A", 0, 0}}) + tests::parts::point_mass("A", 4.0) +
+                         tests::parts::fixed("A", "uy, rz") + tests::parts::spring("A", "[1.0, 0.0]", 100.0) +
+                         fmt::format(
+                             "[[contacts]]\nname = \"c\"\nnode = \"A\"\nlaw = \"slider\"\ntangent = "
+                             "[1.0, 0.0]\nfriction = 0.2\nnormal_force = {{ type = \"rectangle\", start = "
+                             "0.5, end = {}, amplitude = {} }}\n",
+                             0.5 + duration, amplitude),
+                     "test.toml"))
+          .scales.force;
+    };
+    CHECK(force(0.25, 3.0) == doctest::Approx(3.0).epsilon(1e-13));
+    CHECK(force(1e-9, 1e9) == doctest::Approx(80.0).epsilon(1e-6));  // 16 w J, w = 5
+  }
+
   TEST_CASE("what the run sees nothing of the swing of is free: a thousandth of the run counts in full") {
     const auto of = [](double duration) {
       return build_model(

@@ -46,25 +46,33 @@ double of_own_steps(const Piece& piece, double begin, double end, double dt) {
 }
 
 /// A cubic that stays within its values at both ends, as those between the rows of a table do.
-bool between_rows(const Piece& piece, const Values& f) {
-  const auto [least, greatest] = std::minmax(f.front(), f.back());
-  return !piece.function && piece.amplitude == 0.0 && piece.coefficients.size() == 4 &&
-         *std::max_element(f.begin(), f.end()) <= greatest && *std::min_element(f.begin(), f.end()) >= least;
+bool between_rows(const Piece& piece, double begin, double end) {
+  constexpr int looks = 16;  // a cubic that turns inside goes beyond its ends at several of them
+  if (piece.function || piece.amplitude != 0.0 || piece.coefficients.size() != 4) return false;
+  const auto [least, greatest] = std::minmax({piece.value(begin), piece.value(end)});
+  for (int i = 1; i < looks; ++i)
+    if (const double f = piece.value(begin + (end - begin) * i / looks); f < least || f > greatest)
+      return false;
+  return true;
 }
 
 /// As many parts as this piece needs, 1 where dt does.
 std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
+  if (between_rows(piece, begin, end)) return 1;
   Values f, size;
   for (std::size_t i = 0; i <= finest; ++i) {
     f[i] = piece.value(
         i == finest ? end : begin + (end - begin) * static_cast<double>(i) / static_cast<double>(finest));
     size[i] = std::abs(f[i]);
   }
-  if (between_rows(piece, f)) return 1;
   const double impulse = trapezoid(f, 1), whole = trapezoid(size, 1);
   if (std::abs(of_own_steps(piece, begin, end, dt) - impulse) <= lost * whole) return 1;
   std::size_t parts = 2;
-  while (parts < finest && std::abs(trapezoid(f, finest / parts) - impulse) > passed * whole) parts *= 2;
+  const auto too_few = [&] {
+    return end - begin > dt * static_cast<double>(parts) ||
+           std::abs(trapezoid(f, finest / parts) - impulse) > passed * whole;
+  };
+  while (parts < finest && too_few()) parts *= 2;
   return parts;
 }
 

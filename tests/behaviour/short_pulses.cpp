@@ -57,6 +57,17 @@ TEST_CASE("an oscillator that is struck: the swing of the impulse, in any time")
       }
 }
 
+TEST_CASE("tolerances that miss the swing: the energy balance says so, however strong the pulse") {
+  for (const double duration : {1e-5, 1e-9}) {
+    CAPTURE(duration);
+    const Result result =
+        run_of(struck("engine = \"ida\"\natol = { displacement = 1.0, velocity = 10.0, force = 100.0 }\n",
+                      1.0, "half_sine", 0.1 + duration));
+    REQUIRE(result.report.warnings.size() == 1);
+    CHECK(result.report.warnings[0].find("the energy balance has an error of ") == 0);
+  }
+}
+
 TEST_CASE(
     "a slider whose friction depends on the rate: as many reversals after a short pulse as after a "
     "velocity") {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <tuple>
 
+#include "base/history/resolved.hpp"
 #include "base/rounding.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
@@ -228,6 +229,15 @@ void take_out_rounding_of_statics(Model& model) {
   model.u0.setZero();
 }
 
+/// What the clock cannot tell apart is one.
+void resolve_times(double t_end, Model& model) {
+  for (Load& load : model.loads) load.history = resolved(load.history, t_end);
+  for (Contact& c : model.contacts) {
+    c.normal_force = resolved(c.normal_force, t_end);
+    c.surface_motion = resolved(c.surface_motion, t_end);
+  }
+}
+
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
@@ -274,6 +284,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   check_rigid_contacts(scene, model);
   if (doubted)
     for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
+  resolve_times(scene.run.t_end, model);
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
     reduce(scene, assembly.dampers, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit

@@ -8,6 +8,7 @@
 #include "contact/friction.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
+#include "model/felt.hpp"
 #include "model/modes/held.hpp"
 #include "model/modes/modes.hpp"
 #include "model/statics/null_motions.hpp"
@@ -107,16 +108,18 @@ double greatest_mass(const Model& model, const DofMap& map) {
   return greatest;
 }
 
-double force_of(const Model& model, const DofMap& map, double t_end) {
+double force_of(const Model& model, const DofMap& map, const Felt& felt, double t_end) {
   double force = 0.0;
   for (double reaction : model.statics.reactions) force = std::max(force, reaction);
-  for (const Contact& c : model.contacts) {
-    if (c.is_pressed()) force = std::max(force, magnitude(c.normal_force, t_end));
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (c.is_pressed()) force = std::max(force, felt.compressions[k] * magnitude(c.normal_force, t_end));
     if (c.has_spring()) force = std::max(force, c.normal_stiffness * -std::min(0.0, c.gap_at(model.u0)));
   }
   double held = 0.0;  // by what does not follow; what does takes none of it
-  for (const Load& load : model.loads) {
-    const double most = magnitude(load.history, t_end);
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    const double most = felt.loads[i].share * magnitude(load.history, t_end);
     const Vector direction = full(load.direction, model.size());
     switch (load.kind) {
       case LoadKind::weight:
@@ -176,32 +179,36 @@ Answer answer_to(const std::vector<Vector>& forces, const Model& model, const Do
   return result;
 }
 
-std::vector<Vector> amplitudes_of_loads(const Model& model, double t_end) {
+std::vector<Vector> amplitudes_of_loads(const Model& model, const Felt& felt, double t_end) {
   std::vector<Vector> forces;
-  for (const Load& load : model.loads)
-    forces.emplace_back(full(load.direction, model.size()) * magnitude(load.history, t_end));
+  for (std::size_t i = 0; i < model.loads.size(); ++i)
+    forces.emplace_back(full(model.loads[i].direction, model.size()) *
+                        (felt.loads[i].share * magnitude(model.loads[i].history, t_end)));
   return forces;
 }
 
 /// f N along the tangents of sliders, whose compressions are given.
-std::vector<Vector> limits_of_friction(const Model& model, double t_end) {
+std::vector<Vector> limits_of_friction(const Model& model, const Felt& felt, double t_end) {
   std::vector<Vector> forces;
-  for (const Contact& c : model.contacts)
-    if (const double limit = static_friction(c) * magnitude(c.normal_force, t_end);
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (const double limit = static_friction(c) * (felt.compressions[k] * magnitude(c.normal_force, t_end));
         c.is_pressed() && limit > 0.0)
       forces.emplace_back(full(c.tangent, model.size()) * limit);
+  }
   return forces;
 }
 
 /// How far the loads could throw the structure in the time of the run if nothing held it.
-double thrown(const Model& model, const DofMap& map, double t_end) {
+double thrown(const Model& model, const DofMap& map, const Felt& felt, double t_end) {
   SparseMatrix mass = model.mass;
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) mass.coeffRef(i, i) = 1.0;
   const SymmetricSolver solver(mass);
   double acceleration = 0.0;
-  for (const Load& load : model.loads) {
-    Vector p = full(load.direction, model.size()) * magnitude(load.history, t_end);
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const Load& load = model.loads[k];
+    Vector p = full(load.direction, model.size()) * (felt.loads[k].thrown * magnitude(load.history, t_end));
     for (int i = 0; i < model.size(); ++i)
       if (model.dofs[static_cast<std::size_t>(i)].massless) p[i] = 0.0;
     acceleration += greatest_translation(solver.solve(p), map);
@@ -241,7 +248,6 @@ double spring_answer(const Model& model, double force) {
 Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool>& closed, double t_end) {
   Scales scales;
   const double length = length_of(map);
-  const double force = force_of(model, map, t_end);
   const double v0 = greatest_translation(model.v0, map);
   const Holding holding = hold_contacts(model.contacts, closed);
   Holding rested;  // without friction on what is rigid and closed
@@ -249,9 +255,11 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
     if (closed[k] && model.contacts[k].takes_impulses()) rested.fixed.push_back(model.contacts[k].normal);
   const double omega =
       model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, rested);
+  const Felt felt = felt_amplitudes(model, holding, omega, t_end);
+  const double force = force_of(model, map, felt, t_end);
 
   double displacement = greatest_translation(model.u0, map);
-  const std::vector<Vector> loads = amplitudes_of_loads(model, t_end);
+  const std::vector<Vector> loads = amplitudes_of_loads(model, felt, t_end);
   const auto [held, gripped] = answer_to(loads, model, map, holding);
   displacement = std::max(displacement, held > 0.0 ? held : answer_to(loads, model, map, rested).held);
   if (displacement < only_rounding * gripped) displacement = gripped;
@@ -259,13 +267,13 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const auto answers = [&](double x) { return usable(x) && x > least; };
   if (!answers(displacement)) displacement = 0.0;
   // A free motion that is held by roundoff alone, or hardly, answers without bound.
-  if (const double farthest = thrown(model, map, t_end); usable(farthest))
+  if (const double farthest = thrown(model, map, felt, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
   // What starts with a velocity moves at least as far as the fastest oscillation would take it.
   if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
   // What only friction moves goes as far as its limit bends the structure.
   if (!usable(displacement))
-    displacement = answer_to(limits_of_friction(model, t_end), model, map, rested).held;
+    displacement = answer_to(limits_of_friction(model, felt, t_end), model, map, rested).held;
   if (!answers(displacement)) displacement = spring_answer(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))

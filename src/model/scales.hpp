@@ -3,6 +3,7 @@
 //   force         greatest static reaction, compression, load amplitude
 //   displacement  greatest static deflection, initial displacement, static answer to a load amplitude; where
 //                 there is none, static answer to a slider's friction limit
+//   (a pulse that is too short for the structure counts with less than its amplitude: felt.hpp)
 //   velocity      omega * displacement, at least the initial velocity
 //   rotation = displacement / L,  angular velocity = velocity / L      L: diagonal of the structure
 //

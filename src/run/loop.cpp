@@ -52,6 +52,8 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
   report_.method = std::move(method);
   decider_.trace(company.listener);
   report_.warnings = model.warnings;
+  for (std::string& sentence : swings_within_steps(model, spec))
+    report_.warnings.push_back(std::move(sentence));
 }
 
 void Loop::begin() { going_ = start() && steered(); }
@@ -231,8 +233,8 @@ void Loop::pass_turns(const std::vector<Stepper::ContactTurn>& turns) {
 
 /// Decides the states at t_, applies and records them.
 bool Loop::instant(std::vector<Fired> fired, std::optional<Mode> adopted) {
-  under_way_ = false;
-  if (response_.any()) engine_->accelerate(t_, point_);  // under the forcing before
+  // Under the forcing before. Where no stretch was opened the point is the decision's, and the engine may know none.
+  if (std::exchange(under_way_, false) && response_.any()) engine_->accelerate(t_, point_);
   Instant now;
   now.resolution = resolution_;
   now.knows_low_flights = engine_->knows_low_flights();

@@ -2,29 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "contact/slots.hpp"
+#include "motion/clock.hpp"
 
 namespace signorini {
 namespace {
 
-double fastest_of(const History& history) {
-  double omega = 0.0;
-  for (const Piece& piece : history.pieces())
-    if (piece.amplitude != 0.0) omega = std::max(omega, std::abs(piece.omega));
-  return omega;
+/// A piece that swings, while it is in force.
+struct Swing {
+  double from, to, omega;
+};
+
+/// Those that the clock sees.
+void add_swings(const History& history, std::vector<Swing>& all) {
+  constexpr double ever = std::numeric_limits<double>::infinity();
+  const std::vector<double>& starts = history.starts();
+  for (std::size_t i = 0; i < history.pieces().size(); ++i) {
+    const Piece& piece = history.pieces()[i];
+    if (piece.amplitude == 0.0 || piece.omega == 0.0) continue;
+    const double from = i == 0 ? -ever : starts[i - 1], to = i == starts.size() ? ever : starts[i];
+    if (std::isinf(to) || to - from > resolution_at(to, 0.0))
+      all.push_back({from, to, std::abs(piece.omega)});
+  }
 }
 
-double fastest_given(const Model& model) {
-  double omega = 0.0;
-  for (const Load& load : model.loads) omega = std::max(omega, fastest_of(load.history));
-  for (const Contact& contact : model.contacts)
-    omega = std::max({omega, fastest_of(contact.normal_force), fastest_of(contact.surface_motion)});
+std::vector<Swing> swings_given(const Model& model) {
+  std::vector<Swing> all;
+  for (const Load& load : model.loads) add_swings(load.history, all);
+  for (const Contact& contact : model.contacts) {
+    add_swings(contact.normal_force, all);
+    add_swings(contact.surface_motion, all);
+  }
   for (const Output& output : model.outputs)
     for_each_linear(output, [&](const Output& o) {
-      for (const Output::Given& given : o.given) omega = std::max(omega, fastest_of(given.history));
+      for (const Output::Given& given : o.given) add_swings(given.history, all);
     });
-  return omega;
+  return all;
 }
 
 }  // namespace
@@ -43,10 +59,37 @@ double added(const Ripple& ripple, const Reach& reach, const Output& linear) {
 
 Pace::Pace(const Model& model, double t_end) : model_(model), t_end_(t_end) { loads_changed(); }
 
-void Pace::loads_changed() { given_ = std::max(fastest_given(model_), 1.0 / t_end_); }
+void Pace::loads_changed() {
+  struct Change {
+    double t, omega;
+    bool begins;
+  };
+  std::vector<Change> ends;
+  for (const Swing& swing : swings_given(model_)) {
+    ends.push_back({swing.from, swing.omega, true});
+    ends.push_back({swing.to, swing.omega, false});
+  }
+  std::sort(ends.begin(), ends.end(), [](const Change& a, const Change& b) { return a.t < b.t; });
+  changes_.clear();
+  fastest_.assign(1, 0.0);
+  std::multiset<double> acting;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i].begins)
+      acting.insert(ends[i].omega);
+    else
+      acting.erase(acting.find(ends[i].omega));
+    if (i + 1 < ends.size() && ends[i + 1].t == ends[i].t) continue;
+    changes_.push_back(ends[i].t);
+    fastest_.push_back(acting.empty() ? 0.0 : *acting.rbegin());
+  }
+}
 
-double Pace::of_all(const Stepper& engine, double length) const {
-  return std::max(given_, std::min(model_.omega_max, engine.turns() / length));
+double Pace::of_all(const Stepper& engine, double begin, double end) {
+  given_ = 1.0 / t_end_;
+  auto next = std::upper_bound(changes_.begin(), changes_.end(), begin);
+  do given_ = std::max(given_, fastest_[static_cast<std::size_t>(next - changes_.begin())]);
+  while (next != changes_.end() && *next++ < end);
+  return std::max(given_, std::min(model_.omega_max, engine.turns() / (end - begin)));
 }
 
 double Pace::of_what_counts(const Stepper& engine, double all,

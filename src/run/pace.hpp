@@ -4,10 +4,12 @@
 //             reach_u U + reach_v V + reach_a A + sum |N_k| n_k + |T_k| t_k  <=  what counts        (engine/ripple.hpp)
 //
 // A stiff structure at rest has modes whose swings are nothing but the rounding of its displacements. They turn
-// thousands of times faster than the motion, and their peaks are nobody's. Loads and their like count as they are.
+// thousands of times faster than the motion, and their peaks are nobody's. Loads and their like count as they are, while
+// they act: a pulse turns fast between its ends, and what it leaves behind does not.
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "engine/stepper.hpp"
 
@@ -29,9 +31,9 @@ class Pace {
 
   /// The model's loads are others from here on.
   void loads_changed();
-  /// Of structure and loads, where a step of that length was made.
-  [[nodiscard]] double of_all(const Stepper& engine, double length) const;
-  /// No more than `all`, and no less than loads ask for.
+  /// Of structure and loads, in the last step.
+  [[nodiscard]] double of_all(const Stepper& engine, double begin, double end);
+  /// In the step that of_all() was asked about. No more than `all`, and no less than loads ask for.
   [[nodiscard]] double of_what_counts(const Stepper& engine, double all,
                                       const std::function<bool(const Ripple&)>& is_rounding) const;
   /// At which a run turns by so many radians.
@@ -40,7 +42,9 @@ class Pace {
  private:
   const Model& model_;
   double t_end_;
-  double given_ = 0.0;  // the fastest load, and at least 1/t_end
+  std::vector<double> changes_;  // times at which the fastest load changes, ascending
+  std::vector<double> fastest_;  // before the first of them, from each of them on
+  double given_ = 0.0;           // the fastest load of the step, and at least 1/t_end
 };
 
 }  // namespace signorini

@@ -153,7 +153,7 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
 
 /// How fast what outputs show of a step turns. Its ranges are those at the points of the whole step at least.
 double ResponseWatch::turning(Stepper& engine, const Part& step) {
-  double omega = pace_.of_all(engine, step.end - step.begin);
+  double omega = pace_.of_all(engine, step.begin, step.end);
   if (omega * (step.end - step.begin) > longest && engine.ripple(omega)) {
     for (std::size_t j = 0; j < Chebyshev::count; ++j) sample(engine, step, step.begin, j);
     for (std::size_t k = 0; k < watched_.size(); ++k)
@@ -163,13 +163,14 @@ double ResponseWatch::turning(Stepper& engine, const Part& step) {
     const Ripple whole = engine.whole();
     omega = pace_.of_what_counts(engine, omega, [&](const Ripple& r) { return is_rounding(r, whole); });
   }
-  const double most = pace_.fastest(most_pieces * longest);
+  // A step that is one part costs no more than others.
+  const double most = std::max(pace_.fastest(most_pieces * longest), longest / (step.end - step.begin));
   if (omega > most && !coarse_)
     coarse_ = fmt::format(
         "outputs: the motion turns by {:.2g} radians in the run; between rows their extremes were looked for "
         "in "
         "parts of {:.2g}, in which a peak may be missed",
-        omega * most_pieces * longest / most, omega / most * longest);
+        omega / pace_.fastest(1.0), omega / most * longest);
   return std::min(omega, most);
 }
 

@@ -8,11 +8,14 @@
 #include "base/listed.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
+#include "engine/newmark/short_pulse.hpp"
 #include "model/said.hpp"
 
 namespace signorini {
 namespace {
 
+// Of a load's swing in a step, rad: the impulse of a half wave is off by its square over 12, a twelfth.
+constexpr double most_turned = 1.0;
 constexpr double much_energy = 1e-3;   // of what is exchanged, that the balance may miss without a word
 constexpr double least_energy = 1e-9;  // of the scene's scales, or of what is stored: at rest nothing is
                                        // exchanged but rounding
@@ -34,6 +37,29 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
         "contact '{}': initial_shear = {:.6g} {} is above the friction limit at t = 0; T starts at {:.6g} {}",
         model.contacts[k].name, said(model, asked, unit::force), model.units.force,
         said(model, found, unit::force), model.units.force));
+  }
+  return sentences;
+}
+
+std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& run) {
+  std::vector<std::string> sentences;
+  if (name_of(run.engine).accuracy != Accuracy::step || run.step != StepControl::fixed || !run.dt)
+    return sentences;
+  for (const Load& load : model.loads) {
+    double omega = 0.0;
+    const std::vector<double>& starts = load.history.starts();
+    for (std::size_t i = 0; i <= starts.size(); ++i) {
+      const Piece& piece = load.history.pieces()[i];
+      const double from = i == 0 ? 0.0 : std::max(0.0, starts[i - 1]),
+                   to = i == starts.size() ? run.t_end : std::min(run.t_end, starts[i]);
+      if (piece.amplitude != 0.0 && to - from >= short_of_steps * *run.dt)
+        omega = std::max(omega, std::abs(piece.omega));
+    }
+    if (omega * *run.dt > most_turned)
+      sentences.push_back(fmt::format(
+          "'{}' turns by {:.3g} rad in a step of run.dt = {:.6g}, which does not resolve it; use a "
+          "smaller dt",
+          load.name, omega * *run.dt, said_time(model, *run.dt)));
   }
   return sentences;
 }

@@ -11,6 +11,10 @@ namespace signorini {
 /// An initial_shear beyond the friction limit cannot stand; what is left of it. `start`: the first decision.
 [[nodiscard]] std::vector<std::string> cut_shears(const Model& model, const Decision& start);
 
+/// Loads that swing by more than a radian in a step of a given length, one sentence each. Short pulses are stepped through
+/// as they need.
+[[nodiscard]] std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& run);
+
 /// An impact that gains energy.
 [[nodiscard]] std::string impact_gain(double t, double gain);
 

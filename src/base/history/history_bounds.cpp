@@ -87,23 +87,52 @@ double negative_in(const Piece& p, double from, double to) {
   return from < to ? search(p, from, to) : -1.0;
 }
 
+/// Of one piece.
+double magnitude_between(const Piece& p, double from, double to) {
+  double largest = 0.0;
+  Piece polynomial = p;
+  polynomial.amplitude = 0.0;
+  const bool turns = std::abs(p.omega) * (to - from) > std::numbers::pi;
+  const int samples = p.function ? samples_of_functions : 64;
+  for (int i = 0; i <= samples; ++i) {
+    const double t = from + (to - from) * i / samples;
+    const double value =
+        turns && !p.function ? std::abs(polynomial.value(t)) + std::abs(p.amplitude) : std::abs(p.value(t));
+    largest = std::max(largest, value);
+  }
+  return largest;
+}
+
 }  // namespace
 
 double magnitude(const History& f, double t_end) {
   double largest = 0.0;
   each_part(f, t_end, [&](const Piece& p, double from, double to) {
-    Piece polynomial = p;
-    polynomial.amplitude = 0.0;
-    const bool turns = std::abs(p.omega) * (to - from) > std::numbers::pi;
-    const int samples = p.function ? samples_of_functions : 64;
-    for (int i = 0; i <= samples; ++i) {
-      const double t = from + (to - from) * i / samples;
-      const double value =
-          turns && !p.function ? std::abs(polynomial.value(t)) + std::abs(p.amplitude) : std::abs(p.value(t));
-      largest = std::max(largest, value);
-    }
+    largest = std::max(largest, magnitude_between(p, from, to));
   });
   return largest;
+}
+
+double greatest_impulse(const History& f, double t_end, double width) {
+  std::vector<double> ends{0.0}, until{0.0}, size;  // of parts, the integral up to there, |f| in them
+  each_part(f, t_end + width, [&](const Piece& p, double from, double to) {
+    // Nobody asks a function of one's own for what comes after the run.
+    const double seen = p.function ? std::min(to, t_end) : to;
+    size.push_back(from <= seen ? magnitude_between(p, from, seen) : 0.0);
+    ends.push_back(to);
+    until.push_back(until.back() + size.back() * (to - from));
+  });
+  const auto integral = [&](double t) {
+    if (t <= 0.0) return 0.0;
+    const auto next = std::upper_bound(ends.begin(), ends.end(), t);
+    if (next == ends.end()) return until.back();
+    const auto part = static_cast<std::size_t>(next - ends.begin()) - 1;
+    return until[part] + size[part] * (t - ends[part]);
+  };
+  double greatest = 0.0;  // begins with a part, or ends with one
+  for (const double t : ends)
+    greatest = std::max({greatest, integral(t + width) - integral(t), integral(t) - integral(t - width)});
+  return greatest;
 }
 
 double negative_at(const History& f, double t_end) {

@@ -20,6 +20,10 @@ namespace signorini {
 /// otherwise. Units of f.
 [[nodiscard]] double magnitude(const History& f, double t_end);
 
+/// An upper estimate of the greatest integral of |f| over a time of this width that begins in [0, t_end]: of each piece its
+/// greatest |f| counts while it is in force. Units of f times time.
+[[nodiscard]] double greatest_impulse(const History& f, double t_end, double width);
+
 /// A time in [0, t_end] at which f is negative beyond roundoff, -1 when it is nowhere: proved with the
 /// troughs of sines and with bounds on polynomials, not sampled (but functions of one's own). Pieces count up to and including the time
 /// at which the next one begins.

@@ -9,6 +9,7 @@
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "contact/transition.hpp"
+#include "engine/newmark/short_pulse.hpp"
 #include "model/said.hpp"
 #include "motion/clock.hpp"
 
@@ -43,6 +44,7 @@ void FrictionIteration::start(const Segment& segment) {
   mode_ = decision.mode;
   key_in_force_.clear();
   step_.set({}, signorini::rows_of(model_, mode_));
+  within_ = step_within(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
@@ -198,12 +200,13 @@ Step FrictionIteration::advance() {
     std::swap(begin_, end_);
     return step;
   }
-  // Steps end at multiples of dt; after a discontinuity of the forcing a shorter one returns to them.
-  t1_ = dt_ * (std::floor(t0_ / dt_ + same_length) + 1.0);
-  if (segment_.end - t1_ <= same_length * dt_) t1_ = segment_.end;
+  // Steps end at multiples of dt; after a discontinuity of the forcing a shorter one returns to them. Those within a short
+  // pulse count from its beginning.
+  t1_ = within_ < dt_ ? t0_ + within_ : dt_ * (std::floor(t0_ / dt_ + same_length) + 1.0);
+  if (segment_.end - t1_ <= same_length * within_) t1_ = segment_.end;
   double h = t1_ - t0_;
-  const bool whole = std::abs(h - dt_) <= same_length * dt_;
-  if (whole) h = dt_;
+  const bool whole = std::abs(h - within_) <= same_length * within_;
+  if (whole) h = within_;
   ++counters.steps;
   std::string failure = t1_ > t0_ ? iterate(h, whole) : "the step is below the resolution of time";
   step_.count(counters);

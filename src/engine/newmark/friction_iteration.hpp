@@ -75,6 +75,7 @@ class FrictionIteration final : public Stepper {
   double bound_error_ = 0.0;  // of |T| <= f |N|, force
   Point begin_, end_;
   double t0_ = 0.0, t1_ = 0.0;
+  double within_ = 0.0;  // length of whole steps: dt, or what a short pulse asks for
 };
 
 }  // namespace signorini

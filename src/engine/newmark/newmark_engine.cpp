@@ -9,6 +9,7 @@
 
 #include "base/rounding.hpp"
 #include "engine/falls/root.hpp"
+#include "engine/newmark/short_pulse.hpp"
 #include "motion/clock.hpp"
 
 namespace signorini {
@@ -60,6 +61,7 @@ void NewmarkEngine::start(const Segment& segment) {
   // What sticks does not move, so that doubling sees nothing of the load on it.
   if (const double omega = doubling_ ? segment.forcing->greatest_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
+  within_ = doubling_ ? dt_ : step_within(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
@@ -325,7 +327,7 @@ Step NewmarkEngine::advance() {
   h_before_ = h_;
   guards_.turn();
   const double remaining = segment_.end - t0_;
-  double h = doubling_ ? doubled(remaining) : dt_;
+  double h = doubling_ ? doubled(remaining) : within_;
   inner_time_ = nan;
   tried_ = 0.0;
   const bool last = remaining <= h * (1.0 + same_length);

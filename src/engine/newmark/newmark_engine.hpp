@@ -100,6 +100,7 @@ class NewmarkEngine final : public Stepper {
   double t0_ = 0.0, t1_ = 0.0;       // the last step
   double h_ = 0.0, h_before_ = 0.0;  // its length, that of the one before (0: none)
   double regular_ = 0.0;             // length of steps without events
+  double within_ = 0.0;              // the same with fixed steps: dt, or what a short pulse asks for
   double counted_from_ = 0.0;        // these end at counted_from_ + k counted_length_, without drift
   double counted_length_ = 0.0;
   long counted_ = 0;

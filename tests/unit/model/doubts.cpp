@@ -118,6 +118,16 @@ TEST_CASE("a pulse that is shorter than the clock can tell") {
   CHECK(pulse("{ type = \"rectangle\", start = 0.25, end = 0.2500000000001 }").empty());
   CHECK(pulse("{ type = \"table\", times = [0.0, 0.25, 0.25000000000001, 2.0], values = [1, 1, 3, 3] }")
             .empty());
+  // Of pieces that meet in a peak, of curves, and from the beginning on.
+  CHECK(says(pulse("{ type = \"triangle\", start = 0.25, end = 0.25000000000002 }"), "that lasts 2e-14"));
+  CHECK(says(pulse("{ type = \"half_sine\", start = 0.25, duration = 5e-15 }"), "that lasts 5"));
+  CHECK(says(pulse("{ type = \"half_sine\", start = 0.25, duration = 4e-17 }"),
+             "that lasts 5.55e-17"));  // an ulp
+  CHECK(says(pulse("{ type = \"half_sine\", start = 0.0, duration = 1e-17 }"), "that lasts 1e-17"));
+  CHECK(says(pulse("{ type = \"half_sine\", start = 0.0, duration = 1e-200 }"), "that lasts 1e-200"));
+  CHECK(says(pulse("{ type = \"rectangle\", start = 0.0, end = 1e-16 }"), "that lasts 1e-16"));
+  CHECK(pulse("{ type = \"half_sine\", start = 0.25, duration = 1e-13 }").empty());
+  CHECK(pulse("{ type = \"step\", start = 1e-16 }").empty());
 }
 
 TEST_CASE("supports that move at once") {

@@ -97,6 +97,34 @@ TEST_CASE("extremes of a decaying sine between two rows: times and values of the
   CHECK(rows.rows[0].second == 0.5);
 }
 
+TEST_CASE("a pulse asks for a finer search while it acts, not after") {
+  Output output;
+  output.constant = 0.5;
+  output.u.terms = {{0, -2.0}};
+  const auto asked = [&](const char* load) {
+    Model model = model_with(output);
+    model.loads.emplace_back();
+    Piece swing;
+    swing.origin = 1.0;
+    swing.amplitude = 1.0;
+    swing.omega = M_PI / 1e-7;
+    if (*load != 0) model.loads.back().history = History({1.0, 1.0 + 1e-7}, {Piece{}, swing, Piece{}});
+    Rows rows;
+    Known motion;
+    ResponseWatch watch(model, 20.0, rows, true);
+    Point point;
+    motion.evaluate(0.0, point);
+    watch.row(0.0, Side::after, point, {});
+    const double ends[] = {0.0, 1.0, 1.0 + 1e-7, 20.0};
+    for (int i = 0; i < 3; ++i) watch.inside(motion, ends[i], ends[i + 1]);
+    CHECK_FALSE(watch.coarse());
+    const double first = std::atan(30.0) / 3.0;
+    CHECK(watch.extremes()[0].t_minimum == doctest::Approx(first).epsilon(1e-6));
+    return motion.asked;
+  };
+  CHECK(asked("pulse") <= asked("") + 17 * 64);  // 32 parts of a radian, and their halves
+}
+
 TEST_CASE(
     "a sum that is the rounding of its terms is settled as such, not halved down to the fastest motion") {
   Output output;

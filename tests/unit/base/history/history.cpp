@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/history/history_internal.hpp"
+#include "base/history/resolved.hpp"
 #include "scene/history_from_spec.hpp"
 
 using namespace signorini;
@@ -186,5 +187,54 @@ TEST_SUITE("unit/base/history/history") {
     CHECK(negative_at(make_history(s, "h"), 100.0) == doctest::Approx(pi / 6.0));
     CHECK(negative_at(make_history(spec(HistoryType::half_sine, 0.0, 0.3), "h"), 1.0) < 0.0);
     CHECK(magnitude(make_history(spec(HistoryType::triangle, 0.5, 0.6), "h"), 1.0) == doctest::Approx(1.0));
+  }
+
+  TEST_CASE("the greatest impulse within a time") {
+    const auto impulse = [](const History& f, double width) { return greatest_impulse(f, 10.0, width); };
+    const History pulse = make_history(spec(HistoryType::rectangle, 0.5, 0.75), "h").scaled(-8.0);
+    CHECK(impulse(pulse, 0.1) == doctest::Approx(0.8));
+    CHECK(impulse(pulse, 3.0) == doctest::Approx(2.0));
+    // 2 for 1, then 1 for 4: the best time of 3 has all of the first; the best time within one piece has no end of it
+    const History table = make_history(table_spec({0.0, 1.0, 1.0, 5.0}, {2.0, 2.0, 1.0, 1.0}), "h");
+    CHECK(impulse(table, 3.0) == doctest::Approx(4.0));
+    HistorySpec s = spec(HistoryType::harmonic, 1.0, HUGE_VAL);
+    s.omega = 1e-3;
+    CHECK(impulse(make_history(s, "h"), 1.0) == doctest::Approx(std::sin(1e-3 * 10.0)).epsilon(1e-3));
+    s.omega = 3.0;
+    CHECK(impulse(make_history(s, "h"), 1.0) == doctest::Approx(1.0));
+    // A load that has just begun when the run ends is no pulse.
+    CHECK(greatest_impulse(make_history(spec(HistoryType::step, 9.999, HUGE_VAL), "h"), 10.0, 2.0) ==
+          doctest::Approx(2.0));
+    // Pulses that follow each other count together, as many as are in that time.
+    HistorySpec again = spec(HistoryType::rectangle, 0.0, 0.01);
+    again.period = 1.0;
+    again.rounds = 10;
+    CHECK(impulse(make_history(again, "h"), 2.5) == doctest::Approx(0.03));
+  }
+
+  TEST_CASE("what the clock of a run cannot tell apart is one") {
+    const double t_end = 0.5;  // 1.1e-14
+    CHECK(resolved(make_history(spec(HistoryType::rectangle, 1e-200, 1e-20), "h"), t_end)
+              .breakpoints()
+              .empty());
+    const History late = resolved(make_history(spec(HistoryType::rectangle, 1e-20, 0.25), "h"), t_end);
+    CHECK(late.value(0.0) == 1.0);
+    CHECK(late.piece_before(0.0).value(0.0) == 0.0);
+    CHECK(late.starts() == std::vector<double>{0.0, 0.25});
+    const History early =
+        resolved(make_history(table_spec({-1.0, 0.0, 1e-16, 2.0}, {1.0, 1.0, 3.0, 3.0}), "h"), t_end);
+    CHECK(early.starts() == std::vector<double>{-1.0, 0.0, 2.0});
+    CHECK(early.value(0.0) == doctest::Approx(3.0));
+    CHECK(early.piece_before(0.0).value(0.0) == 1.0);
+    const History risen =
+        resolved(make_history(table_spec({0.25, 0.3, 0.3 + 1e-14, 0.4}, {1.0, 1.0, 3.0, 3.0}), "h"), t_end);
+    CHECK(risen.starts() == std::vector<double>{0.25, 0.3 + 1e-14, 0.4});
+    CHECK(risen.value(0.3 + 1e-14) == 3.0);
+    CHECK(resolved(make_history(spec(HistoryType::half_sine, 0.25, 0.25 + 1e-14), "h"), t_end).value(0.3) ==
+          0.0);
+    for (const HistorySpec& s : every_type()) {
+      const History f = make_history(s, "h");
+      CHECK(resolved(f, t_end).starts() == f.starts());
+    }
   }
 }

@@ -1,0 +1,101 @@
+// Impulses that steps of average acceleration pass on.
+#include "engine/newmark/short_pulse.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "behaviour/scene_parts.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::tests::short_pulse {
+namespace {
+
+using namespace parts;
+
+constexpr double dt = 0.01;
+
+/// A free mass of 1 under a load from 0.103 on.
+std::string scene(const std::string& history, const std::string& engine) {
+  return head + fmt::format("[run]\nt_end = 0.5\nengine = \"{}\"\ndt = {}\n", engine, dt) +
+         nodes({{"A", 0, 0}}) + point_mass("A", 1.0) + fixed("A", "uy, rz") +
+         "[[loads]]\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = 10.0\nhistory = " + history + "\n";
+}
+
+/// Whether `v` is what the impulse makes, within this part of it.
+void check_impulse(const std::string& history, double impulse, double part) {
+  for (const char* engine : {"newmark", "friction-iteration"}) {
+    CAPTURE(history);
+    CAPTURE(engine);
+    const Scene s = parse_scene(scene(history, engine), "test.toml");
+    const Result result = simulate(build_model(s), s.run);
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    CHECK(result.rows.back().v[0] == doctest::Approx(impulse).epsilon(part));
+    for (const std::string& warning : result.report.warnings)
+      CHECK(warning.find("turns by") == std::string::npos);
+  }
+}
+
+long steps_of(const std::string& history) {
+  const Scene s = parse_scene(scene(history, "newmark"), "test.toml");
+  return simulate(build_model(s), s.run).report.counters.steps;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/engine/newmark/short_pulse");
+
+TEST_CASE("a half sine passes its impulse on, however short beside dt") {
+  for (const double duration : {1e-13, 1e-9, 1e-5, 1e-3, 5e-3, 0.01, 0.012, 0.02, 0.03})
+    check_impulse(fmt::format("{{ type = \"half_sine\", start = 0.103, duration = {} }}", duration),
+                  20.0 / M_PI * (0.103 + duration - 0.103), 1e-4);
+}
+
+TEST_CASE("a pulse that fits a few steps is left to dt, whose trapezoidal rule is of second order") {
+  for (const double duration : {0.05, 0.08, 0.16, 0.24})
+    check_impulse(fmt::format("{{ type = \"half_sine\", start = 0.1, duration = {} }}", duration),
+                  20.0 / M_PI * duration, std::pow(M_PI * dt / duration, 2) / 11.0);
+  // 50 steps, wherever the breakpoints are multiples of dt
+  CHECK(steps_of("{ type = \"half_sine\", start = 0.1, duration = 0.05 }") == 50);
+}
+
+TEST_CASE("polynomials and bursts that vanish where they begin and end") {
+  // 10 (s/T - (s/T)^2), 10 (s^2/T^2 - s^3/T^3) (steps of a table end at its rows, but not those of this)
+  check_impulse(
+      "{ type = \"polynomial\", start = 0.103, end = 0.105, coefficients = [0.0, 500.0, -250000.0] }",
+      10.0 * 2e-3 / 6.0, 1e-4);
+  check_impulse(
+      "{ type = \"polynomial\", start = 0.103, end = 0.105, coefficients = [0.0, 0.0, 250000.0, "
+      "-125000000.0] }",
+      10.0 * 2e-3 / 12.0, 1e-3);
+  // three half waves: one is left
+  check_impulse(fmt::format("{{ type = \"harmonic\", start = 0.103, end = 0.109, omega = {} }}", M_PI / 2e-3),
+                20.0 / M_PI * 2e-3, 1e-3);
+}
+
+TEST_CASE("tables keep the steps of dt, straight or smooth, whose rows are denser or not") {
+  const auto table = [](const char* interpolation) {
+    return fmt::format(
+        "{{ type = \"table\", times = [0.1, 0.102, 0.104, 0.11, 0.13, 0.14], values = [0, 1, 0.5, 2, "
+        "1, 0], interpolation = \"{}\" }}",
+        interpolation);
+  };
+  CHECK(steps_of(table("linear")) == steps_of(table("steffen")));
+  CHECK(steps_of(table("linear")) == 52);  // 0.102 and 0.104 are two more
+}
+
+TEST_CASE("a load that swings within steps is named") {
+  const auto warnings = [](double omega) {
+    const Scene s = parse_scene(
+        scene(fmt::format("{{ type = \"harmonic\", start = 0.0, omega = {} }}", omega), "newmark"),
+        "test.toml");
+    return simulate(build_model(s), s.run).report.warnings;
+  };
+  CHECK(warnings(99.0).empty());
+  REQUIRE(warnings(150.0).size() == 1);
+  CHECK(warnings(150.0)[0].find("'load 1' turns by 1.5 rad in a step of run.dt = 0.01") == 0);
+}
+
+TEST_SUITE_END();
+
+}  // namespace signorini::tests::short_pulse

@@ -1,7 +1,6 @@
-# Writes the ctest entries of a doctest program: one a test case, labelled with its suite; or one a suite (BY_SUITE), but for the
-# test cases WITHOUT, doctest's patterns with commas between them.
+# Writes the ctest entries of a doctest program: one a test case, labelled with its suite; or one a suite (BY_SUITE).
 #
-#   cmake -DPROGRAM=... -DOUTPUT=... -DFOLDER=... [-DBY_SUITE=ON -DWITHOUT=...] -P discover.cmake
+#   cmake -DPROGRAM=... -DOUTPUT=... -DFOLDER=... [-DBY_SUITE=ON] -P discover.cmake
 #
 # doctest's own doctest_discover_tests asks once a test case for its suite, and loses test cases with a comma
 # in their names.
@@ -54,6 +53,6 @@ foreach(case IN LISTS cases)
 endforeach()
 list(REMOVE_DUPLICATES suites)
 foreach(suite IN LISTS suites)
-  entry("${suite}" "[==[--test-suite=${suite}]==] [==[--test-case-exclude=${WITHOUT}]==]" 0 "${suite}")
+  entry("${suite}" "[==[--test-suite=${suite}]==]" 0 "${suite}")
 endforeach()
 file(WRITE "${OUTPUT}" "${script}")

@@ -18,9 +18,6 @@
 namespace signorini {
 namespace {
 
-// Times noise and resolution, where decisions go in circles, or an engine and a decision contradict.
-constexpr double unlucky = 16.0;
-
 /// How a guard passed through zero, from the motion in the mode that it ended.
 Crossing crossing(const Form& form, const MotionJet& jet) {
   Crossing result{form, true, {}, form.magnitude(jet.noise[0])};
@@ -33,12 +30,6 @@ bool is_pushed(const Failure& f, const Instant& instant, const ContactMotion& be
                const ContactMotion& noise) {
   return f.sign.order == 0 && !instant.has_fired(f.contact, f.guard) &&
          f.form.value(before) > unlucky * f.form.magnitude(noise);
-}
-
-std::vector<std::size_t> contacts_of(const std::vector<Failure>& failed) {
-  std::vector<std::size_t> result;
-  for (const Failure& f : failed) result.push_back(f.contact);
-  return result;
 }
 
 std::vector<std::size_t> every_contact(const Model& model) {
@@ -92,32 +83,6 @@ std::vector<Fired> resting(const Decision& decision) {
   return result;
 }
 
-struct Decider::Course {
-  Instant instant;
-  const Forcing& after;
-  Decision decision;
-  Mode mode;                    // tried last
-  std::vector<MotionJet> jets;  // in it
-  std::vector<Failure> failed;  // there
-  std::vector<Mode> seen;       // for recognising a circle
-  std::vector<ContactMotion> noise_before;
-  Findings found;
-  std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states stay
-  bool blurred = false;
-  Vector given = {};                       // at a start: u as it is given, before parts without mass move
-  std::vector<MotionJet> so_far = {};      // up to the instant; empty where no limit has rested
-  std::optional<TouchOnWay> touched = {};  // in this round, by parts without mass that move at once
-  std::vector<std::size_t> slid = {};      // contacts that have slid at once and stopped
-  std::optional<std::vector<std::size_t>> open =
-      {};                            // contacts whose guards are not all clearly positive; else: any
-  const Forcing* forcing = nullptr;  // under which the mode tried last was evaluated,
-  double blur = 0.0;                 // how blurred
-  Eigen::VectorXd held = {};         // what holds the mode tried last; Decision::captures
-
-  /// Where parts without mass begin that move at once.
-  [[nodiscard]] const Vector& comes_from() const { return instant.start ? given : instant.u; }
-};
-
 Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, bool whole_jets)
     : model_(systems.model()),
       systems_(systems),
@@ -129,17 +94,15 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, 
       max_rounds_(max_rounds),
       touching_(systems, jets_, capture_velocity),
       guards_(model_),
-      blocks_(coupled_contacts(model_)),
-      block_of_(model_.contacts.size()) {
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (const std::size_t c : blocks_[b]) block_of_[c] = b;
+      blocks_(model_),
+      circles_(systems, jets_, blocks_) {
   if (whole_jets || !decide_alone_) return;
   near_.emplace(systems);
   if (!near_->possible()) near_.reset();
 }
 
 /// The motion in a mode. False: its rows are dependent.
-bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
+bool Decider::evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& course) {
   systems_.tell_held(mode, forcing, course.instant.t);
   Decision& d = course.decision;
   const Instant& instant = course.instant;
@@ -184,7 +147,7 @@ std::vector<BodySlide> Decider::slides(const Forcing& forcing, const Decision& d
 }
 
 /// The motion just before, in the old mode under the old forcing, and the states that the forcing asks for.
-Refusal Decider::begin(const Forcing& before, Course& course) {
+Refusal Decider::begin(const Forcing& before, DecisionCourse& course) {
   Instant& instant = course.instant;
   Decision& d = course.decision;
   if (!evaluate(before, instant.mode, course)) return no_system(model_, instant.mode);
@@ -211,17 +174,17 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
   return {};
 }
 
-bool Decider::held_by_others(std::size_t c, const Course& course) const {
+bool Decider::held_by_others(std::size_t c, const DecisionCourse& course) const {
   return systems_.may_share(c) && systems_.held_by_others(c, course.mode, course.after, course.instant.t);
 }
 
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
-void Decider::look(Course& course, bool before) {
+void Decider::look(DecisionCourse& course, bool before) {
   course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known,
                            course.so_far, course.open ? *course.open : every_);
   std::erase_if(course.failed, [&](const Failure& f) {
     if (f.guard == Guard::sliding && held_by_others(f.contact, course)) return true;
-    return std::find(course.undecided.begin(), course.undecided.end(), block_of_[f.contact]) !=
+    return std::find(course.undecided.begin(), course.undecided.end(), blocks_.of[f.contact]) !=
            course.undecided.end();
   });
   if (!listener_) return;
@@ -235,7 +198,7 @@ void Decider::look(Course& course, bool before) {
 }
 
 /// What stops on its way is held where it has come to, not where it came from. Once a contact: then it is another way.
-void Decider::stop_there(const Failure& f, Course& course) const {
+void Decider::stop_there(const Failure& f, DecisionCourse& course) const {
   std::vector<std::size_t>& before = course.slid;
   if (!stops_on_way(model_.contacts[f.contact], f, course.mode[f.contact].state,
                     {course.instant.u, course.decision.u}, course.jets[f.contact].noise[0].ut) ||
@@ -247,9 +210,9 @@ void Decider::stop_there(const Failure& f, Course& course) const {
 }
 
 /// Contacts that decide alone take their next states. Returns the blocks that must be decided together.
-std::vector<Block> Decider::react(Course& course) const {
+std::vector<Block> Decider::react(DecisionCourse& course) const {
   Findings& found = course.found;
-  std::vector<bool> jointly(blocks_.size(), false);
+  std::vector<bool> jointly(blocks_.all.size(), false);
   std::vector<std::size_t> turning;
   const MasslessWay way{course.comes_from(), course.decision.u};
   course.touched = first_touch(model_, way, course.failed);
@@ -266,7 +229,7 @@ std::vector<Block> Decider::react(Course& course) const {
         !is_pushed(f, course.instant, course.decision.before[c], course.noise_before[c]))
       course.decision.crossings[c] = crossing(f.form, course.jets[c]);
     course.decision.visited[c] = true;
-    if (found.sliders) jointly[block_of_[c]] = true;
+    if (found.sliders) jointly[blocks_.of[c]] = true;
     const bool slips = is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
     if (!contact.takes_impulses() && !joins) {
@@ -280,7 +243,7 @@ std::vector<Block> Decider::react(Course& course) const {
         course.mode[c] = {state_at_rest(contact), course.jets[c].motion[0].ut + course.touched->ut};
       continue;
     }
-    jointly[block_of_[c]] = true;
+    jointly[blocks_.of[c]] = true;
     // It was to leave, but in the mode that came of it g' is nothing; or it fell and g' was nothing.
     if (f.guard == Guard::closing && f.sign.order > 1 &&
         (found.known[c].touches || course.instant.has_fired(c, Guard::closing)))
@@ -293,17 +256,17 @@ std::vector<Block> Decider::react(Course& course) const {
   }
   stop(turning, course);
   if (course.instant.start && course.decision.rounds == 1)
-    for (std::size_t c = 0; c < block_of_.size(); ++c)
-      if (model_.contacts[c].takes_impulses()) jointly[block_of_[c]] = true;
+    for (std::size_t c = 0; c < blocks_.of.size(); ++c)
+      if (model_.contacts[c].takes_impulses()) jointly[blocks_.of[c]] = true;
   std::vector<Block> result;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    if (jointly[b]) result.push_back(blocks_[b]);
+  for (std::size_t b = 0; b < blocks_.all.size(); ++b)
+    if (jointly[b]) result.push_back(blocks_.all[b]);
   return result;
 }
 
 /// Sliders that turn do so from rest: what locating has left of their slip rates would outlive what comes
 /// after.
-void Decider::stop(const std::vector<std::size_t>& turning, Course& course) const {
+void Decider::stop(const std::vector<std::size_t>& turning, DecisionCourse& course) const {
   if (turning.empty()) return;
   const ModeSystemPtr system = systems_.of(course.mode);
   if (!system) return;
@@ -315,97 +278,8 @@ void Decider::stop(const std::vector<std::size_t>& turning, Course& course) cons
     course.found.capture(turning, settle(delassus(model_, *system, turning), fixed, course.instant.v));
 }
 
-/// All combinations of states of a block, where no other way leads to one that holds.
-Refusal Decider::enumerate(std::size_t block, Course& course) {
-  Enumeration enumeration(systems_, jets_);
-  std::vector<Enumeration::Choice> choices;
-  for (const Participant& who : course.found.participants)
-    if (block_of_[who.contact] == block) choices.push_back(enumeration.choice(who));
-  for (const std::size_t c : blocks_[block]) {
-    const Contact& contact = model_.contacts[c];
-    if (contact.takes_impulses() || !course.decision.visited[c]) continue;
-    const bool takes_part = std::any_of(choices.begin(), choices.end(),
-                                        [&](const Enumeration::Choice& other) { return other.contact == c; });
-    if (!takes_part)
-      choices.push_back(enumeration.choice(c, course.instant.mode[c], course.decision.before[c]));
-  }
-  Refusal refusal{
-      Refusal::Kind::endless,
-      "no combination of states is consistent; guards that fail: " + names_of(model_, course.failed),
-      contacts_of(course.failed)};
-  const auto best = enumeration.least_failing(course.instant, course.after, blocks_[block], choices,
-                                              course.found.known, course.mode);
-  if (!best) return refusal;
-  refusal.condition = best->condition;
-  refusal.residual = best->forgiveness;
-  if (!best->rival.empty()) {
-    refusal.kind = Refusal::Kind::ambiguous;
-    refusal.reason = fmt::format("{}; guards that fail in the last that was tried: {}",
-                                 several_motions(model_, choices, *best), names_of(model_, course.failed));
-  }
-  if (!best->acceptable()) return refusal;
-  course.mode = best->mode;
-  for (const std::size_t c : blocks_[block]) course.found.known[c] = course.found.known[c].of_motion();
-  course.undecided.push_back(block);
-  course.decision.undecided = true;
-  course.decision.forgiven = std::max(course.decision.forgiven, best->forgiveness);
-  return {};
-}
-
-/// Zeros were told by one sample of rounding, and by the clock, perhaps too sharply. False: they were blurred
-/// before.
-bool Decider::blur(Course& course) {
-  if (std::exchange(course.blurred, true)) return false;
-  course.instant.blur = unlucky;
-  course.instant.resolution *= unlucky;
-  return true;
-}
-
-/// No combination of states holds: what is without mass may leave the contact in question. False: it cannot, or
-/// has before.
-bool Decider::release(std::size_t block, Course& course) {
-  std::vector<std::size_t> circling;
-  for (const Failure& f : course.failed)
-    if (block_of_[f.contact] == block) circling.push_back(f.contact);
-  if (circling.size() != 1) return false;
-  const std::size_t c = circling.front();
-  std::vector<std::size_t>& before = course.decision.released;
-  if (std::find(before.begin(), before.end(), c) != before.end()) return false;
-  auto u = released(systems_, jets_, course.after, course.instant, course.mode, c);
-  if (!u) return false;
-  before.push_back(c);
-  course.instant.u = std::move(*u);
-  const Contact& contact = model_.contacts[c];
-  course.mode[c] = {let_go(contact, contact.gap_at(course.instant.u)), 0.0};
-  course.found.known[c] = {};
-  course.seen.clear();
-  return true;
-}
-
-/// Where modes repeat: zeros were told by one sample of rounding, and by the clock, perhaps too sharply; then
-/// sliders may have to be decided together; then rounding cannot tell, and all combinations are weighed.
-Refusal Decider::leave_circle(Course& course) {
-  if (blur(course)) {
-    course.seen.clear();
-    return {};
-  }
-  if (!course.found.sliders) {
-    course.found.sliders = true;
-    return {};
-  }
-  std::vector<std::size_t> circling;
-  for (const Failure& f : course.failed)
-    if (circling.empty() ||
-        std::find(circling.begin(), circling.end(), block_of_[f.contact]) == circling.end())
-      circling.push_back(block_of_[f.contact]);
-  for (const std::size_t block : circling)
-    if (Refusal why = enumerate(block, course))
-      if (!release(block, course)) return why;
-  return {};
-}
-
 /// How what fell with others, by the rounding of its gap, passed through zero.
-void Decider::note_hits(Course& course) const {
+void Decider::note_hits(DecisionCourse& course) const {
   Decision& d = course.decision;
   if (d.rounds > 1) return;
   for (std::size_t c = 0; c < d.impulses.size(); ++c)
@@ -414,7 +288,7 @@ void Decider::note_hits(Course& course) const {
 }
 
 /// The next mode, from the guards that failed in the last one.
-Refusal Decider::propose(Course& course) {
+Refusal Decider::propose(DecisionCourse& course) {
   Decision& d = course.decision;
   const std::vector<Block> jointly = react(course);
   course.found.hit = false;
@@ -430,14 +304,14 @@ Refusal Decider::propose(Course& course) {
   if (course.found.hit) course.seen.clear();  // other velocities: the same states mean something else
   const bool again = std::find(course.seen.begin(), course.seen.end(), course.mode) != course.seen.end();
   if (again && !(course.instant.start && d.rounds == 1))
-    if (Refusal why = leave_circle(course)) return why;
+    if (Refusal why = circles_.leave(course)) return why;
   course.seen.push_back(course.mode);
   return {};
 }
 
 /// The next mode, and its motion. A slider that has come to rest beside what sticks need not stick: where the
 /// rows of both are dependent they are decided together.
-Refusal Decider::try_next(Course& course) {
+Refusal Decider::try_next(DecisionCourse& course) {
   const Mode last = course.mode;
   if (Refusal why = propose(course)) return why;
   if (evaluate(course.after, course.mode, course)) return {};
@@ -453,12 +327,12 @@ Refusal Decider::try_next(Course& course) {
   return why;
 }
 
-Refusal Decider::go(const Forcing& before, Course& course) {
+Refusal Decider::go(const Forcing& before, DecisionCourse& course) {
   if (Refusal why = begin(before, course)) return why;
   course.seen.push_back(course.mode);
   look(course, true);
   if (course.failed.empty() && !course.instant.fired.empty() && !course.instant.jump) {
-    blur(course);  // an engine saw a guard fall: what holds it up may be rounding
+    course.make_blurred();  // an engine saw a guard fall: what holds it up may be rounding
     look(course, true);
   }
   Decision& d = course.decision;
@@ -475,7 +349,7 @@ Refusal Decider::go(const Forcing& before, Course& course) {
 }
 
 /// Does it stick at its limit from this instant on, and no derivative says for how long?
-bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard) {
+bool Decider::rests_at_limit(const DecisionCourse& course, std::size_t c, const GuardStart& guard) {
   const bool limit = is_friction_limit(guard.kind);
   const bool asked =
       course.instant.start || course.instant.jump || course.decision.visited[c] || course.found.decided[c];
@@ -485,7 +359,7 @@ bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardSta
 
 /// Does it stop at its static limit, to rounding, where kinetic friction is less? Beyond it slips at once, and not by some
 /// roundings. At a start the way of the loads led to the limit, not beyond it.
-bool Decider::meets_static_limit(const Course& course, std::size_t c, const GuardStart& guard) const {
+bool Decider::meets_static_limit(const DecisionCourse& course, std::size_t c, const GuardStart& guard) const {
   const bool asked = course.decision.visited[c] || course.found.decided[c];
   return model_.contacts[c].friction.drops() && is_friction_limit(guard.kind) && asked &&
          !course.instant.start && guard.at_zero && guard.leading > 0 &&
@@ -493,12 +367,13 @@ bool Decider::meets_static_limit(const Course& course, std::size_t c, const Guar
 }
 
 /// All its guards are positive at order 0.
-bool Decider::clearly_holds(const Course& course, std::size_t c) {
+bool Decider::clearly_holds(const DecisionCourse& course, std::size_t c) {
   return course.open && !std::binary_search(course.open->begin(), course.open->end(), c);
 }
 
 /// Of a guard that is not clearly positive: does it start at zero, and what does it do then?
-void Decider::look_at_start(Course& course, std::size_t c, const GuardForm& guard, GuardStart& start) const {
+void Decider::look_at_start(DecisionCourse& course, std::size_t c, const GuardForm& guard,
+                            GuardStart& start) const {
   Decision& d = course.decision;
   const MotionJet& jet = course.jets[c];
   const Known known = course.found.known[c].of(guard.kind);
@@ -523,7 +398,7 @@ void Decider::look_at_start(Course& course, std::size_t c, const GuardForm& guar
 }
 
 /// What an engine and the log want to know of the new mode.
-void Decider::finish(Course& course) {
+void Decider::finish(DecisionCourse& course) {
   Decision& d = course.decision;
   d.consistent = true;
   course.found.capture(every_, course.held);
@@ -554,7 +429,7 @@ void Decider::finish(Course& course) {
 }
 
 /// Enumeration may find what release() would: a contact at its limit of friction opens, and its force drops to zero.
-void Decider::note_left(const Course& course, Decision& d) const {
+void Decider::note_left(const DecisionCourse& course, Decision& d) const {
   const Instant& now = course.instant;
   if (now.jump || now.start || !d.released.empty()) return;
   for (const Fired& f : now.fired) {
@@ -567,7 +442,7 @@ void Decider::note_left(const Course& course, Decision& d) const {
 
 /// What slips at a rate that is zero with all its derivatives is at rest. Where others that stick hold it there
 /// its own row adds nothing to theirs, and its force need not be the limit that it was left at.
-Refusal Decider::held_at_rest(const Course& course) const {
+Refusal Decider::held_at_rest(const DecisionCourse& course) const {
   const Decision& d = course.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
     const GuardStart& guard = d.guards[slot];
@@ -587,7 +462,7 @@ Refusal Decider::held_at_rest(const Course& course) const {
 
 Decider::Attempt Decider::attempt(const Instant& instant, const Forcing& before, const Forcing& after) {
   const std::size_t count = model_.contacts.size();
-  Course course{instant, after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
+  DecisionCourse course{instant, after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
   course.jets = std::move(room_);
   course.decision.visited.assign(count, false);
   course.decision.jumped.assign(count, false);
@@ -629,7 +504,7 @@ Refusal Decider::standstill(const Decision& last, std::vector<std::size_t> conta
 }
 
 Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) {
-  Course course{instant, forcing, {}, {}, {}, {}, {}, {}, Findings(mode.size()), {}};
+  DecisionCourse course{instant, forcing, {}, {}, {}, {}, {}, {}, Findings(mode.size()), {}};
   Decision& d = course.decision;
   d.visited.assign(mode.size(), false);
   d.jumped.assign(mode.size(), false);

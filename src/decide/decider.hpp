@@ -13,8 +13,7 @@
 // flights at rest, too.
 #pragma once
 
-#include "decide/enumeration.hpp"
-#include "decide/touching.hpp"
+#include "decide/circle.hpp"
 #include "motion/near_jets.hpp"
 
 namespace signorini {
@@ -42,36 +41,33 @@ class Decider {
   void trace(RoundListener listener) { listener_ = std::move(listener); }
 
  private:
-  /// One decision under way.
-  struct Course;
   struct Attempt {
     Decision decision;
     bool grounded = false;  // Findings
     double slowest = 0.0;
   };
   [[nodiscard]] Attempt attempt(const Instant& instant, const Forcing& before, const Forcing& after);
-  [[nodiscard]] bool evaluate(const Forcing& forcing, Mode& mode, Course& course);
-  [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
-  void look(Course& course, bool before);
-  void stop_there(const Failure& f, Course& course) const;
-  [[nodiscard]] std::vector<Block> react(Course& course) const;
-  void stop(const std::vector<std::size_t>& turning, Course& course) const;
-  [[nodiscard]] Refusal enumerate(std::size_t block, Course& course);
-  void note_hits(Course& course) const;
-  [[nodiscard]] Refusal propose(Course& course);
-  [[nodiscard]] Refusal try_next(Course& course);
-  static bool blur(Course& course);
-  [[nodiscard]] bool release(std::size_t block, Course& course);
-  [[nodiscard]] bool held_by_others(std::size_t c, const Course& course) const;
-  [[nodiscard]] Refusal leave_circle(Course& course);
-  [[nodiscard]] Refusal go(const Forcing& before, Course& course);
-  [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);
-  [[nodiscard]] bool meets_static_limit(const Course& course, std::size_t c, const GuardStart& guard) const;
-  [[nodiscard]] static bool clearly_holds(const Course& course, std::size_t c);
-  void look_at_start(Course& course, std::size_t contact, const GuardForm& guard, GuardStart& start) const;
-  void finish(Course& course);
-  void note_left(const Course& course, Decision& decision) const;
-  [[nodiscard]] Refusal held_at_rest(const Course& course) const;
+  [[nodiscard]] bool evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& course);
+  [[nodiscard]] Refusal begin(const Forcing& before, DecisionCourse& course);
+  void look(DecisionCourse& course, bool before);
+  void stop_there(const Failure& f, DecisionCourse& course) const;
+  [[nodiscard]] std::vector<Block> react(DecisionCourse& course) const;
+  void stop(const std::vector<std::size_t>& turning, DecisionCourse& course) const;
+  void note_hits(DecisionCourse& course) const;
+  [[nodiscard]] Refusal propose(DecisionCourse& course);
+  [[nodiscard]] Refusal try_next(DecisionCourse& course);
+  [[nodiscard]] bool held_by_others(std::size_t c, const DecisionCourse& course) const;
+  [[nodiscard]] Refusal go(const Forcing& before, DecisionCourse& course);
+  [[nodiscard]] static bool rests_at_limit(const DecisionCourse& course, std::size_t c,
+                                           const GuardStart& guard);
+  [[nodiscard]] bool meets_static_limit(const DecisionCourse& course, std::size_t c,
+                                        const GuardStart& guard) const;
+  [[nodiscard]] static bool clearly_holds(const DecisionCourse& course, std::size_t c);
+  void look_at_start(DecisionCourse& course, std::size_t contact, const GuardForm& guard,
+                     GuardStart& start) const;
+  void finish(DecisionCourse& course);
+  void note_left(const DecisionCourse& course, Decision& decision) const;
+  [[nodiscard]] Refusal held_at_rest(const DecisionCourse& course) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
 
   const Model& model_;
@@ -83,9 +79,9 @@ class Decider {
   int max_rounds_;
   Touching touching_;
   GuardsInForce guards_;
-  std::vector<Block> blocks_;
-  std::vector<std::size_t> block_of_;  // one a contact
-  std::vector<MotionJet> room_;        // of the last decision, for the next one
+  ContactBlocks blocks_;
+  CircleExit circles_;
+  std::vector<MotionJet> room_;  // of the last decision, for the next one
   RoundListener listener_;
 };
 

@@ -59,5 +59,11 @@ template <class Guarded>
     names.push_back("'" + model.contacts[g.contact].name + "' (" + to_string(g.guard) + ")");
   return listed_plainly(names);
 }
+template <class Guarded>
+[[nodiscard]] std::vector<std::size_t> contacts_of(const std::vector<Guarded>& list) {
+  std::vector<std::size_t> result;
+  for (const Guarded& g : list) result.push_back(g.contact);
+  return result;
+}
 
 }  // namespace signorini

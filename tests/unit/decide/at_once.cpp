@@ -35,12 +35,6 @@ Failure failing(std::size_t contact, Guard guard, int order = 0) {
 
 Vector at(double x, double y) { return Vector{{x, y, 0.0}}; }
 
-std::vector<std::size_t> contacts(const std::vector<Failure>& failed) {
-  std::vector<std::size_t> result;
-  for (const Failure& f : failed) result.push_back(f.contact);
-  return result;
-}
-
 using Contacts = std::vector<std::size_t>;
 
 }  // namespace
@@ -59,7 +53,7 @@ TEST_CASE("of walls on the way the first is touched, and what comes later is ano
   CHECK(touch->part == doctest::Approx(0.1 / 0.5).epsilon(1e-15));  // 0.1 (1 - x) - 0.4 x = 0
   // t . (u(x) - u_to), t = (0.6, 0.8)
   CHECK(touch->ut == doctest::Approx((0.6 * 1.0 + 0.8 * 0.5) * 0.8).epsilon(1e-15));
-  CHECK(contacts(failed) ==
+  CHECK(contacts_of(failed) ==
         Contacts{1, 2, 0});  // that wall 0 is touched comes later, that it slides is no touch
 }
 
@@ -82,7 +76,7 @@ TEST_CASE("slip of what is on its way is told where it arrives") {
   std::vector<Failure> failed = {failing(0, Guard::sliding), failing(1, Guard::separation),
                                  failing(3, Guard::sliding)};
   leave_sliding_for_later(model, failed);
-  CHECK(contacts(failed) == Contacts{1, 3});
+  CHECK(contacts_of(failed) == Contacts{1, 3});
   // Nothing is on a way: the other fails by its rate only, or has mass, or slides itself.
   for (const Failure& other :
        {failing(1, Guard::separation, 1), failing(3, Guard::separation), failing(1, Guard::sliding)}) {

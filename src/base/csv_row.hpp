@@ -12,7 +12,8 @@
 
 namespace signorini {
 
-/// False at the end, where `cells` has what a last line without its line break has, and for a row of more than 100 MB (a million degrees of freedom have 40), which is none.
+/// False at the end, where `cells` has what a last line without its line break has, and for a row of more than 100 MB
+/// (a million degrees of freedom have 40), which is none.
 [[nodiscard]] bool read_csv_row(std::istream& in, std::vector<std::string>& cells);
 
 }  // namespace signorini

@@ -12,7 +12,6 @@
 #include "decide/places.hpp"
 #include "decide/release.hpp"
 #include "decide/unique_forces.hpp"
-#include "model/assembly/parts.hpp"
 #include "motion/hold.hpp"
 
 namespace signorini {

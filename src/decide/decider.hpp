@@ -6,11 +6,10 @@
 // Contacts whose guard fails take their next state (contact/transition.hpp), the jet is expanded again
 // in the new mode, until all guards hold. Rigid contacts are decided together (decide/touching.hpp):
 // velocities first where one closes with g' < 0, then accelerations and their derivatives. Sliders without
-// tangential stiffness join them if their own states repeat, or if several of them may hold one motion. Where rounds go in circles, what rounding has
-// made of zeros was told too sharply: first blurred, then all combinations of states are tried
-// (decide/enumeration.hpp). If no mode is consistent the decision says so; where a flight was taken as rest
-// for nothing but its height, it is made once more with that flight flown, then with slip rates as small as such
-// flights at rest, too.
+// tangential stiffness join them if their own states repeat, or if several of them may hold one motion. Where rounds
+// go in circles, there are ways on (decide/circle.hpp). If no mode is consistent the decision says so; where a flight
+// was taken as rest for nothing but its height, it is made once more with that flight flown, then with slip rates as
+// small as such flights at rest, too.
 #pragma once
 
 #include "decide/circle.hpp"

@@ -148,6 +148,14 @@ void forget_a_velocity(std::vector<Cells>& table) {
   table[row][v] = times(table[row][v], 1.0 + 1e-9);
 }
 
+/// What the witness says of a run of this scene.
+Ending witness_of_untouched(const char* text, const char* engine) {
+  const Shell shell;
+  shell.write("planted.toml", text);
+  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", engine}).code == 0);
+  return shell.run({"witness", "kept"});
+}
+
 }  // namespace
 
 TEST_CASE("cli witness: a run that nobody touched keeps all laws, by its files alone") {
@@ -155,10 +163,7 @@ TEST_CASE("cli witness: a run that nobody touched keeps all laws, by its files a
     for (const char* engine : {"exact", "ida", "newmark"}) {
       CAPTURE(text);
       CAPTURE(engine);
-      const Shell shell;
-      shell.write("planted.toml", text);
-      REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", engine}).code == 0);
-      const Ending ending = shell.run({"witness", "kept"});
+      const Ending ending = witness_of_untouched(text, engine);
       CHECK(ending.code == 0);
       CHECK(ending.out.find("all laws hold") != std::string::npos);
       CHECK(ending.err == "");
@@ -225,10 +230,7 @@ surface_velocity = { type = "harmonic", frequency = 2.1, start = 0.2, end = 1.4,
        {std::pair(pendulum, "ida"), std::pair(surface, "exact"), std::pair(surface, "ida")}) {
     CAPTURE(text);
     CAPTURE(engine);
-    const Shell shell;
-    shell.write("planted.toml", text);
-    REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", engine}).code == 0);
-    const Ending ending = shell.run({"witness", "kept"});
+    const Ending ending = witness_of_untouched(text, engine);
     CHECK(ending.code == 0);
     if (ending.code != 0) MESSAGE(ending.out);
   }

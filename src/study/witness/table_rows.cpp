@@ -60,26 +60,23 @@ std::vector<ContactState> TableRows::states_at(std::size_t contact, double t) co
 }
 
 long TableRows::contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
-  ToldRowReader reader(file, model_);
-  TableSpan span(model_, run, found);
-  long rows = 0;
-  for (; const auto row = reader.next(); ++rows) {
-    span.grid_row(*row);
-    check(*row, reader, "contacts.csv", found);
-  }
-  span.end_of_grid(reader);
-  return rows;
+  return read(file, "contacts.csv", {&TableSpan::grid_row, &TableSpan::end_of_grid}, run, found);
 }
 
 long TableRows::motion(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
+  return read(file, "motion.csv", {&TableSpan::block_row, &TableSpan::end_of_blocks}, run, found);
+}
+
+long TableRows::read(const std::filesystem::path& file, const char* name, const Order& order,
+                     const RunSpan& run, const Found& found) {
   ToldRowReader reader(file, model_);
   TableSpan span(model_, run, found);
   long rows = 0;
   for (; const auto row = reader.next(); ++rows) {
-    span.block_row(*row);
-    check(*row, reader, "motion.csv", found);
+    (span.*order.row)(*row);
+    check(*row, reader, name, found);
   }
-  span.end_of_blocks(reader);
+  (span.*order.end)(reader);
   return rows;
 }
 

@@ -43,6 +43,12 @@ class TableRows {
   struct Size {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
+  struct Order {  // of the rows of a table
+    void (TableSpan::*row)(const ToldRow&);
+    void (TableSpan::*end)(const ToldRowReader&) const;
+  };
+  long read(const std::filesystem::path& file, const char* name, const Order& order, const RunSpan& run,
+            const Found& found);
   [[nodiscard]] std::vector<ContactState> states_at(std::size_t contact, double t) const;
   void check(const ToldRow& row, const ToldRowReader& reader, const char* file, const Found& found);
   [[nodiscard]] std::vector<Violation> broken_by(const ToldRow& row, const ContactState& state,

@@ -10,6 +10,7 @@
 #include "decide/at_once.hpp"
 #include "decide/driven_states.hpp"
 #include "decide/places.hpp"
+#include "decide/plain_form.hpp"
 #include "decide/release.hpp"
 #include "decide/unique_forces.hpp"
 #include "motion/hold.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 /// How a guard passed through zero, from the motion in the mode that it ended.
 Crossing crossing(const Form& form, const MotionJet& jet) {
-  Crossing result{form, true, {}, form.magnitude(jet.noise[0])};
+  Crossing result{form, {}, form.magnitude(jet.noise[0])};
   for (std::size_t k = 1; k < jet.motion.size(); ++k) result.derivatives[k - 1] = form.rate(jet.motion[k]);
   return result;
 }
@@ -226,7 +227,7 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
     // What is touched on the way is touched at a time that others give.
     if (!course.decision.visited[c] && !touched(c) &&
         !is_pushed(f, course.instant, course.decision.before[c], course.noise_before[c]))
-      course.decision.crossings[c] = crossing(f.form, course.jets[c]);
+      course.decision.crossings.insert_or_assign(c, crossing(f.form, course.jets[c]));
     course.decision.visited[c] = true;
     if (found.sliders) jointly[blocks_.of[c]] = true;
     const bool slips = is_friction_limit(f.guard);
@@ -282,8 +283,9 @@ void Decider::note_hits(DecisionCourse& course) const {
   Decision& d = course.decision;
   if (d.rounds > 1) return;
   for (std::size_t c = 0; c < d.impulses.size(); ++c)
-    if (d.impulses[c].hit && !d.crossings[c].failed)
-      d.crossings[c] = crossing(guards(model_.contacts[c], course.instant.mode[c])[0].form, course.jets[c]);
+    if (d.impulses[c].hit)
+      d.crossings.try_emplace(
+          c, crossing(guards(model_.contacts[c], course.instant.mode[c])[0].form, course.jets[c]));
 }
 
 /// The next mode, from the guards that failed in the last one.
@@ -406,7 +408,8 @@ void Decider::finish(DecisionCourse& course) {
   d.unresolved = course.found.unresolved;
   d.slides_after = slides(course.after, d);
   d.after.reserve(course.mode.size());
-  d.guards.reserve(guard_count(course.mode.size()));
+  d.guards.resize(guard_count(course.mode.size()));
+  GuardStart* next = d.guards.data();
   for (std::size_t c = 0; c < course.mode.size(); ++c) {
     const MotionJet& jet = course.jets[c];
     const ContactMotion& now = jet.motion[0];
@@ -415,15 +418,15 @@ void Decider::finish(DecisionCourse& course) {
                   std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
     const bool clear = clearly_holds(course, c);
     for (const GuardForm& guard : guards_.of(c, course.mode[c])) {
-      GuardStart& start = d.guards.emplace_back();
+      GuardStart& start = *next++;
       // Others may hold its slip rate at zero, whatever rounding makes of it: then it has none.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, course))) continue;
       start.kind = guard.kind;
-      start.form = guard.form;
-      start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
+      start.noise = course.instant.blur * QuickForm(guard.form).magnitude(jet.noise[0]);
       if (!clear) look_at_start(course, c, guard, start);
     }
   }
+  d.forms = guards_.all();
   note_left(course, d);
 }
 
@@ -465,7 +468,6 @@ Decider::Attempt Decider::attempt(const Instant& instant, const Forcing& before,
   course.jets = std::move(room_);
   course.decision.visited.assign(count, false);
   course.decision.jumped.assign(count, false);
-  course.decision.crossings.resize(count);
   course.decision.refusal = go(before, course);
   if (!course.decision.refusal) {
     finish(course);
@@ -507,7 +509,6 @@ Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing&
   Decision& d = course.decision;
   d.visited.assign(mode.size(), false);
   d.jumped.assign(mode.size(), false);
-  d.crossings.resize(mode.size());
   Mode taken = mode;
   if (!evaluate(forcing, taken, course)) {
     d.refusal = no_system(model_, mode);
@@ -519,8 +520,8 @@ Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing&
   d.before = d.after;
   d.slides_after = d.slides_before = slides(forcing, d);
   for (std::size_t c = 0; c < taken.size(); ++c)
-    for (const GuardForm& guard : guards(model_.contacts[c], taken[c]))
-      d.guards.push_back({guard.kind, guard.form});
+    for (const GuardForm& guard : guards_.of(c, taken[c])) d.guards.push_back({guard.kind});
+  d.forms = guards_.all();
   return std::move(d);
 }
 

@@ -3,22 +3,23 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "decide/guard_signs.hpp"
 #include "decide/impact.hpp"
 #include "motion/jet.hpp"
 #include "signorini/trace.hpp"
 
 namespace signorini {
 
-/// One guard in force after the decision.
+/// How one guard starts that is in force after the decision.
 struct GuardStart {
   Guard kind = Guard::none;
-  Form form;
   bool at_zero = false;  ///< starts at zero and rises
-  double noise = 0.0;    ///< rounding of its value at the start; no less than what was taken for zero
   int leading = 0;       ///< order of its first derivative that is not zero; -1: none is known
+  double noise = 0.0;    ///< rounding of its value at the start; no less than what was taken for zero
   std::array<double, 2> loose{};  ///< leading < 0: rounding of its second and third derivative
 
   /// How far rounding of what nothing tells may have taken it after a time h: a body at rest beside a wall drifts.
@@ -32,7 +33,6 @@ struct GuardStart {
 /// The guard whose failure changed a contact's state.
 struct Crossing {
   Form form;
-  bool failed = false;
   std::array<double, MotionJet::orders - 1> derivatives{};  ///< g', g'', ... just before, in the old mode
   double noise = 0.0;                                       ///< rounding of its value
 };
@@ -53,17 +53,18 @@ struct Decision {
   Jet jet;
   std::vector<ContactMotion> before, after;  ///< one a contact
   std::vector<BodySlide> slides_before, slides_after;
-  std::vector<GuardStart> guards;     ///< guards_per_contact a contact
-  std::vector<Crossing> crossings;    ///< of the contacts visited
-  std::vector<bool> visited;          ///< contacts that changed state in between, one a contact
-  std::vector<bool> jumped;           ///< contacts whose N or T jumps
-  std::vector<std::size_t> released;  ///< contacts that parts without mass left at once (release.hpp)
-  std::vector<Impulse> impulses;      ///< one a contact, where rigid contacts were hit; else empty
-  std::vector<Blow> blows;            ///< those that the impulses are the sums of, turn by turn
-  std::vector<double> departures;     ///< Findings::departures
-  double impact_loss = 0.0;           ///< energy that the impacts dissipate
-  double impact_surface_work = 0.0;   ///< that moving surfaces do in them
-  bool impact_gains = false;          ///< an impact gained energy (Newton's law with friction)
+  std::vector<GuardStart> guards;             ///< guards_per_contact a contact
+  GuardForms forms;                           ///< of these, and of those that are none
+  std::map<std::size_t, Crossing> crossings;  ///< of contacts visited
+  std::vector<bool> visited;                  ///< contacts that changed state in between, one a contact
+  std::vector<bool> jumped;                   ///< contacts whose N or T jumps
+  std::vector<std::size_t> released;          ///< contacts that parts without mass left at once (release.hpp)
+  std::vector<Impulse> impulses;              ///< one a contact, where rigid contacts were hit; else empty
+  std::vector<Blow> blows;                    ///< those that the impulses are the sums of, turn by turn
+  std::vector<double> departures;             ///< Findings::departures
+  double impact_loss = 0.0;                   ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;           ///< that moving surfaces do in them
+  bool impact_gains = false;                  ///< an impact gained energy (Newton's law with friction)
   /// Rounding could not tell: the states that fail least were taken, or rest goes on at the limit of
   /// friction.
   bool undecided = false;
@@ -77,6 +78,16 @@ struct Decision {
   /// Impulses along n and t, slots as those of forces, that no law of impact knows: what stays is set to rest, and what
   /// rounding and tolerances have left of velocities that are zero is taken out. Empty: none.
   Eigen::VectorXd captures = {};
+
+  /// Of a guard in force.
+  [[nodiscard]] const Form& form(std::size_t slot) const {
+    return forms[contact_of_guard(slot)][guard_within(slot)].form;
+  }
+  /// Null: no guard of the contact failed, or it did not fall.
+  [[nodiscard]] const Crossing* crossing(std::size_t contact) const {
+    const auto found = crossings.find(contact);
+    return found != crossings.end() ? &found->second : nullptr;
+  }
 };
 
 }  // namespace signorini

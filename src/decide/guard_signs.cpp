@@ -5,15 +5,19 @@
 #include <limits>
 #include <optional>
 
+#include "decide/plain_form.hpp"
+
 namespace signorini {
 namespace {
 
-double derivative(const Form& form, const MotionJet& jet, std::size_t k) {
+template <class F>
+double derivative(const F& form, const MotionJet& jet, std::size_t k) {
   return k == 0 ? form.value(jet.motion[0]) : form.rate(jet.motion[k]);
 }
 
 /// Below this derivative k is zero.
-double zero_of(const Form& form, const MotionJet& jet, double blur, double resolution, std::size_t k) {
+template <class F>
+double zero_of(const F& form, const MotionJet& jet, double blur, double resolution, std::size_t k) {
   double zero = blur * form.magnitude(jet.noise[k]) + std::numeric_limits<double>::min();
   if (k + 1 < jet.motion.size()) zero += resolution * std::abs(form.rate(jet.motion[k + 1]));
   return zero;
@@ -100,9 +104,11 @@ bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& insta
 }
 
 const GuardsOfState& GuardsInForce::of(std::size_t c, const ContactState& state) {
-  Known& known = known_[c];
-  if (!known.any || known.state != state) known = {true, state, guards(model_.contacts[c], state)};
-  return known.guards;
+  if (states_[c] != state) {
+    states_[c] = state;
+    forms_.set(c, guards(model_.contacts[c], state));
+  }
+  return forms_[c];
 }
 
 bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
@@ -114,10 +120,11 @@ bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, s
     if (instant.has_rested(c, guard.kind)) return false;  // differences to another motion count
     // What fell is zero, and a rate that rises is as well: failure_of().
     const bool fell = instant.has_fired(c, guard.kind);
+    const QuickForm form(guard.form);
     bool told = false;
     for (std::size_t k = fell ? 1 : 0; k < orders && !told; ++k) {
-      const double d = derivative(guard.form, jet, k);
-      told = std::abs(d) > zero_of(guard.form, jet, blur, resolution, k) && !(fell && k == 1 && d > 0.0);
+      const double d = derivative(form, jet, k);
+      told = std::abs(d) > zero_of(form, jet, blur, resolution, k) && !(fell && k == 1 && d > 0.0);
       // One that fails is asked for all that it leads to.
       if (told && d < 0.0 && orders == 1) return false;
     }

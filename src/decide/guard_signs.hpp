@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <vector>
 
+#include "base/shared_vector.hpp"
 #include "decide/instant.hpp"
 #include "motion/jet.hpp"
 
@@ -89,21 +92,23 @@ using GuardsOfState = std::array<GuardForm, guards_per_contact>;
 [[nodiscard]] bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
                            std::size_t orders, const Instant& instant, double most_blur);
 
+/// The guards of every contact; whoever keeps them shares those of contacts whose states have not changed since.
+using GuardForms = SharedVector<GuardsOfState>;
+
 /// Guards of contacts in the states that they were last asked for in: most have not changed since.
 class GuardsInForce {
  public:
   /// Must outlive it.
-  explicit GuardsInForce(const Model& model) : model_(model), known_(model.contacts.size()) {}
+  explicit GuardsInForce(const Model& model)
+      : model_(model), states_(model.contacts.size()), forms_(model.contacts.size()) {}
   [[nodiscard]] const GuardsOfState& of(std::size_t contact, const ContactState& state);
+  /// All, as they were last asked for.
+  [[nodiscard]] const GuardForms& all() const { return forms_; }
 
  private:
-  struct Known {
-    bool any = false;
-    ContactState state;
-    GuardsOfState guards;
-  };
   const Model& model_;
-  std::vector<Known> known_;
+  std::vector<std::optional<ContactState>> states_;  // nothing: never asked for
+  GuardForms forms_;
 };
 
 struct Failure {

@@ -12,27 +12,40 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   values_.resize(fields * (degree + 1));
   normal_.resize(degree + 3);
   tangent_.resize(degree + 3);
+  scale_ = series.scale;
   const double* surface = series.forcing.surface.data() + index * series.forcing.count;
   const double* pressing = series.forcing.pressing.data() + index * series.forcing.count;
   for (std::size_t k = 0; k < degree + 3; ++k) {
     normal_[k] = gap_coefficient(contact, series, k);
     tangent_[k] = ut_coefficient(contact, index, series, k);
   }
+  there_.fill(false);
+  for (const Field field : {N, T, gap, ut, slide}) there_[field] = true;
+  there_[pressing_rate] = contact.is_pressed();
   for (std::size_t k = 0; k <= degree; ++k) {
     const auto e = static_cast<Eigen::Index>(k);
-    const double rate = static_cast<double>(k + 1) / series.scale;
-    const double second = rate * static_cast<double>(k + 2) / series.scale;
     place(N)[k] = series.forces(static_cast<Eigen::Index>(normal_slot(index)), e);
     place(T)[k] = series.forces(static_cast<Eigen::Index>(tangent_slot(index)), e);
     place(gap)[k] = normal_[k];
     place(ut)[k] = tangent_[k];
-    place(vn)[k] = rate * normal_[k + 1];
-    place(vt)[k] = rate * tangent_[k + 1];
-    place(an)[k] = second * normal_[k + 2];
-    place(pressing_rate)[k] = rate * pressing[k + 1];
     place(slide)[k] =
         contact.shear ? contact.shear->body.dot(series.u.col(e).data()) - surface[k] : tangent_[k];
+    if (there_[pressing_rate])
+      place(pressing_rate)[k] = static_cast<double>(k + 1) / series.scale * pressing[k + 1];
   }
+}
+
+void ContactSeries::derive(Field field) const {
+  double* out = values_.data() + field * (degree_ + 1);
+  for (std::size_t k = 0; k <= degree_; ++k) {
+    const double rate = static_cast<double>(k + 1) / scale_;
+    const double second = rate * static_cast<double>(k + 2) / scale_;
+    out[k] = field == vn   ? rate * normal_[k + 1]
+             : field == vt ? rate * tangent_[k + 1]
+             : field == an ? second * normal_[k + 2]
+                           : 0.0;  // nothing presses
+  }
+  there_[field] = true;
 }
 
 void ContactSeries::bound_rates(double x) {

@@ -2,7 +2,8 @@
 //
 //   f(t + s x) = sum_k f_k x^k  for N, T, g, ut, g', ut', g'', and the body's own ut
 //
-// A guard is a linear form on these, so it is a polynomial too.
+// A guard is a linear form on these, so it is a polynomial too. Rates are made of g and ut where they are asked for: most
+// guards have none.
 #pragma once
 
 #include <array>
@@ -35,10 +36,14 @@ class ContactSeries {
   void reset(std::size_t degree) {
     degree_ = degree;
     values_.assign(fields * (degree + 1), 0.0);
+    there_.fill(true);
   }
   [[nodiscard]] double* place(Field field) { return values_.data() + field * (degree_ + 1); }
   [[nodiscard]] std::size_t degree() const { return degree_; }
-  [[nodiscard]] const double* of(Field field) const { return values_.data() + field * (degree_ + 1); }
+  [[nodiscard]] const double* of(Field field) const {
+    if (!there_[field]) derive(field);
+    return values_.data() + field * (degree_ + 1);
+  }
   /// Where x is 0 for its coefficients, in the series of the structure: value() and integral() take x there.
   void set_origin(double origin) { origin_ = origin; }
   [[nodiscard]] double origin() const { return origin_; }
@@ -66,11 +71,14 @@ class ContactSeries {
     rates.fill(std::numeric_limits<double>::infinity());
     return rates;
   }
+  void derive(Field field) const;
+
   std::size_t degree_ = 0;
-  double origin_ = 0.0;
+  double origin_ = 0.0, scale_ = 1.0;
   std::array<double, fields> rates_ = unbounded();
-  std::vector<double> values_;
-  std::vector<double> normal_, tangent_;
+  mutable std::vector<double> values_;
+  mutable std::array<bool, fields> there_{};  // of values_
+  std::vector<double> normal_, tangent_;      // g and ut, to two orders more
 };
 
 }  // namespace signorini

@@ -162,15 +162,15 @@ double Forcing::greatest_omega() const {
     if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
   };
   for (const auto& [load, p] : varying_) consider(p);
-  for (const Piece* p : pressing_) consider(p);
-  for (const Piece* p : surface_) consider(p);
+  for (const std::size_t k : pressed_) consider(pressing_[k]);
+  for (const std::size_t k : carried_) consider(surface_[k]);
   return omega;
 }
 
 double Forcing::surface_omega() const {
   double omega = 0.0;
-  for (const Piece* p : surface_)
-    if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
+  for (const std::size_t k : carried_)
+    if (const Piece* p = surface_[k]; p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
   return omega;
 }
 
@@ -181,8 +181,8 @@ std::size_t Forcing::greatest_degree() const {
       if (p->coefficients[j] != 0.0) degree = j;
   };
   for (const auto& [load, p] : varying_) consider(p);
-  for (const Piece* p : pressing_) consider(p);
-  for (const Piece* p : surface_) consider(p);
+  for (const std::size_t k : pressed_) consider(pressing_[k]);
+  for (const std::size_t k : carried_) consider(surface_[k]);
   return degree;
 }
 

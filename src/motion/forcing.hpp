@@ -34,6 +34,11 @@ class Forcing {
 
   /// P += factor times the derivative of the given order of the load vector; length n.
   void add_load(double t, int order, double* P, double factor = 1.0) const;
+  /// What of the load on a degree of freedom does not change.
+  [[nodiscard]] double standing_load(std::size_t dof) const { return constant_.data()[dof]; }
+  /// P += the rest of it at t, of those loads alone whose numbers are `wanted`.
+  template <class Wanted>
+  void add_varying(double t, const Wanted& wanted, double* P) const;
   /// Coefficients scale^k / k! f^(k)(t), 0 <= k < count, of everything.
   void expand(double t, double scale, std::size_t count, ForcingSeries& out) const;
   /// P += coefficient k of the load vector.
@@ -87,5 +92,11 @@ class Forcing {
   std::vector<double> still_pressing_, still_surface_;  // where nothing changes
   bool varies_ = false, loaded_ = false;
 };
+
+template <class Wanted>
+void Forcing::add_varying(double t, const Wanted& wanted, double* P) const {
+  for (const auto& [load, p] : varying_)
+    if (wanted(load)) model_->loads[load].direction.add_to(P, p->value(t, 0));
+}
 
 }  // namespace signorini

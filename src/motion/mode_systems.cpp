@@ -51,14 +51,27 @@ ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBo
     }
 }
 
-/// False: an acceleration stands in a row, or friction that is to change.
-bool ModeSystems::by_mass(const std::vector<Rows>& rows, FactorisedMode& mode) const {
-  if (!mass_ || !mode.by_rate.empty()) return false;
-  std::vector<OwnForces> forces = own_forces(rows);
-  if (forces.empty()) return false;
-  mode.by_mass.emplace(model_, mass_, std::move(forces));
-  mode.regular = true;
-  return true;
+/// Made in the time that looking for it would take, which compares states one by one. Null: an acceleration stands in a row,
+/// or friction that is to change.
+std::shared_ptr<const FactorisedMode> ModeSystems::by_mass(const Mode& mode, const std::vector<Rows>& rows) {
+  std::vector<OwnForces> forces = mass_ ? own_forces(rows) : std::vector<OwnForces>{};
+  if (forces.empty()) return nullptr;
+  FactorisedMode made = describe(mode, rows);
+  if (!made.by_rate.empty()) return nullptr;
+  ++made_;
+  made.by_mass.emplace(model_, mass_, std::move(forces));
+  made.regular = true;
+  return std::make_shared<const FactorisedMode>(std::move(made));
+}
+
+std::shared_ptr<const FactorisedMode> ModeSystems::cached(const Mode& mode, const std::vector<Rows>& rows) {
+  const std::vector<State> states = states_of(mode);
+  if (const auto* known = cache_.find(states)) return *known;
+  FactorisedMode made = describe(mode, rows);
+  factorise(rows, made);
+  auto factorised = std::make_shared<const FactorisedMode>(std::move(made));
+  cache_.insert(states, factorised, factorised->bytes() + states.size() * sizeof(State));
+  return factorised;
 }
 
 FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& rows) const {
@@ -80,7 +93,6 @@ FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& 
 
 void ModeSystems::factorise(const std::vector<Rows>& rows, FactorisedMode& mode) {
   ++made_;
-  if (by_mass(rows, mode)) return;
   for (std::size_t i = 0; i < weights_.size(); ++i)
     weights_[i] = mode.kinds[i] == DofKind::massive  ? Weights{1.0, 0.0, 0.0}
                   : mode.kinds[i] == DofKind::damped ? Weights{0.0, 1.0, 0.0}
@@ -139,16 +151,8 @@ ModeSystemPtr ModeSystems::of(const Mode& mode) {
   if (last_ && last_->mode() == mode)
     return last_;  // a decision begins with the mode that the last one ended with
   std::vector<Rows> rows = rows_beside(mode);
-  const std::vector<State> states = states_of(mode);
-  std::shared_ptr<const FactorisedMode> factorised;
-  if (const auto* known = cache_.find(states)) {
-    factorised = *known;
-  } else {
-    FactorisedMode made = describe(mode, rows);
-    factorise(rows, made);
-    factorised = std::make_shared<const FactorisedMode>(std::move(made));
-    cache_.insert(states, factorised, factorised->bytes() + states.size() * sizeof(State));
-  }
+  std::shared_ptr<const FactorisedMode> factorised = by_mass(mode, rows);
+  if (!factorised) factorised = cached(mode, rows);
   if (!factorised->regular) return nullptr;
   return last_ = std::make_shared<const ModeSystem>(mode, std::move(rows), std::move(factorised));
 }

@@ -8,7 +8,7 @@
 // what is not held costs a decision twice its time at most. 16 MiB hold 400 such modes, or the factors of
 // a million entries, beyond which caches of processors end and a factorisation outweighs a look-up in any
 // case. States whose forces follow from places and velocities alone share one factorisation of M
-// (linear/mass_factors.hpp), and hold little more than their states.
+// (linear/mass_factors.hpp), are made as fast as they would be found, and are not held.
 #pragma once
 
 #include <span>
@@ -60,7 +60,9 @@ class ModeSystems {
   [[nodiscard]] std::vector<Rows> rows_beside(const Mode& mode) const;
   [[nodiscard]] FactorisedMode describe(const Mode& mode, const std::vector<Rows>& rows) const;
   void factorise(const std::vector<Rows>& rows, FactorisedMode& mode);
-  [[nodiscard]] bool by_mass(const std::vector<Rows>& rows, FactorisedMode& mode) const;
+  [[nodiscard]] std::shared_ptr<const FactorisedMode> by_mass(const Mode& mode,
+                                                              const std::vector<Rows>& rows);
+  [[nodiscard]] std::shared_ptr<const FactorisedMode> cached(const Mode& mode, const std::vector<Rows>& rows);
   void invert(const std::vector<Rows>& rows, FactorisedMode& mode);
 
   const Model& model_;

@@ -171,8 +171,9 @@ void EventLog::contact(const Instant& now, std::size_t k, EventType type, const 
 
 /// How sharp the time of an event is, and whether its order among the others is.
 void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event) {
-  const Crossing& crossing = now.decision->crossings[k];
-  if (!crossing.failed) return;
+  const Crossing* failed = now.decision->crossing(k);
+  if (failed == nullptr) return;
+  const Crossing& crossing = *failed;
   event.guard_rate =
       said(model_, crossing.derivatives[0], unit_of(crossing.form)) * said(model_, 1.0, unit::rate);
   const double error =

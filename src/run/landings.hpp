@@ -11,7 +11,8 @@ namespace signorini {
 
 class Landings {
  public:
-  explicit Landings(const Model& model) : model_(model), all_(model.contacts.size()) {}
+  explicit Landings(const Model& model)
+      : model_(model), ended_(model.contacts.size()), now_(model.contacts.size()) {}
 
   void begin(double t, const Mode& mode);
   /// Integrals of -N since the last call.
@@ -23,7 +24,8 @@ class Landings {
 
  private:
   const Model& model_;
-  std::vector<std::vector<Landing>> all_;
+  std::vector<std::vector<Landing>> ended_;  // one list a contact
+  std::vector<Landing> now_;                 // one a contact, where it lasts
   std::vector<bool> lasts_;
 };
 

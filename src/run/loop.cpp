@@ -307,6 +307,7 @@ void Loop::meddle(Instant now, Decision& decided) {
   changed.after = other.after;
   changed.slides_after = other.slides_after;
   changed.guards = other.guards;
+  changed.forms = other.forms;
   changed.captures = other.captures;
   decided = std::move(changed);
 }

@@ -16,7 +16,8 @@ namespace {
 /// The guard's rate in the units that are computed in, which its row has not.
 RecordedEvent recorded(const Event& event, const Decision& decision) {
   RecordedEvent result = recorded_event(event);
-  if (event.t_uncertainty) result.guard_rate = decision.crossings[result.contact].derivatives[0];
+  const Crossing* crossing = event.t_uncertainty ? decision.crossing(result.contact) : nullptr;
+  if (crossing != nullptr) result.guard_rate = crossing->derivatives[0];
   return result;
 }
 

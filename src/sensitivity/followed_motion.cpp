@@ -70,7 +70,8 @@ std::optional<double> FollowedMotion::time_of(const ObservedInstant& instant, co
   const auto guard =
       std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) { return g.kind == fell.guard; });
   if (guard == forms.end()) return std::nullopt;
-  const double noise = instant.after.crossings[fell.contact].noise;
+  const Crossing* crossing = instant.after.crossing(fell.contact);
+  const double noise = crossing != nullptr ? crossing->noise : 0.0;
   double t = instant.t, last = instant.t - now_.jet.t;
   for (int i = 0; i < most_corrections; ++i) {
     const SeriesPoint point = at(t);

@@ -74,10 +74,12 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
   const Contact& contact = model_.contacts[c];
   const ContactState& state = now.mode_before[c];
   const auto forms = guards(contact, state);
-  Crossing crossing = now.after.crossings[c];
-  if (!crossing.failed) {
+  Crossing crossing;
+  if (const Crossing* failed = now.after.crossing(c)) {
+    crossing = *failed;
+  } else {
     if (now.after.impulses.empty() || !now.after.impulses[c].hit) return std::nullopt;
-    crossing = {forms[0].form, true, {course.m.motion_before[c].vn, course.m.motion_before[c].an}, 0.0};
+    crossing = {forms[0].form, {course.m.motion_before[c].vn, course.m.motion_before[c].an}, 0.0};
   }
   const auto guard = std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) {
     return g.kind != Guard::none && g.form == crossing.form;
@@ -242,7 +244,8 @@ void TangentEvents::look_for_kinks(Course& course) const {
   const Vector &w = course.after.point.u, &wv = course.after.point.v;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
-    if (guard.kind == Guard::none || !guard.at_zero || guard.form.an != 0.0) continue;
+    const Form& form = decision.form(slot);
+    if (guard.kind == Guard::none || !guard.at_zero || form.an != 0.0) continue;
     const std::size_t c = contact_of_guard(slot);
     const Contact& contact = model_.contacts[c];
     const double dt = course.dt_of(c);
@@ -251,17 +254,17 @@ void TangentEvents::look_for_kinks(Course& course) const {
     const Form& form_rate =
         derivative_.contacts[c].guards[index_of(decision.mode[c].state)][guard_within(slot)];
     const ContactMotion D = sum(p, m.rate_after[c], dt);
-    const double value = form_rate.value(m.motion_after[c]) + guard.form.rate(D);
+    const double value = form_rate.value(m.motion_after[c]) + form.rate(D);
     ContactMotion terms = p;
     terms.gap = std::abs(p.gap) + contact.normal.magnitude(w);
     terms.ut = std::abs(p.ut) + contact.tangent.magnitude(w);
     terms.vn = std::abs(p.vn) + contact.normal.magnitude(wv);
     terms.vt = std::abs(p.vt) + contact.tangent.magnitude(wv);
-    const double size = form_rate.magnitude(m.motion_after[c]) + guard.form.magnitude(terms) +
-                        std::abs(dt) * guard.form.magnitude(m.rate_after[c]);
+    const double size = form_rate.magnitude(m.motion_after[c]) + form.magnitude(terms) +
+                        std::abs(dt) * form.magnitude(m.rate_after[c]);
     // a gap that opens from rest: its rate, too
     const bool opens_slowly = guard.kind == Guard::closing && guard.leading != 1;
-    if (vanishes(value, size, guard.form.magnitude(unit_motion()) * scale_of(guard.form, model_.scales)) &&
+    if (vanishes(value, size, form.magnitude(unit_motion()) * scale_of(form, model_.scales)) &&
         (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))
       continue;
     return course.stop(fmt::format(

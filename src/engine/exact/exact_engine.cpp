@@ -266,7 +266,8 @@ FirstFall ExactEngine::fall_of(std::size_t slot) {
   const GuardStart& guard = segment_.decision->guards[slot];
   const std::size_t c = contact_of_guard(slot);
   const ContactSeries& contact = motion_.contacts()[c];
-  contact.combine(guard.form, guard_.data());
+  const Form& form = segment_.decision->form(slot);
+  contact.combine(form, guard_.data());
   const double from = begin_x_ - contact.origin(), x = reach_ - begin_x_;
   double power = 1.0, terms = 0.0;
   if (from > 0.0) {  // terms about the origin bound those about where the step begins
@@ -283,7 +284,7 @@ FirstFall ExactEngine::fall_of(std::size_t slot) {
   }
   const double rounding = (from > 0.0 ? rounding::of_many : rounding::of_few) * terms;
   const double slack =
-      rest_of(guard.form, c, reached_[c].x, reached_[c].rest) + rounding + rounding_of_guard * guard.noise;
+      rest_of(form, c, reached_[c].x, reached_[c].rest) + rounding + rounding_of_guard * guard.noise;
   if (arming_.armed(slot)) return first_fall(guard_.data(), degree_, slack);
   if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found what is below to be zero
     return first_fall(guard_.data() + m, degree_ - m, rounding::of_few * std::abs(guard_[m]));
@@ -403,7 +404,7 @@ void ExactEngine::see_unarmed(double x) {
     if (arming_.idle(slot) || arming_.armed(slot)) continue;
     const GuardStart& guard = segment_.decision->guards[slot];
     const ContactSeries& contact = motion_.contacts()[contact_of_guard(slot)];
-    contact.combine(guard.form, guard_.data());
+    contact.combine(segment_.decision->form(slot), guard_.data());
     arming_.see(slot, value_at(guard_.data(), degree_, x - contact.origin()),
                 4.0 * (guard.noise + drift_of(guard, x)));
   }

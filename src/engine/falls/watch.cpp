@@ -1,16 +1,16 @@
 #include "engine/falls/watch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace signorini {
 namespace {
 constexpr double resolution = 1e-12;  // of a step; the engine refines on its dense output
 }
 
-void Watch::start(const std::vector<GuardStart>& guards, std::vector<double> levels) {
+void Watch::start(const std::vector<GuardStart>& guards, GuardForms forms, std::vector<double> levels) {
   arming_.start(guards);
-  forms_.clear();
-  for (const GuardStart& guard : guards) forms_.push_back(guard.form);
+  forms_ = std::move(forms);
   levels_ = std::move(levels);
 }
 
@@ -22,7 +22,8 @@ void Watch::wait(std::size_t slot, double level) {
 double Watch::leeway(std::size_t contact, const Form& form) const {
   const std::size_t end = std::min(guard_slot(contact + 1, 0), arming_.size());
   for (std::size_t slot = guard_slot(contact, 0); slot < end; ++slot)
-    if (!arming_.idle(slot) && forms_[slot] == form) return arming_.armed(slot) ? 0.0 : levels_[slot];
+    if (!arming_.idle(slot) && forms_[contact][guard_within(slot)].form == form)
+      return arming_.armed(slot) ? 0.0 : levels_[slot];
   return 0.0;
 }
 

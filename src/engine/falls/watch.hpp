@@ -27,7 +27,7 @@ struct Fall {
 class Watch {
  public:
   /// levels: re-arming levels, one a slot.
-  void start(const std::vector<GuardStart>& guards, std::vector<double> levels);
+  void start(const std::vector<GuardStart>& guards, GuardForms forms, std::vector<double> levels);
   [[nodiscard]] bool armed(std::size_t slot) const { return arming_.armed(slot); }
   /// It fell and was taken not to: waits again, an event once it has sunk below `level`, and no less.
   void wait(std::size_t slot, double level);
@@ -39,7 +39,7 @@ class Watch {
 
  private:
   Arming arming_;
-  std::vector<Form> forms_;
+  GuardForms forms_;
   std::vector<double> levels_;
 };
 

@@ -56,8 +56,7 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
     const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
     const double ut = contact.body_tangent().dot(point.u) - still;      // history_turns.hpp
     for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // as TurningPoints::watched
-    for (std::size_t i = 0; i < guards_per_contact; ++i)
-      *out++ = decision.guards[guard_slot(k, i)].form.value(m);
+    for (std::size_t i = 0; i < guards_per_contact; ++i) *out++ = decision.form(guard_slot(k, i)).value(m);
   }
   powers_.at(*segment_.forcing, t, decision.mode, point, out);
 }
@@ -101,15 +100,15 @@ void IdaEngine::start(const Segment& segment) {
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
     const ContactMotion& motion = decision.after[contact_of_guard(slot)];
-    double level = guard.noise + re_arm_tolerances * tolerance(guard.form, motion, tolerance_);
+    double level = guard.noise + re_arm_tolerances * tolerance(decision.form(slot), motion, tolerance_);
     // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
-    if (guard.at_zero) level += 2.0 * std::abs(guard.form.value(motion));
+    if (guard.at_zero) level += 2.0 * std::abs(decision.form(slot).value(motion));
     levels.push_back(level);
   }
   grazes_.start(decision.guards, levels);
   near_hits_.start(decision.guards, levels);
   turns_.start(decision, *segment.forcing);
-  watch_.start(decision.guards, std::move(levels));
+  watch_.start(decision.guards, decision.forms, std::move(levels));
   if (!decision.jet.whole())
     jet_ = jets_.expand(decision.system, *segment.forcing, decision.jet.t, decision.u, decision.v);
   const Jet& jet = decision.jet.whole() ? decision.jet : jet_;
@@ -256,7 +255,8 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
       !is_friction_limit(guards[slip.slot].kind))
     return false;
   const double rate = -history_.polynomial(slip.slot).derivative().value(x) / h;
-  return (opening.time - slip.time) * rate <= tolerance(guards[slip.slot].form, ContactMotion{}, tolerance_);
+  return (opening.time - slip.time) * rate <=
+         tolerance(segment_.decision->form(slip.slot), ContactMotion{}, tolerance_);
 }
 
 /// A guard that started at zero comes back to zero where the motion keeps its energy (a contact that sticks
@@ -279,7 +279,7 @@ bool IdaEngine::only_touches(std::size_t slot, double x) const {
 /// What the steps of the segment have been off at most, in a guard.
 double IdaEngine::allowance(std::size_t slot) const {
   const ContactMotion& motion = segment_.decision->after[contact_of_guard(slot)];
-  return static_cast<double>(steps_) * tolerance(segment_.decision->guards[slot].form, motion, tolerance_);
+  return static_cast<double>(steps_) * tolerance(segment_.decision->form(slot), motion, tolerance_);
 }
 
 void IdaEngine::integrate(double from, double to, Works& works) {

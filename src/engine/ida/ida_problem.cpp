@@ -279,18 +279,19 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
     const ContactMotion m = motion(k, t, y, yp);
     for (std::size_t i = 0; i < guards_per_contact; ++i) {
       const std::size_t slot = guard_slot(k, i);
-      const GuardStart& guard = segment_.decision->guards[slot];
+      const Guard kind = segment_.decision->guards[slot].kind;
+      const Form& form = segment_.decision->form(slot);
       // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
-      if (guard.kind == Guard::none || guard.form.an != 0.0 || !watch_->armed(slot)) {
+      if (kind == Guard::none || form.an != 0.0 || !watch_->armed(slot)) {
         g[slot] = 1.0;
         continue;
       }
       // O(1), so that IDA's products of guard values do not underflow
-      const bool of_rate = guard.kind == Guard::sliding && guard.form.T == 0.0;
-      const double unit = guard.kind == Guard::closing ? scale.displacement
-                          : of_rate                    ? scale.velocity
-                                                       : scale.force;
-      g[slot] = guard.form.value(m) / unit;
+      const bool of_rate = kind == Guard::sliding && form.T == 0.0;
+      const double unit = kind == Guard::closing ? scale.displacement
+                          : of_rate              ? scale.velocity
+                                                 : scale.force;
+      g[slot] = form.value(m) / unit;
     }
   }
 }

@@ -20,6 +20,15 @@ NearStep::NearStep(const Model& model, const CondensedRows& rows)
       by_N_(rows.contacts() > 0 ? rows.end_of_touches(rows.contacts() - 1) : 0),
       by_T_(by_N_.size()) {
   load_.setZero(static_cast<Eigen::Index>(rows.size()));
+  std::vector<std::size_t> place_of(rows.size());
+  for (std::size_t place = 0; place < rows.size(); ++place) place_of[rows.dof_at(place)] = place;
+  for (const Load& load : model.loads) {
+    Places& of_load = loads_.emplace_back(Places{rows.size(), 0});
+    for (const auto& [dof, factor] : load.direction.terms) {
+      const std::size_t place = place_of[static_cast<std::size_t>(dof)];
+      of_load = {std::min(of_load.begin, place), std::max(of_load.end, place + 1)};
+    }
+  }
   end_ = {load_, load_, Vector::Zero(static_cast<Eigen::Index>(2 * rows.contacts())), load_};
 }
 
@@ -50,8 +59,13 @@ void NearStep::know_motion(const Window& w, const Point& from, double h) {
 
 /// b_W, and what the contacts add to the matrix there.
 void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Rows>& rows, double t1) {
-  load_.setZero();
-  forcing.add_load(t1, 0, load_.data());
+  for (std::size_t place = w.begin; place < w.end; ++place) {
+    const std::size_t i = rows_.dof_at(place);
+    load_.data()[i] = forcing.standing_load(i);
+  }
+  forcing.add_varying(
+      t1, [&](std::size_t load) { return loads_[load].begin < w.end && loads_[load].end > w.begin; },
+      load_.data());
   b_.resize(static_cast<Eigen::Index>(w.end - w.begin));
   contacts_.clear();
   for (std::size_t place = w.begin; place < w.end; ++place) {

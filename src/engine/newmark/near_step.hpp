@@ -32,6 +32,9 @@ class NearStep {
     std::size_t begin = 0, end = 0;   // W
     std::size_t first = 0, last = 0;  // with what couples to it
   };
+  struct Places {
+    std::size_t begin = 0, end = 0;
+  };
   [[nodiscard]] std::optional<Window> window(std::size_t contact) const;
   void know_motion(const Window& w, const Point& from, double h);
   void act(const Window& w, const Forcing& forcing, const std::vector<Rows>& rows, double t1);
@@ -43,7 +46,8 @@ class NearStep {
   std::size_t radius_;
   std::optional<BandFactors> band_;  // as large as the last window
   Weights weights_;
-  Vector load_, b_;                    // one a degree of freedom; one a place of W
+  Vector load_, b_;                    // one a degree of freedom, true in W alone; one a place of W
+  std::vector<Places> loads_;          // where each acts, from the first to the last
   std::vector<double> by_N_, by_T_;    // one a touch
   std::vector<std::size_t> contacts_;  // in the window
   Point end_;                          // u, v: what is known of them, until it is read

@@ -5,18 +5,10 @@
 #include <utility>
 
 #include "base/rounding.hpp"
+#include "decide/plain_form.hpp"
 #include "motion/clock.hpp"
 
 namespace signorini {
-namespace {
-
-/// Only terms of N, T, g, ut and their rates.
-bool is_plain(const Form& f) {
-  return f.an == 0.0 && f.at == 0.0 && f.pressing == 0.0 && f.pressing_rate == 0.0 && f.limit == 0.0 &&
-         f.limit_rate == 0.0;
-}
-
-}  // namespace
 
 StepGuards::StepGuards(const Model& model)
     : model_(model), seen_(model.contacts.size()), before_(guard_count(model.contacts.size()), 1.0) {
@@ -72,7 +64,7 @@ void StepGuards::gather(std::size_t k) {
     seen.guards[i].constant = 1.0;
     if (idle) continue;
     seen.watched = true;
-    const Form& f = decision.guards[slot].form;
+    const Form& f = decision.form(slot);
     seen.plain = seen.plain && is_plain(f);
     seen.accelerates = seen.accelerates || (has_rate_[slot] && (f.vn != 0.0 || f.vt != 0.0));
     seen.guards[i] = {f.N, f.T, f.gap, f.ut, f.vn, f.vt, f.constant};
@@ -82,7 +74,7 @@ void StepGuards::gather(std::size_t k) {
 /// Does the derivative of the guard follow from displacements, velocities and accelerations?
 bool StepGuards::rates_known(std::size_t slot) const {
   const std::size_t k = contact_of_guard(slot);
-  const Form& form = segment_.decision->guards[slot].form;
+  const Form& form = segment_.decision->form(slot);
   const Rows& rows = segment_.decision->system->rows()[k];
   const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
   if (form.an != 0.0 || form.at != 0.0) return false;
@@ -148,7 +140,7 @@ void StepGuards::weigh_any(std::size_t k, const Point& point, double t) {
   d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // rates_known: no row of T has velocities
   for (std::size_t slot = guard_slot(k, 0); slot < guard_slot(k + 1, 0); ++slot) {
     if (arming_.idle(slot)) continue;
-    const Form& form = segment_.decision->guards[slot].form;
+    const Form& form = segment_.decision->form(slot);
     g1_[slot] = form.value(m);
     if (has_rate_[slot]) rate1_[slot] = form.rate(d);
   }
@@ -163,14 +155,13 @@ void StepGuards::turn() {
 
 double StepGuards::value(std::size_t slot, double t, const Point& point) const {
   const std::size_t k = contact_of_guard(slot);
-  return segment_.decision->guards[slot].form.value(
-      motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
+  return segment_.decision->form(slot).value(motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
 }
 
 double StepGuards::level(std::size_t slot, double t, const Point& point) const {
   const std::size_t k = contact_of_guard(slot);
   const GuardStart& guard = segment_.decision->guards[slot];
-  return guard.noise + rounding::of_many * guard.form.magnitude(
+  return guard.noise + rounding::of_many * segment_.decision->form(slot).magnitude(
                                                motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
 }
 

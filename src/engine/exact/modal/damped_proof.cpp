@@ -25,8 +25,9 @@ void DampedProof::start() {
   series_.resize(motion_.model().contacts.size());
   for (std::size_t slot = 0; slot < motion_.decision().guards.size(); ++slot) {
     if (arming_.idle(slot)) continue;
-    const GuardStart& start = motion_.decision().guards[slot];
-    Watched guard{slot, start.noise, motion_.of(start.form, contact_of_guard(slot)), {}, 0.0};
+    const Decision& decision = motion_.decision();
+    Watched guard{
+        slot, decision.guards[slot].noise, motion_.of(decision.form(slot), contact_of_guard(slot)), {}, 0.0};
     guard.lead = guard.guard;
     for (std::size_t i = 0; i < arming_.leading(slot); ++i) guard.lead = motion_.derivative(guard.lead);
     guards_.push_back(std::move(guard));

@@ -106,7 +106,7 @@ ModalEngine::Fall ModalEngine::fall_of(std::size_t slot, const Point& point) con
   const ContactMotion now = motion_of(model_.contacts[c], c, *segment_.forcing, t_, point);
   const double slope = flow_->slope(slot, now_, point, t_);
   if (!(slope < 0.0)) return {};
-  return {-segment_.decision->guards[slot].form.value(now) / slope,
+  return {-segment_.decision->form(slot).value(now) / slope,
           -rounding::of_many * flow_->magnitude(slot, now_) / slope};
 }
 

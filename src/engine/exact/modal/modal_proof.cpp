@@ -78,14 +78,14 @@ void ModalProof::watch(const Segment& segment, const StateModes& state) {
   arming_.start(decision_->guards);
   const std::vector<double>& l = oscillators_->real();
   for (std::size_t slot = 0; slot < decision_->guards.size(); ++slot) {
-    const GuardStart& start = decision_->guards[slot];
     if (arming_.idle(slot)) continue;
+    const Form& form = decision_->form(slot);
     const std::size_t c = contact_of_guard(slot);
     Watched guard;
     guard.slot = slot;
-    guard.noise = start.noise;
-    guard.form = reduced(start.form, laws_[c], guard.constant);
-    guard.constant += start.form.pressing * segment.forcing->pressing(c, decision_->jet.t, 0);
+    guard.noise = decision_->guards[slot].noise;
+    guard.form = reduced(form, laws_[c], guard.constant);
+    guard.constant += form.pressing * segment.forcing->pressing(c, decision_->jet.t, 0);
     guard.constant += guard.form.gap * model_.contacts[c].gap - guard.form.ut * surface_[c];
     const Amplitudes &n = state.normal[c], &t = state.tangent[c];
     const auto mix = [&](double a, double b, Amplitudes& out) {
@@ -235,7 +235,7 @@ void ModalProof::bound_ripples() {
 void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
   const std::size_t c = contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);
-  slow_[c].combine(decision_->guards[guard.slot].form, p.data());
+  slow_[c].combine(decision_->form(guard.slot), p.data());
   const Shown& form = guard.form;
   const auto with = [&](const Size& n, const Size& t) {
     return std::abs(form.gap) * n.place + std::abs(form.ut) * t.place + std::abs(form.vn) * n.rate +

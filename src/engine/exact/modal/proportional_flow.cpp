@@ -112,7 +112,7 @@ double ProportionalFlow::slope(std::size_t slot, const ModalPoint& /*at*/, const
   rate.ut = now.vt;
   rate.vn = now.an;
   rate.vt = now.at;
-  return segment_->decision->guards[slot].form.rate(rate);
+  return segment_->decision->form(slot).rate(rate);
 }
 
 }  // namespace signorini

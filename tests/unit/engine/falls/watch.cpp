@@ -17,7 +17,7 @@ std::vector<double> falls(const std::function<double(double)>& g, bool at_zero, 
   start.kind = Guard::separation;
   start.at_zero = at_zero;
   Watch watch;
-  watch.start({start}, {level});
+  watch.start({start}, GuardForms(1), {level});
   StepHistory history(1);
   *history.restart(0.0) = g(0.0);
   std::vector<double> found;
@@ -43,18 +43,21 @@ TEST_CASE("a fall and rise inside one step is found, though both ends are positi
 TEST_CASE("an event is late by the level of a guard that has not risen, and of no other") {
   GuardStart at_zero, clear, idle;
   at_zero.kind = clear.kind = Guard::separation;
-  at_zero.form.N = -1.0;
   at_zero.at_zero = true;
-  clear.form.T = 1.0;
   std::vector<GuardStart> guards(2 * guards_per_contact, idle);
   guards[guards_per_contact] = at_zero;
   guards[guards_per_contact + 1] = clear;
+  GuardsOfState of_second;
+  of_second[0].form.N = -1.0;
+  of_second[1].form.T = 1.0;
+  GuardForms forms(2);
+  forms.set(1, of_second);
   Watch watch;
-  CHECK(watch.leeway(1, at_zero.form) == 0.0);  // before any segment
-  watch.start(guards, std::vector<double>(guards.size(), 1e-6));
-  CHECK(watch.leeway(1, at_zero.form) == 1e-6);
-  CHECK(watch.leeway(0, at_zero.form) == 0.0);
-  CHECK(watch.leeway(1, clear.form) == 0.0);
+  CHECK(watch.leeway(1, of_second[0].form) == 0.0);  // before any segment
+  watch.start(guards, forms, std::vector<double>(guards.size(), 1e-6));
+  CHECK(watch.leeway(1, of_second[0].form) == 1e-6);
+  CHECK(watch.leeway(0, of_second[0].form) == 0.0);
+  CHECK(watch.leeway(1, of_second[1].form) == 0.0);
   StepHistory history(guards.size());
   double* start = history.restart(0.0);
   std::fill_n(start, guards.size(), 1.0);
@@ -62,7 +65,7 @@ TEST_CASE("an event is late by the level of a guard that has not risen, and of n
   std::fill_n(history.push(1.0), guards.size(), 1.0);  // rises above its level
   history.prepare(1);
   CHECK(watch.check(history, 1.0).empty());
-  CHECK(watch.leeway(1, at_zero.form) == 0.0);
+  CHECK(watch.leeway(1, of_second[0].form) == 0.0);
 }
 
 TEST_CASE("a guard that starts at zero and rises fires only after it has clearly risen") {
@@ -91,7 +94,7 @@ TEST_CASE("a guard that starts at zero and rises fires only after it has clearly
 
 TEST_CASE("idle guards never fall") {
   Watch watch;
-  watch.start({GuardStart{}}, {1.0});
+  watch.start({GuardStart{}}, GuardForms(1), {1.0});
   StepHistory history(1);
   *history.restart(0.0) = 1.0;
   *history.push(1.0) = -1.0;
@@ -104,7 +107,7 @@ TEST_CASE("what was taken not to fall waits: deeper it falls, and once it has ri
     GuardStart clear;
     clear.kind = Guard::sliding;
     Watch watch;
-    watch.start({clear}, {1e-9});
+    watch.start({clear}, GuardForms(1), {1e-9});
     StepHistory history(1);
     *history.restart(0.0) = g(0.0);
     std::vector<double> result;

@@ -194,8 +194,8 @@ TEST_CASE(
         Point to;
         REQUIRE(whole.take(s.forcing, from, last.begin + h, h, false, to));
         const ContactMotion m = motion_of(s.model.contacts[contact], contact, s.forcing, last.begin + h, to);
-        rounding = rounding::of_many * s.decision.guards[slot].form.magnitude(m);
-        return s.decision.guards[slot].form.value(m);
+        rounding = rounding::of_many * s.decision.form(slot).magnitude(m);
+        return s.decision.form(slot).value(m);
       };
       const double h = last.end - last.begin, apart = 1e-11;
       double rounding = 0.0, of_others = 0.0;

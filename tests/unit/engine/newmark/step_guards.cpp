@@ -17,9 +17,12 @@ Decision decided(const Model& model, ModeSystems& systems, const Mode& mode, std
   Decision decision;
   decision.mode = mode;
   decision.system = systems.of(mode);
-  for (std::size_t k = 0; k < mode.size(); ++k)
-    for (const GuardForm& guard : guards(model.contacts[k], mode[k]))
-      decision.guards.push_back({guard.kind, guard.form, false, 1e-9 * static_cast<double>(k)});
+  decision.forms = GuardForms(mode.size());
+  for (std::size_t k = 0; k < mode.size(); ++k) {
+    decision.forms.set(k, guards(model.contacts[k], mode[k]));
+    for (const GuardForm& guard : decision.forms[k])
+      decision.guards.push_back({guard.kind, false, 0, 1e-9 * static_cast<double>(k)});
+  }
   GuardStart& first = decision.guards[guard_slot(waiting, 0)];
   first.at_zero = first.kind != Guard::none;
   return decision;
@@ -83,7 +86,8 @@ TEST_CASE(
         const std::size_t k = contact_of_guard(slot);
         double value[3];
         for (int i = 0; i < 3; ++i)
-          value[i] = guard.form.value(motion_of(model.contacts[k], k, forcing, t + (i - 1) * h, points[i]));
+          value[i] =
+              decision.form(slot).value(motion_of(model.contacts[k], k, forcing, t + (i - 1) * h, points[i]));
         const GuardPath path = seen.path(slot, h);
         CHECK(path.g0 == doctest::Approx(value[1]).epsilon(1e-13).scale(10.0));
         CHECK(path.g1 == doctest::Approx(value[2]).epsilon(1e-13).scale(10.0));
@@ -98,7 +102,7 @@ TEST_CASE(
           d.vt = m.at;
           d.N = -rows.normal.gap * m.vn - rows.normal.vn * m.an;
           d.T = -rows.tangent.N * d.N - rows.tangent.ut * m.vt;
-          CHECK(path.r1 == doctest::Approx(h * guard.form.rate(d)).epsilon(1e-12).scale(10.0));
+          CHECK(path.r1 == doctest::Approx(h * decision.form(slot).rate(d)).epsilon(1e-12).scale(10.0));
         }
         const bool waits = slot == guard_slot(waiting, 0) && !seen.arming().armed(slot);
         const auto dip = seen.dip(slot, h, h_before);

@@ -139,14 +139,20 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
 /// origin, of those of its slope from the middle.
 bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x) {
   const double x_end = x[turn_samples];
-  double reach = 0.0;
-  for (std::size_t k = path.degree; k >= 1; --k) reach = (reach + std::abs(path.a[k])) * x_end;
+  double reach = 0.0, power = 1.0;
+  for (std::size_t k = 1; k <= path.degree; ++k) {
+    power *= x_end;
+    reach += std::abs(path.a[k]) * power;
+  }
   const double a = path.a[0], rounding = rounding::of_many * (std::abs(a) + reach);
   if (range.holds(a, reach, rounding)) return true;
   if (x[0] == 0.0) return false;
   double slope = 0.0;
-  for (std::size_t k = path.degree; k >= 1; --k)
-    slope = slope * x_end + static_cast<double>(k) * std::abs(path.a[k]);
+  power = 1.0;
+  for (std::size_t k = 1; k <= path.degree; ++k) {
+    slope += static_cast<double>(k) * std::abs(path.a[k]) * power;
+    power *= x_end;
+  }
   const double middle = value_at(path.a, path.degree, 0.5 * (x[0] + x_end));
   return range.holds(middle, 0.5 * (x_end - x[0]) * slope, rounding);
 }

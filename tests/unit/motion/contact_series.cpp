@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "unit/motion/lively_row.hpp"
+
 using namespace signorini;
 
 TEST_SUITE_BEGIN("unit/motion/contact_series");
@@ -36,3 +38,39 @@ TEST_CASE("polynomials of a contact with an origin of their own") {
   CHECK(series.integral(ContactSeries::N, 0.75) ==
         doctest::Approx(2.0 * 0.5 - 1.5 * 0.25 + 0.5 / 3.0 * 0.125 + 0.0625));
 }
+
+TEST_CASE("rates are those of g and ut, in whichever order they are asked for, and anew after each filling") {
+  const Model m = lively_row(40);
+  const Structure structure(m);
+  ModeSystems systems(m, structure);
+  const ModeSystemPtr system = systems.of(rubbing_mode(m, 500));
+  REQUIRE(system);
+  Series series;
+  ContactSeries seen;
+  for (const double t : {0.0, 0.3}) {
+    Taylor(systems).expand(system, Forcing(m, t, Side::after), t, m.u0, m.v0, 8, 0.02, series);
+    for (std::size_t c = 0; c < m.contacts.size(); c += 3) {
+      CAPTURE(c);
+      seen.fill(m.contacts[c], c, series, 8);
+      // From the rates of degrees of freedom themselves: (k + 1)/s u_(k+1).
+      const auto along = [&](const Combination& form, std::size_t k) {
+        return form.dot(series.u.col(static_cast<Eigen::Index>(k)).data());
+      };
+      const double* at = seen.of(ContactSeries::an);
+      const double* vt = seen.of(ContactSeries::vt);
+      const double* vn = seen.of(ContactSeries::vn);
+      for (std::size_t k = 0; k <= 8; ++k) {
+        const double rate = static_cast<double>(k + 1) / 0.02;
+        const double surface = series.forcing.surface[c * series.forcing.count + k + 1];
+        CHECK(vn[k] == doctest::Approx(rate * along(m.contacts[c].normal, k + 1)));
+        CHECK(vt[k] == doctest::Approx(rate * (along(m.contacts[c].tangent, k + 1) - surface)));
+        CHECK(at[k] ==
+              doctest::Approx(rate * static_cast<double>(k + 2) / 0.02 * along(m.contacts[c].normal, k + 2)));
+        CHECK(seen.of(ContactSeries::pressing_rate)[k] == 0.0);
+        CHECK(seen.of(ContactSeries::slide)[k] == seen.of(ContactSeries::ut)[k]);
+      }
+    }
+  }
+}
+
+TEST_SUITE_END();

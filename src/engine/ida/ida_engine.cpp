@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact/friction.hpp"
+#include "decide/plain_form.hpp"
 #include "engine/ida/locate.hpp"
 #include "model/said.hpp"
 #include "motion/clock.hpp"
@@ -56,7 +57,7 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
     const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
     const double ut = contact.body_tangent().dot(point.u) - still;      // history_turns.hpp
     for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // as TurningPoints::watched
-    for (std::size_t i = 0; i < guards_per_contact; ++i) *out++ = decision.form(guard_slot(k, i)).value(m);
+    for (const GuardForm& guard : decision.forms[k]) *out++ = QuickForm(guard.form).value(m);
   }
   powers_.at(*segment_.forcing, t, decision.mode, point, out);
 }

@@ -7,6 +7,7 @@
 #include "base/wide_lanes.hpp"
 #include "contact/bowl.hpp"
 #include "contact/friction.hpp"
+#include "decide/plain_form.hpp"
 #include "engine/ida/rehearsal.hpp"
 #include "motion/equilibrium.hpp"
 
@@ -277,10 +278,11 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
   const Scales& scale = model_.scales;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactMotion m = motion(k, t, y, yp);
+    const GuardsOfState& forms = segment_.decision->forms[k];
     for (std::size_t i = 0; i < guards_per_contact; ++i) {
       const std::size_t slot = guard_slot(k, i);
       const Guard kind = segment_.decision->guards[slot].kind;
-      const Form& form = segment_.decision->form(slot);
+      const Form& form = forms[i].form;
       // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
       if (kind == Guard::none || form.an != 0.0 || !watch_->armed(slot)) {
         g[slot] = 1.0;
@@ -291,7 +293,7 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
       const double unit = kind == Guard::closing ? scale.displacement
                           : of_rate              ? scale.velocity
                                                  : scale.force;
-      g[slot] = form.value(m) / unit;
+      g[slot] = QuickForm(form).value(m) / unit;
     }
   }
 }

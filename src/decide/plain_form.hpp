@@ -2,7 +2,7 @@
 //
 //   f = c + N N + T T + gap g + ut ut + vn g' + vt ut'        what else a form may hold is zero in it
 //
-// To the last bit as Form: a sum does not change by the zeros that are left out.
+// To the last bit as Form, of finite motions: a sum does not change by the zeros that are left out.
 #pragma once
 
 #include <cmath>

@@ -97,7 +97,8 @@ class Stepper {
   [[nodiscard]] virtual Expansion expansion() const { return {}; }
 
   /// By how much roundings of sums over modes are greater than where these are orthogonal: greatest |x| |y| of the modes
-  /// that the last step was followed in, y . x = 1. 1: it was followed in none.
+  /// that the last step was followed in, y . x = 1; or more, where their terms are greater than the motion and cancel.
+  /// 1: it was followed in none.
   [[nodiscard]] virtual double dependence() const { return 1.0; }
 
   /// By how many radians u, v, a and forces turn at most in the last step, forcing aside: polynomials of degree n by n pi.

@@ -10,7 +10,7 @@ namespace {
 
 // Modes of a state are used where they give back a motion to 1e-12 of its size (src/engine/exact/modal): over what
 // sums of other kinds are known to.
-constexpr double of_round_trip = 1e-12 / rounding::of_elimination;
+constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::of_elimination;
 
 }  // namespace
 
@@ -117,9 +117,12 @@ Driven WitnessedMotion::driven_at(std::size_t k, const Forcing& forcing, double 
 
 void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const {
   for (std::size_t turns : {0U, 1U}) {
-    side.u_reach[turns] = std::max(u_reach_[turns], dependence * of_round_trip * u_modal_[turns]);
+    // From one instant to the next it goes as far as the scene's displacements, though it be at rest at both.
+    const double own = turns ? model_.scales.rotation : model_.scales.displacement;
+    side.u_reach[turns] = std::max({own, u_reach_[turns], dependence * of_round_trip * u_modal_[turns]});
     side.v_reach[turns] = std::max(v_reach_[turns], dependence * of_round_trip * v_modal_[turns]);
   }
+  if (sums_over_modes_) side.lost = dependence * round_trip * std::sqrt(energy_ + kinetic_);
   side.speeds = speeds_.empty() ? nullptr : speeds_.data();
   if (side.driven.size() == model_.contacts.size()) {
     for (const std::size_t k : driven_) side.driven[k] = driven_at(k, forcing, t);
@@ -149,6 +152,7 @@ void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vecto
   speeds_.resize(lightness_.size());
   for (std::size_t k = 0; k < speeds_.size(); ++k) speeds_[k] = lightness_[k] * root;
   if (!sums_over_modes_) return;
+  kinetic_ = std::max(kinetic_, v.dot(model_.mass * v));
   const std::array<double, 2> of_u = witness.modal_size(u), of_v = witness.modal_size(v);
   const std::array<double, 2> by_energy = witness.modal_size(std::sqrt(energy_));
   const double period = model_.omega1 > 0.0 ? 1.0 / model_.omega1 : 0.0;

@@ -40,7 +40,7 @@ class WitnessedMotion {
  public:
   WitnessedMotion(const Model& model, const WitnessedEngine& engine);
 
-  /// At instants alone: what is greater between two is little greater.
+  /// At instants alone: what is greater between two is little greater, or of the scene's own scale.
   void reach(const Witness& witness, const Vector& u, const Vector& v);
   /// WitnessedSide::a_reach.
   [[nodiscard]] std::array<double, 2> of_accelerations(const Witness& witness, const Vector& a,
@@ -63,6 +63,7 @@ class WitnessedMotion {
   std::vector<double> jerk_;         // |s'''| of each surface just after the last instant
   std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // WitnessedSide
   double energy_ = 0.0;                                                // greatest Witness::twice_energy
+  double kinetic_ = 0.0;                    // of sums over modes: the greatest v^T M v
   std::vector<double> lightness_, speeds_;  // of each contact; times the root of energy_
   std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // Witness::modal_size
 };

@@ -202,7 +202,7 @@ double Bench::swing(const InstantRecord& record, std::size_t k) const {
                           std::abs(after.ddut + t)});
 }
 
-Vector Bench::swung(const InstantRecord& record) const {
+Vector Bench::captured(const InstantRecord& record) const {
   if (!(limits.step > 0.0) || record.captures.size() == 0 || record.captures.isZero(0.0)) return {};
   Vector impulse = Vector::Zero(model.size());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -210,7 +210,11 @@ Vector Bench::swung(const InstantRecord& record) const {
     model.contacts[k].normal.add_to(impulse, record.captures[at]);
     model.contacts[k].tangent.add_to(impulse, record.captures[at + 1]);
   }
-  const Vector dv = per_mass(impulse);
+  return per_mass(impulse);
+}
+
+Vector Bench::swung(const InstantRecord& record) const {
+  const Vector dv = captured(record);
   return dv.size() > 0 ? per_mass(model.damping * dv) : Vector();
 }
 

@@ -186,6 +186,17 @@ bool Finder::shear_stays(std::size_t k) const {
          sign_of_slip((*record_.after.mode)[k].state) * before >= 0.0;
 }
 
+/// Where |N| of what slides jumps down, T falls with it, however the contact goes on: a hit that lets N jump may turn the
+/// slip at the same instant, and what stops then sticks at its new kinetic limit.
+bool Finder::falls_with_it(std::size_t k, const Sight& before, const Sight& after, double off_N,
+                           double off_T) const {
+  const Contact& c = model_.contacts[k];
+  const State old = (*record_.before.mode)[k].state;
+  const int s = sign_of_slip(old);
+  if (s == 0 || std::abs(after.N) >= std::abs(before.N) - off_N) return false;
+  return std::abs(after.T + s * friction_in(c, old, before.dut, after.N) * after.N) <= off_T;
+}
+
 /// T of a spring stays; it drops from the static limit to the kinetic one where the contact lets go.
 void Finder::friction_continuity(std::size_t k) {
   const Contact& c = model_.contacts[k];
@@ -206,6 +217,7 @@ void Finder::friction_continuity(std::size_t k) {
                  fs * off_N;
   if (const RecordedEvent* event = event_of(k); event != nullptr && event->t_uncertainty > 0.0)
     limit += of_uncertainty * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
+  if (falls_with_it(k, b, a, off_N, limit)) return;
   const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
   const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
   const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // N has dropped

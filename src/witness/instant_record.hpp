@@ -37,6 +37,8 @@ struct WitnessedSide {
   /// known relative to these. 0: those of this side.
   std::array<double, 2> u_reach = {0.0, 0.0}, v_reach = {0.0, 0.0};
   std::array<double, 2> a_reach = {0.0, 0.0};  ///< of sums over modes, of this side's accelerations
+  /// Of a sum over modes: what two of them of one motion differ by, the root of twice its energy. 0: it is none.
+  double lost = 0.0;
   /// One a contact: the greatest that energies of the run's displacements could make of its velocities. Null: not known.
   const double* speeds = nullptr;
 };
@@ -76,7 +78,7 @@ struct InstantRecord {
   bool load_jumps = false;
   bool located = true;  ///< the engine finds the time at which a guard is zero
   double dependence =
-      1.0;  ///< of the modes that the motion before was a sum over; 1: of none, or of orthogonal ones
+      1.0;  ///< Stepper::dependence() of the motion before; 1: of no modes, or of orthogonal ones
   double forgiven = 0.0;  ///< by how many of their roundings states fail that were said to be undecided
 };
 

@@ -31,6 +31,11 @@ struct OwnResponse {
   double nn = 0.0, nt = 0.0, tt = 0.0;
 };
 
+/// Of a contact whose forces hold accelerations: what the structure's forces f make of them is w . f. Empty: it holds none.
+struct HeldForce {
+  Vector N, T;
+};
+
 /// What laws know of the model.
 class Bench {
  public:
@@ -65,6 +70,12 @@ class Bench {
   [[nodiscard]] double swing(const InstantRecord& record, std::size_t k) const;
   /// What dampers make of the velocities that captures take out of steps: guards are located with these. Empty: nothing.
   [[nodiscard]] Vector swung(const InstantRecord& record) const;
+  /// The velocities that captures take out of steps. Empty: none.
+  [[nodiscard]] Vector captured(const InstantRecord& record) const;
+  /// The forces of contact k just before, among all that hold accelerations there.
+  [[nodiscard]] HeldForce held_force(const InstantRecord& record, std::size_t k) const;
+  /// What w . f is known to just before, summed twice.
+  [[nodiscard]] double held_noise(const InstantRecord& record, const Vector& w) const;
   /// Slower than this a contact that leaves may be taken as rest.
   [[nodiscard]] double slowest(const InstantRecord& record, std::size_t k) const;
 
@@ -75,6 +86,7 @@ class Bench {
   struct Factor;
   void note_massless();
   [[nodiscard]] static SparseMatrix springs_of(const Model& model);
+  [[nodiscard]] double damped(const InstantRecord& record, const Vector& w, const Vector& v) const;
 
   std::vector<bool> massive_;
   Vector turns_;  // 1 of rotations, else 0
@@ -142,6 +154,8 @@ class Finder {
   void guard_of(const RecordedEvent& event);
   [[nodiscard]] bool shear_stays(std::size_t k) const;
   void friction_continuity(std::size_t k);
+  [[nodiscard]] bool falls_with_it(std::size_t k, const Sight& before, const Sight& after, double off_N,
+                                   double off_T) const;
   [[nodiscard]] Vector closing() const;
   [[nodiscard]] double unsure_without_mass(int dof) const;
   [[nodiscard]] Sight touching(std::size_t k, const WitnessedSide& side) const;
@@ -149,7 +163,9 @@ class Finder {
   void row_before(const RecordedEvent& event, const Sight& before, const Sight& after);
   void row_gap(const RecordedEvent& event, const Sight& after);
   void row_check(const RecordedEvent& event, double off, double limit, const Unit& unit);
-  [[nodiscard]] double force_noise_before(std::size_t k, const Sight& before, const Sight& after) const;
+  [[nodiscard]] double spring_noise_before(std::size_t k, const Sight& before) const;
+  [[nodiscard]] double held_noise_before(std::size_t k) const;
+  [[nodiscard]] double step_error(std::size_t k, double of_u, double of_v) const;
   [[nodiscard]] double settled(const RecordedEvent& event) const;
   [[nodiscard]] bool is_released(std::size_t k) const;
   [[nodiscard]] double left_terms(const Contact& c) const;

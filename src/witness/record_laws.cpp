@@ -106,48 +106,60 @@ double Finder::settled(const RecordedEvent& event) const {
   return of_uncertainty * std::max(event.t_uncertainty, record_.resolution) * std::abs(event.guard_rate);
 }
 
-/// What N and T just before are known to, in two sums of the same u and v: one of the engine, one of the decision, which
-/// takes out velocities that tolerances have left. Forces that hold accelerations are differences of the structure's.
-double Finder::force_noise_before(std::size_t k, const Sight& before, const Sight& after) const {
+/// N and T of springs just before: two sums of the same u and v, one of the engine, one of the decision, which takes out
+/// velocities that tolerances have left. In modes also what they lose of the energy: a spring has no more of it,
+/// kn dg^2 <= lost^2.
+double Finder::spring_noise_before(std::size_t k, const Sight& before) const {
   const Contact& c = model_.contacts[k];
   const WitnessLimits& tol = bench_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const ContactState& state = (*record_.before.mode)[k];
   const double of_captures = cn * bench_.moved_by(record_.captures, k);
-  double limit = rounding::of_elimination *
-                     (2.0 * (size_of_normal(c, before) + kt * (before.place + std::abs(state.anchor))) +
-                      std::abs(before.N) + std::abs(before.T)) +
-                 of_tolerance * ((kn + kt) * (tol.rtol * before.place + tol.displacement) +
-                                 cn * (tol.rtol * before.speed + tol.velocity) +
-                                 tol.rtol * (std::abs(before.N) + std::abs(before.T)) + tol.force) +
-                 of_captures;
-  const OwnResponse* own = bench_.own_response(k);
-  if (own == nullptr || (c.has_spring() && c.tangential_stiffness)) return limit;
-  limit +=
-      force_noise() + (rounding::of_elimination + of_tolerance * tol.rtol) * bench_.balance(record_.before);
-  const Vector swung = bench_.swung(record_);
-  for (const auto& [form, response] : {std::pair(&c.normal, own->nn), std::pair(&c.tangent, own->tt)}) {
-    if (!(response > 0.0)) continue;
-    limit += rounding::of_elimination * after.push / response;
-    if (swung.size() > 0) limit += of_uncertainty * std::abs(form->dot(swung)) / response;
-  }
-  return limit;
+  return rounding::of_elimination *
+             (2.0 * (size_of_normal(c, before) + kt * (before.place + std::abs(state.anchor))) +
+              std::abs(before.N) + std::abs(before.T)) +
+         of_tolerance * ((kn + kt) * (tol.rtol * before.place + tol.displacement) +
+                         cn * (tol.rtol * before.speed + tol.velocity) +
+                         tol.rtol * (std::abs(before.N) + std::abs(before.T)) + tol.force) +
+         (std::sqrt(kn) + std::sqrt(kt)) * record_.before.lost + of_captures;
+}
+
+/// Forces that hold accelerations just before, in two sums of the same u and v (held_forces.cpp). T of what slides is f N.
+double Finder::held_noise_before(std::size_t k) const {
+  const HeldForce held = bench_.held_force(record_, k);
+  const Friction& friction = model_.contacts[k].friction;
+  return std::max(bench_.held_noise(record_, held.N) * std::max({1.0, friction.static_, friction.kinetic}),
+                  bench_.held_noise(record_, held.T));
+}
+
+/// The error of the step in which a guard was found, where the step's length is given: h^2/12 |da| in a displacement,
+/// h/12 |d(da)| in a velocity (trapezoidal rule). Its rate may be small, or zero: t_uncertainty is then that of a higher
+/// derivative, and says nothing with the rate. No acceleration of the step is taken to be greater than those of both sides,
+/// the contact's force gone or not, so |da| <= 2 swing, |d(da)| <= 4 swing; what follows in h is given as for times.
+double Finder::step_error(std::size_t k, double of_u, double of_v) const {
+  const double h = bench_.limits.step;
+  if (!(h > 0.0)) return 0.0;
+  return of_uncertainty * h / 12.0 * (2.0 * h * of_u + 4.0 * of_v) * bench_.swing(record_, k);
 }
 
 /// Where states were found at the end of a step, both sides are that after.
 void Finder::row_before(const RecordedEvent& event, const Sight& before, const Sight& after) {
   if (record_.start || moves_at_once(event.contact)) return;  // guessed; decided anew
-  const Contact& c = model_.contacts[event.contact];
-  const double most = std::max(c.friction.static_, c.friction.kinetic);
-  const bool zero = event.type == "separation" && event.N == 0.0 && event.T == 0.0;
-  const double limit =
-      force_noise_before(event.contact, before, after) + (zero ? (1.0 + most) * settled(event) : 0.0);
-  const auto off = [&](double row, double Sight::*force) {
+  const std::size_t k = event.contact;
+  const Contact& c = model_.contacts[k];
+  const auto apart = [&](double row, double Sight::*force) {
     const double by = std::abs(row - before.*force);
     return record_.located ? by : std::min(by, std::abs(row - after.*force));
   };
-  row_check(event, off(event.N, &Sight::N), limit, seen::force);
-  row_check(event, off(event.T, &Sight::T), limit, seen::force);
+  const double off = std::max(apart(event.N, &Sight::N), apart(event.T, &Sight::T));
+  double limit = spring_noise_before(k, before);
+  if (off <= limit) return;
+  limit += held_noise_before(k);
+  const bool zero = event.type == "separation" && event.N == 0.0 && event.T == 0.0;
+  if (zero)
+    limit += (1.0 + std::max(c.friction.static_, c.friction.kinetic)) *
+             (settled(event) + step_error(k, c.normal_stiffness, c.normal_damping));
+  row_check(event, off, limit, seen::force);
 }
 
 /// The gap is that after; of borrowed springs the surfaces'.
@@ -159,8 +171,9 @@ void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
   double limit = rounding::of_elimination * after.place;
   if (*event.gap == 0.0) {
     const bool by_force = event.type == "separation" && c.has_spring();
+    const double dashpot = by_force ? c.normal_damping / c.normal_stiffness : 0.0;
     limit += of_tolerance * (bench_.limits.rtol * after.place + bench_.limits.displacement) +
-             settled(event) / (by_force ? c.normal_stiffness : 1.0);
+             settled(event) / (by_force ? c.normal_stiffness : 1.0) + step_error(event.contact, 1.0, dashpot);
   }
   row_check(event, std::abs(*event.gap - g), limit, seen::length);
 }

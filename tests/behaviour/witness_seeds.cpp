@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "differential/generator.hpp"
+#include "differential/witnessed.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini::tests::witness_seeds {
@@ -26,6 +27,16 @@ std::vector<Override> in_modes_to(const char* t_end) {
   std::vector<Override> changes = in_modes;
   changes.push_back({"run.t_end", t_end});
   return changes;
+}
+
+/// What the witness finds with the campaign's steps.
+std::vector<differential::Alarm> steps_of(std::uint64_t seed) {
+  CAPTURE(seed);
+  const Scene scene = parse_scene(differential::draw_scene(seed), "seed.toml");
+  std::vector<differential::Alarm> found;
+  for (differential::Alarm& alarm : differential::before_the_witness(scene, 20000).alarms)
+    if (alarm.way.find("newmark") == 0) found.push_back(std::move(alarm));
+  return found;
 }
 
 }  // namespace
@@ -71,6 +82,60 @@ TEST_CASE("a corner of a wall and a floor that moves; a surface whose slip turns
     run(314, {{"run.engine", engine}});
     run(722, {{"run.engine", engine}});
   }
+}
+
+TEST_CASE(
+    "slow modes answer short ramps by terms 40,000 times the motion, which cancel: u is known to less") {
+  for (const std::uint64_t seed : {3UL, 1595UL}) run(seed, in_modes);
+}
+
+TEST_CASE("a slow pair of roots that is no free motion is left to the series, which lose no digits in it") {
+  const Result result = run(5058, in_modes);  // omega = 3e-3 rad/s over 2 s, of digits that K was rounded to
+  const Result series = run(5058, {{"run.engine", "exact"}, {"run.flow", "taylor"}});
+  REQUIRE(result.events.size() == series.events.size());
+  for (std::size_t i = 0; i < result.events.size(); ++i) {
+    CAPTURE(i);
+    CHECK(std::abs(result.events[i].t - series.events[i].t) < 1e-12);  // it was 1e-7
+    CHECK(std::abs(result.events[i].T - series.events[i].T) < 1e-9);
+  }
+}
+
+TEST_CASE(
+    "where slides nearly depend on each other, rounding of the structure's forces is greater in theirs") {
+  run(685, in_modes);
+}
+
+TEST_CASE(
+    "velocities that steps leave, by three rigid contacts of which two are nearly the same, and by "
+    "dashpots") {
+  for (const std::uint64_t seed : {1052UL, 1022UL}) CHECK(steps_of(seed).empty());
+}
+
+TEST_CASE(
+    "a contact that opens while N hardly falls: zero is what a step's error hides, though the rate is "
+    "small") {
+  for (const std::uint64_t seed : {916UL, 1989UL, 5989UL}) CHECK(steps_of(seed).empty());
+}
+
+TEST_CASE("|N| of a slip drops by a hit that turns the body: T falls with it, and sticks") {
+  const Result result = run(1288, {{"run.engine", "exact"}});
+  int stopped = 0;
+  for (const Event& e : result.events)
+    if (e.type == EventType::stick && e.N_after > e.N && std::abs(e.T - e.T_after) > 1e-3) {
+      ++stopped;
+      CHECK(std::abs(e.T_after) == doctest::Approx(0.676 * std::abs(e.N_after)).epsilon(1e-12));
+    }
+  CHECK(stopped == 2);
+  CHECK(steps_of(5547).empty());
+}
+
+TEST_CASE("a slip that a hit stops, and that goes on a little before it turns, has its peak there") {
+  run(5387, {{"run.engine", "exact"}, {"run.flow", "taylor"}});
+}
+
+TEST_CASE("a block that starts at rest on a spring has been deep in it when it is at zero again") {
+  run(5372, {{"run.engine", "exact"}});
+  CHECK(steps_of(5372).empty());
 }
 
 TEST_SUITE_END();

@@ -21,6 +21,20 @@ double turn_from(const double* a, std::size_t degree, double at, double low, dou
   return at;
 }
 
+/// Where a polynomial that moves one way from `end`, or begins to, has turned before `next`: by halves, nearly. Newton steps from the
+/// end itself stay there where it is a turn of the other kind, as after a hit that stops a slip.
+double turned_beside(const double* a, std::size_t degree, double end, double next, double inward) {
+  const double forth = next > end ? inward : -inward;  // sign of the slope at `next`
+  double near = end, far = next;
+  for (int halved = 0; halved < 12; ++halved) {
+    const double middle = 0.5 * (near + far);
+    double slope = 0.0;
+    for (std::size_t k = degree; k >= 1; --k) slope = slope * middle + static_cast<double>(k) * a[k];
+    (slope * forth < 0.0 ? near : far) = middle;
+  }
+  return turn_from(a, degree, 0.5 * (near + far), std::min(near, far), std::max(near, far));
+}
+
 }  // namespace
 
 void TurningPoints::start(const Decision& decision) {
@@ -130,9 +144,7 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
       record(path, place, x[end]);
     return;
   }
-  const double at =
-      turn_from(path.a, path.degree, x[end], std::min(x[end], x[next]), std::max(x[end], x[next]));
-  record(path, place, at);
+  record(path, place, turned_beside(path.a, path.degree, x[end], x[next], inward));
 }
 
 /// The sums of the magnitudes of its terms show that it stays within all that it was before: of those of f itself from the

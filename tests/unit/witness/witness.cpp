@@ -318,6 +318,80 @@ TEST_CASE("T at its static limit lets go in its own direction, down to kinetic f
   CHECK(names(r.by(block(like)), "continuity of friction"));
 }
 
+TEST_CASE(
+    "a hit lets |N| of a slip drop and turns the body: what stops sticks at the T that it had, or that fell "
+    "with N") {
+  Contact damped = ground(Law::compliant);
+  damped.normal_damping = 10.0;
+  for (const double T : {3.0, 2.7, 0.3 * 8.0}) {
+    CAPTURE(T);
+    Recorded r(-1e-3, 0.02);
+    r.v_before = along(0.0, 1.0);
+    r.v_after = along(0.2, -1.0);
+    r.forces_before = Eigen::Vector2d(-10.0, 3.0);
+    r.forces_after = Eigen::Vector2d(-8.0, T);
+    r.before = {{State::slip_plus, 0.0}};
+    r.after = {{State::stick, 0.02 - T / 8e3}};
+    CHECK(names(r.by(block(damped)), "continuity of friction") == (T == 2.7));
+  }
+}
+
+TEST_CASE(
+    "rows: what captured velocities do by dampers is greater in forces of contacts that are nearly the "
+    "same") {
+  Contact flat = ground(Law::rigid), inclined = flat;
+  const double c = std::sqrt(0.99);
+  flat.normal.terms = {{1, 1.0}};
+  flat.tangent.terms = {{0, 1.0}};
+  inclined.normal.terms = {{0, 0.1}, {1, c}};
+  inclined.tangent.terms = {{0, c}, {1, -0.1}};
+  for (Contact* contact : {&flat, &inclined}) contact->friction.static_ = contact->friction.kinetic = 0.0;
+  Model model = block(flat);
+  model.contacts.push_back(inclined);
+  for (const int dof : {0, 1}) model.damping.insert(dof, dof) = 3.0;
+  const Vector u = Vector::Zero(2);
+  const std::vector<ContactState> closed = {{State::closed, 0.0}, {State::closed, 0.0}};
+  const std::vector<ContactState> left = {{State::open, 0.0}, {State::closed, 0.0}};
+  Vector forces = Vector::Zero(4), after = forces;
+  forces[0] = -10.0;
+  for (const double part : {1.0, 4.0}) {
+    CAPTURE(part);
+    InstantRecord record;
+    record.t = 1.0;
+    record.resolution = 1e-15;
+    record.before = {&u, &u, nullptr, &closed, &forces, {Driven{}, Driven{}}};
+    record.after = {&u, &u, &u, &left, &after, {Driven{}, Driven{}}};
+    record.captures.setZero(4);
+    record.captures[0] =
+        -2e-5 * c;  // together 1e-6 m/s across: 3e-6 N by the dampers, 3e-5 N in each contact
+    record.captures[2] = 2e-5;
+    record.events.push_back({0, "event", State::closed, State::open});
+    write_rows(model, record);
+    record.events[0].N += part * 3e-5 * c;
+    WitnessLimits limits;
+    limits.step = 0.01;
+    CHECK(names(Witness(model, limits).instant(record), "row") == (part > 3.0));
+  }
+}
+
+TEST_CASE("rows: a gap that is written as zero was so to the error of a step, though its rate says nothing") {
+  for (const double gap : {1e-4, 1e-3}) {
+    CAPTURE(gap);
+    Recorded r(gap);
+    r.a = along(10.0, 0.0);  // 3 h^2/12 2 a = 5e-4
+    r.before = r.after = {{State::open, 0.0}};
+    RecordedEvent event{0, "contact", State::open, State::open};
+    event.t_uncertainty = 0.1;
+    event.gap = 0.0;
+    r.record.events = {event};
+    r.untrue = true;
+    WitnessLimits limits;
+    limits.step = 0.01;
+    CHECK(names(r.by(block(ground(Law::rigid)), limits), "row") == (gap > 5e-4));
+    CHECK(names(r.by(block(ground(Law::rigid))), "row"));
+  }
+}
+
 TEST_CASE("T below its limit does not let go") {
   Recorded r(-1e-3, 0.02);
   r.forces_before = Eigen::Vector2d(-10.0, 3.9);

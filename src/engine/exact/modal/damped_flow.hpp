@@ -48,6 +48,7 @@ class DampedFlow final : public ModalFlow {
     return motion_.ripple(from, time, omega);
   }
   [[nodiscard]] double dependence() const override { return motion_.dependence(); }
+  [[nodiscard]] SumTerms terms(const ModalPoint& at) const override { return motion_.terms(at); }
   [[nodiscard]] long states_made() const override { return motion_.system().made() - made_before_; }
 
  private:

@@ -74,6 +74,8 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   const DampedModes& modes = state_->modes;
   if (!modes.failure.empty()) return modes.failure;
   lengths_ = modes.shape.colwise().norm();
+  const Eigen::VectorXd omega = basis_.square().cwiseMax(0.0).cwiseSqrt();
+  swings_ = (omega.asDiagonal() * modes.shape).colwise().norm().transpose();
   const double t = decision_->jet.t;
   time_ = TimeBasis(model_, t);
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
@@ -99,6 +101,9 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   place_ += complex_product(modes.shape, answers).real();
   rate_ = time_.derivative(place_);
   change_ = time_.derivative(rate_);
+  place_lengths_ = place_.colwise().norm().transpose();
+  rate_lengths_ = rate_.colwise().norm().transpose();
+  place_swings_ = (omega.asDiagonal() * place_).colwise().norm().transpose();
   find_contacts(p, answers);
   return {};
 }
@@ -177,6 +182,13 @@ Ripple DampedMotion::ripple(const ModalPoint& from, double time, double omega) c
   r.v = v.value();
   r.a = a.value();
   return r;
+}
+
+SumTerms DampedMotion::terms(const ModalPoint& at) const {
+  const Eigen::VectorXd y = at.y.cwiseAbs(), b = time_.at(at.time).cwiseAbs();
+  return {lengths_.dot(y) + place_lengths_.dot(b),
+          lengths_.cwiseProduct(root().cwiseAbs()).dot(y) + rate_lengths_.dot(b),
+          swings_.dot(y) + place_swings_.dot(b)};
 }
 
 void DampedMotion::advance(const ModalPoint& from, double time, ModalPoint& to) const {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "engine/exact/modal/damped_system.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
 #include "engine/exact/modal/oscillators.hpp"
 #include "engine/exact/modal/time_basis.hpp"
 #include "engine/stepper.hpp"
@@ -82,6 +83,8 @@ class DampedMotion {
   [[nodiscard]] double magnitude(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseAbs().dot(at.y.cwiseAbs()) + f.course.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
   }
+  /// As ModalFlow::terms.
+  [[nodiscard]] SumTerms terms(const ModalPoint& at) const;
 
  private:
   [[nodiscard]] Eigen::MatrixXd held(const Segment& segment, const Vector& q) const;
@@ -98,7 +101,8 @@ class DampedMotion {
   const Decision* decision_ = nullptr;
   TimeBasis time_;
   Eigen::MatrixXd place_, rate_, change_;
-  Eigen::VectorXd lengths_;  // of the shapes
+  Eigen::VectorXd lengths_, swings_;  // of the shapes, and of omega times them
+  Eigen::VectorXd place_lengths_, rate_lengths_, place_swings_;
   std::vector<ContactQuantities> contacts_;
 };
 

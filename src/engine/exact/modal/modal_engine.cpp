@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::size_t most_parts = 256;  // of a step: each holds the amplitudes of all modes
 constexpr int most_touches = 5;          // warnings about one and the same thing
-constexpr int most_corrections = 4;      // of the time of a fall; one is enough but where two guards graze
+constexpr double lost_in_modes =
+    1e-12;                           // what modes may lose of a motion: spectrum.cpp, damped_round_trip.cpp
+constexpr int most_corrections = 4;  // of the time of a fall; one is enough but where two guards graze
 
 }  // namespace
 
@@ -87,6 +89,20 @@ void ModalEngine::start(const Segment& segment) {
   has_worked_ = false;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   ++restarts_;
+}
+
+/// Loads that slow modes answer make terms far greater than the motion, which cancel. Their rounding, over what a round
+/// trip through the modes loses of the motion so far.
+void ModalEngine::see_terms() {
+  const StructureEnergy energy = energy_of(q_, rate_);
+  swung_ = std::max(swung_, std::sqrt(2.0 * (energy.kinetic + energy.elastic)));
+  reached_ = std::max({reached_, q_.norm(), model_.omega1 > 0.0 ? swung_ / model_.omega1 : 0.0});
+  const SumTerms terms = flow_->terms(now_);
+  const auto over = [](double sum, double motion) {
+    return motion > 0.0 ? rounding::of_many * sum / (lost_in_modes * motion) : 0.0;
+  };
+  cancelled_ =
+      std::max({1.0, over(terms.place, reached_), over(terms.rate, swung_), over(terms.swing, swung_)});
 }
 
 void ModalEngine::see_touches(const Passage& passage, double begin) {
@@ -179,6 +195,7 @@ Step ModalEngine::advance() {
   step.end = t_;
   step.resolution = std::max(step.resolution, resolution_at(t_, parts_.back().length));
   if (step.kind != Step::Kind::event) fill(now_, motion(now_, true), end_);
+  see_terms();
   return step;
 }
 

@@ -43,7 +43,9 @@ class ModalEngine final : public Stepper {
   /// A guard that leaves zero is followed by its leading derivative.
   [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] Expansion expansion() const override { return modal_ ? Expansion{} : taylor_.expansion(); }
-  [[nodiscard]] double dependence() const override { return modal_ ? flow_->dependence() : 1.0; }
+  [[nodiscard]] double dependence() const override {
+    return modal_ ? std::max(flow_->dependence(), cancelled_) : 1.0;
+  }
   [[nodiscard]] double turns() const override { return modal_ ? Stepper::turns() : taylor_.turns(); }
   [[nodiscard]] std::optional<Ripple> ripple(double omega) const override;
   [[nodiscard]] Ripple whole() const override;
@@ -83,6 +85,7 @@ class ModalEngine final : public Stepper {
   };
   [[nodiscard]] Fall fall_of(std::size_t slot, const Point& point) const;
   [[nodiscard]] double sharpen(std::size_t slot);
+  void see_terms();
   void see_touches(const Passage& passage, double begin);
 
   const Model& model_;
@@ -103,6 +106,9 @@ class ModalEngine final : public Stepper {
   double t_ = 0.0;
   Vector q_, rate_;  // at the end of the last step, and the motion that they stand for
   Point end_;
+  double reached_ = 0.0,
+         swung_ = 0.0;      // greatest motion so far, as places and as velocities in the norm of M
+  double cancelled_ = 1.0;  // of the last step: see_terms
   double worked_to_ = 0.0;  // the time up to which works were taken, and the motion there
   ModalPoint worked_;
   bool has_worked_ = false;

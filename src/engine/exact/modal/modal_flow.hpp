@@ -30,6 +30,11 @@ struct Passage {
 /// Of one kind the last turn counts: see TurningPoints::Turn.
 using LastTurns = std::map<std::size_t, double>;
 
+/// Sums of magnitudes: of the amplitudes of open modes, in the norm of M; of their rates; of omega times the amplitudes.
+struct SumTerms {
+  double place = 0.0, rate = 0.0, swing = 0.0;
+};
+
 class ModalFlow {
  public:
   virtual ~ModalFlow() = default;
@@ -62,6 +67,8 @@ class ModalFlow {
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
   /// Stepper::dependence() of the segment.
   [[nodiscard]] virtual double dependence() const = 0;
+  /// Terms that cancel in the sum over modes.
+  [[nodiscard]] virtual SumTerms terms(const ModalPoint& /*at*/) const { return {}; }
   /// Contact states whose modes were made.
   [[nodiscard]] virtual long states_made() const = 0;
 };

@@ -116,6 +116,7 @@ double TimeBasis::loss(std::complex<double> l, double time) const {
   double most = 0.0;
   if (size > 0.0) {  // j! / (l time)^j beside one, and 1 / l beside time
     double term = 1.0 / (size * time);
+    if (l.imag() != 0.0 || l.real() > 0.0) term = std::max(term, term * term);  // p / l^2 beside p time^2 / 2
     for (std::size_t j = 0; j < degree_; ++j) {
       most = std::max(most, term);
       term *= static_cast<double>(j + 1) / (size * time);

@@ -41,7 +41,8 @@ class TimeBasis {
   /// c with c D = l c + p; l = 0 or none of +-i w: the coefficient of x^D of p is not read.
   [[nodiscard]] ComplexCourse answer(std::complex<double> l, const ComplexCourse& p) const;
   /// How much greater than p / l the answer's terms are on [0, time], where p has more than a constant: the
-  /// share of them that rounding leaves is that times eps. 0: l = 0.
+  /// share of them that rounding leaves is that times eps. 0: l = 0. A root that is not real, or that grows, is one of a pair, whose terms
+  /// cancel, and so do their rates: what is left grows with the square of time.
   [[nodiscard]] double loss(std::complex<double> l, double time) const;
   /// p[0 .. count): c . b(x0 + h x) in powers of x, count > D. Bounds on the waves with w h > turn, which are
   /// left out, and on their rates by time; and on what powers beyond make of the others.

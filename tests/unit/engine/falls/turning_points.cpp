@@ -76,6 +76,19 @@ TEST_CASE("a peak beside an end of a step is found, though all samples go one wa
   CHECK(resting.times().empty());
 }
 
+TEST_CASE(
+    "a peak beside an end where it turns the other way: after a hit that stops a slip it rises from there at "
+    "first") {
+  const double rise = 0.01,
+               at = std::sqrt(0.5 * rise);  // rise x^2 - x^4, less at a sample's distance of 1/8 than at 0
+  OneForce from({1.0, 0.0, rise, 0.0, -1.0});
+  REQUIRE(from.times().size() == 1);
+  CHECK(from.turns.times()[0] == doctest::Approx(1.0 + 2.0 * at).epsilon(1e-9));
+  OneForce to({rise - 1.0, 4.0 - 2.0 * rise, rise - 6.0, 4.0, -1.0});  // the same of 1 - x
+  REQUIRE(to.times().size() == 1);
+  CHECK(to.turns.times()[0] == doctest::Approx(1.0 + 2.0 * (1.0 - at)).epsilon(1e-9));
+}
+
 TEST_CASE("a part of a step that begins at a peak has it, for nobody looks there") {
   OneForce rising({0.0, 1.0});
   rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, TurningPoints::Ends::part);

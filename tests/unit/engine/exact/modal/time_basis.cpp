@@ -91,6 +91,8 @@ TEST_CASE("what answers lose to rounding") {
   const TimeBasis still(Model{}, 0.0);
   CHECK(still.loss(0.0, 2.0) == 0.0);
   CHECK(still.loss({-0.01, 0.0}, 2.0) == doctest::Approx(50.0));
+  CHECK(still.loss({0.01, 0.0}, 2.0) == doctest::Approx(2500.0));  // beside -0.01: cosh 0.02 - 1
+  CHECK(still.loss({0.0, 0.01}, 2.0) == doctest::Approx(2500.0));  // cos 0.02 - 1, twice
   const TimeBasis waves(driven(), 0.0);
   CHECK(waves.loss({0.0, 4.0}, 2.0) > 1e12);   // resonance
   CHECK(waves.loss({-0.4, 4.0}, 2.0) < 10.0);  // with damping

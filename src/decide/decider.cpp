@@ -164,7 +164,7 @@ Refusal Decider::begin(const Forcing& before, DecisionCourse& course) {
   if (instant.start) course.given = instant.u;
   instant.u = d.u;
   instant.v = d.v;
-  course.found.capture(every_, std::exchange(course.held, {}));
+  course.found.capture(std::exchange(course.held, {}));
   course.mode = instant.mode;
   if (!instant.jump) return {};
   follow_forcing(model_, instant, before, course.after, d.before, course.mode);
@@ -274,8 +274,9 @@ void Decider::stop(const std::vector<std::size_t>& turning, DecisionCourse& cour
   for (std::size_t i = 0; i < turning.size(); ++i)
     fixed.push_back({tangent_place(i), &model_.contacts[turning[i]].tangent,
                      course.after.surface(turning[i], course.instant.t, 1)});
-  if (!settled(fixed, course.instant.v))
-    course.found.capture(turning, settle(delassus(model_, *system, turning), fixed, course.instant.v));
+  if (settled(fixed, course.instant.v)) return;
+  const Eigen::VectorXd impulses = settle(delassus(model_, *system, turning), fixed, course.instant.v);
+  course.found.capture(with_reactions(model_, *system, turning, impulses));
 }
 
 /// How what fell with others, by the rounding of its gap, passed through zero.
@@ -402,7 +403,7 @@ void Decider::look_at_start(DecisionCourse& course, std::size_t c, const GuardFo
 void Decider::finish(DecisionCourse& course) {
   Decision& d = course.decision;
   d.consistent = true;
-  course.found.capture(every_, course.held);
+  course.found.capture(course.held);
   d.captures = course.found.captures;
   d.departures = course.found.departures;
   d.unresolved = course.found.unresolved;

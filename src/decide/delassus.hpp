@@ -32,4 +32,10 @@ Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed
 [[nodiscard]] Delassus delassus(const Model& model, const ModeSystem& system,
                                 const std::vector<std::size_t>& contacts);
 
+/// Of impulses at rows 2 i, 2 i + 1 of the i-th of these contacts: they themselves, and what rows in force of others, as of a slider
+/// that sticks, give against them. Slots as those of forces. Empty: no impulses.
+[[nodiscard]] Eigen::VectorXd with_reactions(const Model& model, const ModeSystem& system,
+                                             const std::vector<std::size_t>& contacts,
+                                             const Eigen::VectorXd& impulses);
+
 }  // namespace signorini

@@ -62,6 +62,12 @@ void Findings::capture(const std::vector<std::size_t>& contacts, const Eigen::Ve
   }
 }
 
+void Findings::capture(const Eigen::VectorXd& impulses) {
+  if (impulses.size() == 0) return;
+  if (captures.size() == 0) captures.setZero(impulses.size());
+  captures += impulses;
+}
+
 Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity)
     : model_(systems.model()),
       systems_(systems),
@@ -149,7 +155,8 @@ bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const Mo
     found.known[c].sliding.zeros = 1;
   }
   if (settled(fixed, instant.v)) return false;
-  found.capture(met.contacts, settle(delassus(model_, free, met.contacts), fixed, instant.v));
+  const Eigen::VectorXd impulses = settle(delassus(model_, free, met.contacts), fixed, instant.v);
+  found.capture(with_reactions(model_, free, met.contacts, impulses));
   return true;
 }
 

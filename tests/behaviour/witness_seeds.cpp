@@ -129,6 +129,10 @@ TEST_CASE("|N| of a slip drops by a hit that turns the body: T falls with it, an
   CHECK(steps_of(5547).empty());
 }
 
+TEST_CASE("what rests is set to rest while a slider sticks: the slider's impulse against it is told, too") {
+  CHECK(run(5527, {{"run.engine", "ida"}, {"run.rtol", "1e-6"}, {"run.t_end", "0.13"}}).events.size() > 0);
+}
+
 TEST_CASE("a slip that a hit stops, and that goes on a little before it turns, has its peak there") {
   run(5387, {{"run.engine", "exact"}, {"run.flow", "taylor"}});
 }

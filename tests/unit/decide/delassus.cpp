@@ -50,6 +50,32 @@ TEST_CASE("forces at contacts move all of them by H^T M^-1 H, and parts without 
   CHECK((d.W - H.transpose() * effect).cwiseAbs().maxCoeff() < 1e-14);
 }
 
+TEST_CASE("impulses and what a contact that sticks gives against them make the whole change of momentum") {
+  const Model model = on_slopes();
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  const Eigen::MatrixXd mass = Eigen::MatrixXd(model.mass).topLeftCorner(3, 3);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, 4);
+  H.col(0) << 0.8, -0.6, 0.0;
+  H.col(1) << 0.6, 0.8, 0.0;
+  H.col(2) << 0.0, 0.0, 1.0;
+  H.col(3) << 0.0, 0.3, 0.1;
+  for (const State second : {State::open, State::stick}) {
+    const ModeSystemPtr system = systems.of({{State::open, 0.0}, {second, 0.0}});
+    REQUIRE(system);
+    const Eigen::Vector2d impulses(0.7, -1.9);
+    const Eigen::VectorXd all = with_reactions(model, *system, {0}, impulses);
+    REQUIRE(all.size() == 4);
+    CHECK(all[0] == 0.7);
+    CHECK(all[1] == -1.9);
+    CHECK((all[2] != 0.0) == (second == State::stick));
+    CHECK((all[3] != 0.0) == (second == State::stick));
+    const Eigen::VectorXd dv = delassus(model, *system, {0}).effect * impulses;
+    CHECK((mass * dv.head(3) - H * all).cwiseAbs().maxCoeff() < 1e-14);
+    CHECK(with_reactions(model, *system, {0}, {}).size() == 0);
+  }
+}
+
 TEST_CASE("velocities are set to the last digit, by the least change of kinetic energy") {
   const Model model = on_slopes();
   const Structure structure(model);

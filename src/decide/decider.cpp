@@ -409,8 +409,7 @@ void Decider::finish(DecisionCourse& course) {
   d.unresolved = course.found.unresolved;
   d.slides_after = slides(course.after, d);
   d.after.reserve(course.mode.size());
-  d.guards.resize(guard_count(course.mode.size()));
-  GuardStart* next = d.guards.data();
+  d.guards.reserve(guard_count(course.mode.size()));
   for (std::size_t c = 0; c < course.mode.size(); ++c) {
     const MotionJet& jet = course.jets[c];
     const ContactMotion& now = jet.motion[0];
@@ -419,7 +418,7 @@ void Decider::finish(DecisionCourse& course) {
                   std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
     const bool clear = clearly_holds(course, c);
     for (const GuardForm& guard : guards_.of(c, course.mode[c])) {
-      GuardStart& start = *next++;
+      GuardStart& start = d.guards.emplace_back();
       // Others may hold its slip rate at zero, whatever rounding makes of it: then it has none.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, course))) continue;
       start.kind = guard.kind;

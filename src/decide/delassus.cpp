@@ -32,19 +32,16 @@ Eigen::VectorXd with_reactions(const Model& model, const ModeSystem& system,
                                const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return {};
   Vector x = Vector::Zero(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
-  const auto each = [&](const auto& f) {
-    for (std::size_t i = 0; i < contacts.size(); ++i) f(i, contacts[i]);
-  };
-  each([&](std::size_t i, std::size_t c) {
-    model.contacts[c].normal.add_to(x, impulses[normal_place(i)]);
-    model.contacts[c].tangent.add_to(x, impulses[tangent_place(i)]);
-  });
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    model.contacts[contacts[i]].normal.add_to(x, impulses[normal_place(i)]);
+    model.contacts[contacts[i]].tangent.add_to(x, impulses[tangent_place(i)]);
+  }
   system.solve(x.data(), work.data());
   Eigen::VectorXd all = -x.tail(2 * static_cast<Eigen::Index>(model.contacts.size()));
-  each([&](std::size_t i, std::size_t c) {
-    all[normal_place(c)] += impulses[normal_place(i)];
-    all[tangent_place(c)] += impulses[tangent_place(i)];
-  });
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    all[normal_place(contacts[i])] += impulses[normal_place(i)];
+    all[tangent_place(contacts[i])] += impulses[tangent_place(i)];
+  }
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/rounding.hpp"
+#include "decide/plain_form.hpp"
 #include "linear/mass_factors.hpp"
 
 namespace signorini {
@@ -29,11 +30,6 @@ void add_forces(const Structure& s, const double* v, const double* u, double* r)
   for (std::size_t j = 0; j < static_cast<std::size_t>(s.size); ++j)
     for (const auto end = static_cast<std::size_t>(s.column_start[j + 1]); p < end; ++p)
       r[s.row[p]] += s.c[p] * v[j] + s.k[p] * u[j];
-}
-
-/// Form::value where all else is zero.
-double of_motion(const Form& row, const ContactMotion& m) {
-  return row.constant + (row.gap * m.gap + row.ut * m.ut + row.vn * m.vn + row.vt * m.vt);
 }
 
 }  // namespace
@@ -311,10 +307,8 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
     set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
     m.pressing = forcing.pressing(k, t1, 0);
-    const bool undriven = m.at == 0.0 && m.pressing == 0.0;
-    const auto value = [&](const Form& row) { return undriven ? of_motion(row, m) : row.value(m); };
-    x_.data()[n + normal_slot(k)] = -value(rows[k].normal);
-    x_.data()[n + tangent_slot(k)] = -value(rows[k].tangent);
+    x_.data()[n + normal_slot(k)] = -QuickForm(rows[k].normal).value(m);
+    x_.data()[n + tangent_slot(k)] = -QuickForm(rows[k].tangent).value(m);
   }
   if (!solve_condensed(h, kept)) {
     if (!(kept ? solve_kept(h) : solve_odd(h))) return false;

@@ -81,6 +81,7 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
     if (!(time_.loss(modes.root[k], t_end_) < most_loss))
       return "decays that are neither none nor fast beside the run, or resonance";
+  time_.make_room(modes.root, segment.end - t);
   contacts_.resize(model_.contacts.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].surface = time_.of(model_.contacts[c].surface_motion.piece(t));

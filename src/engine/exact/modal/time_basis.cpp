@@ -32,7 +32,19 @@ TimeBasis::TimeBasis(const Model& model, double t) : t0_(t) {
     take(contact.normal_force);
     take(contact.surface_motion);
   }
-  degree_ = degree + 1;
+  degree_ = driven_ = degree + 1;
+}
+
+void TimeBasis::make_room(const Eigen::VectorXcd& roots, double length) {
+  degree_ = driven_;
+  length_ = std::numeric_limits<double>::infinity();
+  if (stands_still()) return;
+  length_ = length;
+  double greatest = 0.0;
+  for (const std::complex<double>& l : roots)
+    if (is_slow(l)) greatest = std::max(greatest, std::abs(l) * length);
+  double term = greatest;
+  for (int m = 1; term > 0.25 * std::numeric_limits<double>::epsilon(); term *= greatest / ++m) ++degree_;
 }
 
 Eigen::VectorXd TimeBasis::at(double x) const {
@@ -94,8 +106,8 @@ Eigen::MatrixXd TimeBasis::derivative(const Eigen::MatrixXd& c) const {
 ComplexCourse TimeBasis::answer(std::complex<double> l, const ComplexCourse& p) const {
   ComplexCourse c = ComplexCourse::Zero(size());
   const auto degree = static_cast<Eigen::Index>(degree_);
-  if (l == 0.0) {
-    for (Eigen::Index j = 0; j < degree; ++j) c[j + 1] = p[j] / static_cast<double>(j + 1);
+  if (is_slow(l)) {
+    for (Eigen::Index j = 0; j < degree; ++j) c[j + 1] = (l * c[j] + p[j]) / static_cast<double>(j + 1);
   } else {
     const std::complex<double> part = 1.0 / l;
     for (Eigen::Index j = degree; j-- > 0;) c[j] = (static_cast<double>(j + 1) * c[j + 1] - p[j]) * part;
@@ -117,7 +129,7 @@ double TimeBasis::loss(std::complex<double> l, double time) const {
   if (size > 0.0) {  // j! / (l time)^j beside one, and 1 / l beside time
     double term = 1.0 / (size * time);
     if (l.imag() != 0.0 || l.real() > 0.0) term = std::max(term, term * term);  // p / l^2 beside p time^2 / 2
-    for (std::size_t j = 0; j < degree_; ++j) {
+    for (std::size_t j = 0; j < driven_; ++j) {
       most = std::max(most, term);
       term *= static_cast<double>(j + 1) / (size * time);
     }

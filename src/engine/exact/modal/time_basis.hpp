@@ -5,9 +5,15 @@
 //
 // Every history is such an f on a segment. D is one more than the forcing's degree: what has no stiffness
 // answers one degree higher.
+//
+// Backwards from x^D the terms of c are p/l, p/l^2, ...: of a root that is slow beside the segment they are far greater than its
+// answer, and cancel. Such a root is answered forwards, as nothing but a power of x is:
+//   c_0 = 0,   c_j+1 = (l c_j + p_j) / (j + 1),   to the x^(D+m) with (|l| x)^m / m! below rounding
 #pragma once
 
+#include <cmath>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "signorini/model.hpp"
@@ -24,6 +30,10 @@ class TimeBasis {
   /// Of all that acts in the pieces of a model that are in force just after t.
   TimeBasis(const Model& model, double t);
 
+  /// Room for the answers of those roots that are slow on [0, length] where more than constants drive; of what is asked later.
+  /// length: of the segment. Unit: time.
+  void make_room(const Eigen::VectorXcd& roots, double length);
+
   [[nodiscard]] Eigen::Index size() const {
     return static_cast<Eigen::Index>(degree_ + 1 + 2 * omega_.size());
   }
@@ -38,7 +48,8 @@ class TimeBasis {
   /// Of rows c.
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::MatrixXd& c) const;
   [[nodiscard]] Course derivative(const Course& c) const;
-  /// c with c D = l c + p; l = 0 or none of +-i w: the coefficient of x^D of p is not read.
+  /// c with c D = l c + p; l = 0 or none of +-i w: the coefficient of x^D of p is not read. Of slow roots to rounding within the
+  /// length that room was made for.
   [[nodiscard]] ComplexCourse answer(std::complex<double> l, const ComplexCourse& p) const;
   /// How much greater than p / l the answer's terms are on [0, time], where p has more than a constant: the
   /// share of them that rounding leaves is that times eps. 0: l = 0. A root that is not real, or that grows, is one of a pair, whose terms
@@ -55,8 +66,14 @@ class TimeBasis {
   [[nodiscard]] Eigen::MatrixXd products(double x0, double x1) const;
 
  private:
+  [[nodiscard]] bool is_slow(std::complex<double> l) const {
+    return l == 0.0 || std::abs(l) * length_ <= slow_turn;
+  }
+
+  static constexpr double slow_turn = 0.5;  // backwards a ramp's terms are eight times its answer there
   double t0_ = 0.0;
-  std::size_t degree_ = 1;
+  double length_ = std::numeric_limits<double>::infinity();
+  std::size_t degree_ = 1, driven_ = 1;  // driven_: without room for slow roots
   std::vector<double> omega_;
 };
 

@@ -74,6 +74,54 @@ TEST_CASE("answers solve z' = l z + p, with frequency and without") {
   }
 }
 
+TEST_CASE("answers of slow roots are small where the motion is, to rounding") {
+  // z' = l z + 3 x on [0, 0.01], z(0) = 0: z = 3 (e^(l x) - 1 - l x) / l^2 = 3 x^2 (1/2 + l x/6 + (l x)^2/24 + ...)
+  Model model;
+  Load load;
+  load.history = History(Piece{0.0, {0.0, 3.0}, 0.0, 0.0, 0.0});
+  model.loads.push_back(load);
+  TimeBasis basis(model, 0.0);
+  const Course ramp = basis.of(model.loads[0].history.piece(0.0));
+  const double x = 0.01;
+  const auto slow_series = [&](std::complex<double> l) {
+    std::complex<double> sum = 0.0, term = 0.5;
+    for (int m = 3; std::abs(term) > 1e-20; ++m) {
+      sum += term;
+      term *= l * x / static_cast<double>(m);
+    }
+    return 3.0 * x * x * sum;
+  };
+  Eigen::VectorXcd roots(4);
+  roots << std::complex<double>(-2.0, 0.0), std::complex<double>(0.3, 40.0), 0.0,
+      std::complex<double>(-9.0, 800.0);
+  basis.make_room(roots, x);
+  CHECK(basis.degree() > 12);  // 0.4^13 / 13! = 1e-15
+  const Eigen::VectorXd b = basis.at(x);
+  Course c = Course::Zero(basis.size());
+  c.head(ramp.size()) = ramp;
+  for (Eigen::Index k = 0; k < roots.size(); ++k) {
+    const ComplexCourse z = basis.answer(roots[k], c.cast<std::complex<double>>());
+    const std::complex<double> value = (z.transpose() * b)(0);
+    const double terms = (z.cwiseAbs().transpose() * b)(0);
+    const bool slow = std::abs(roots[k]) * x < 0.5;
+    if (slow) {
+      CHECK(z[0] == 0.0);
+      CHECK(std::abs(value - slow_series(roots[k])) < 4e-16 * std::abs(value));
+      CHECK(terms < 1.5 * std::abs(value));
+    } else {  // backwards: what answers alone, without e^(l x)
+      CHECK(std::abs(value - (-3.0 * x / roots[k] - 3.0 / (roots[k] * roots[k]))) < 1e-15 * terms);
+      CHECK(z.tail(z.size() - 2).isZero(0.0));
+    }
+  }
+  // Room for a longer stretch is found anew; constants need none.
+  basis.make_room(roots, 1.0);
+  CHECK(basis.degree() == 2);
+  CHECK(std::abs(basis.answer(-2.0, ramp.cast<std::complex<double>>())[0] - (-0.75)) < 1e-15);
+  TimeBasis still(Model{}, 0.0);
+  still.make_room(roots, x);
+  CHECK(still.stands_still());
+}
+
 TEST_CASE("integrals of products") {
   const Model model = driven();
   const TimeBasis basis(model, 0.0);

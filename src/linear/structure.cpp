@@ -18,6 +18,7 @@ Structure::Structure(const Model& model) : size(model.size()) {
     }
     column_start.push_back(static_cast<std::int64_t>(row.size()));
   }
+  banded_ = BandedForces(column_start, row, c, k);
   const SparseMatrix both = model.damping + SparseMatrix(model.damping.transpose());
   for (int j = 0; j < size; ++j) {
     HalfColumn half;
@@ -31,6 +32,16 @@ Structure::Structure(const Model& model) : size(model.size()) {
     half.end = static_cast<int>(half_row_.size());
     const bool empty = half.end == (half_.empty() ? 0 : half_.back().end);
     if (half.diagonal != 0.0 || !empty) half_.push_back(half);
+  }
+}
+
+void Structure::subtract_forces(const double* v, const double* u, double* r) const {
+  if (!banded_.empty()) return banded_.subtract(v, u, r);
+  for (int j = 0; j < size; ++j) {
+    const double vj = v[j], uj = u[j];
+    const auto begin = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j)]);
+    const auto end = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j) + 1]);
+    for (std::size_t p = begin; p < end; ++p) r[row[p]] -= c[p] * vj + k[p] * uj;
   }
 }
 

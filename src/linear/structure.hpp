@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "linear/banded_forces.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -22,6 +23,8 @@ struct Structure {
 
   /// r += M a + C v + K u
   void add_product(const double* a, const double* v, const double* u, double* r) const;
+  /// r -= C v + K u
+  void subtract_forces(const double* v, const double* u, double* r) const;
   /// v^T C v. Half of the symmetric part, entries that are not zero.
   [[nodiscard]] double damping_power(const double* v) const;
   /// x^T values x
@@ -36,6 +39,7 @@ struct Structure {
     int column = 0, end = 0;  // end: of its entries in half_row_
     double diagonal = 0.0;
   };
+  BandedForces banded_;
   std::vector<HalfColumn> half_;
   std::vector<int> half_row_;
   std::vector<double> half_value_;  // c_ij + c_ji, i < j

@@ -9,52 +9,59 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
                          std::size_t degree) {
   degree_ = degree;
   rates_ = unbounded();
-  values_.resize(fields * (degree + 1));
-  normal_.resize(degree + 3);
-  tangent_.resize(degree + 3);
   scale_ = series.scale;
-  const double* surface = series.forcing.surface.data() + index * series.forcing.count;
-  const double* pressing = series.forcing.pressing.data() + index * series.forcing.count;
-  for (std::size_t k = 0; k < degree + 3; ++k) {
-    normal_[k] = gap_coefficient(contact, series, k);
-    tangent_[k] = ut_coefficient(contact, index, series, k);
-  }
+  slide_row_ = contact.shear ? slide : ut;
+  values_.resize(fields * stride());
   there_.fill(false);
   for (const Field field : {N, T, gap, ut, slide}) there_[field] = true;
   there_[pressing_rate] = contact.is_pressed();
-  for (std::size_t k = 0; k <= degree; ++k) {
-    const auto e = static_cast<Eigen::Index>(k);
-    place(N)[k] = series.forces(static_cast<Eigen::Index>(normal_slot(index)), e);
-    place(T)[k] = series.forces(static_cast<Eigen::Index>(tangent_slot(index)), e);
-    place(gap)[k] = normal_[k];
-    place(ut)[k] = tangent_[k];
-    place(slide)[k] =
-        contact.shear ? contact.shear->body.dot(series.u.col(e).data()) - surface[k] : tangent_[k];
-    if (there_[pressing_rate])
+  double *const g = place(gap), *const slip = place(ut), *const normal = place(N), *const tangent = place(T);
+  for (std::size_t k = 0; k < stride(); ++k) {
+    g[k] = gap_coefficient(contact, series, k);
+    slip[k] = ut_coefficient(contact, index, series, k);
+  }
+  const auto slots = static_cast<std::size_t>(series.forces.rows());
+  const double* forces = series.forces.data();
+  for (std::size_t k = 0; k <= degree; ++k, forces += slots) {
+    normal[k] = forces[normal_slot(index)];
+    tangent[k] = forces[tangent_slot(index)];
+  }
+  if (contact.shear) {
+    const double* surface = series.forcing.surface.data() + index * series.forcing.count;
+    for (std::size_t k = 0; k <= degree; ++k)
+      place(slide)[k] =
+          contact.shear->body.dot(series.u.col(static_cast<Eigen::Index>(k)).data()) - surface[k];
+  }
+  if (there_[pressing_rate]) {
+    const double* pressing = series.forcing.pressing.data() + index * series.forcing.count;
+    for (std::size_t k = 0; k <= degree; ++k)
       place(pressing_rate)[k] = static_cast<double>(k + 1) / series.scale * pressing[k + 1];
   }
 }
 
 void ContactSeries::derive(Field field) const {
-  double* out = values_.data() + field * (degree_ + 1);
+  const double *const g = of(gap), *const slip = of(ut);
+  double* out = values_.data() + row_of(field) * stride();
   for (std::size_t k = 0; k <= degree_; ++k) {
     const double rate = static_cast<double>(k + 1) / scale_;
     const double second = rate * static_cast<double>(k + 2) / scale_;
-    out[k] = field == vn   ? rate * normal_[k + 1]
-             : field == vt ? rate * tangent_[k + 1]
-             : field == an ? second * normal_[k + 2]
+    out[k] = field == vn   ? rate * g[k + 1]
+             : field == vt ? rate * slip[k + 1]
+             : field == an ? second * g[k + 2]
                            : 0.0;  // nothing presses
   }
   there_[field] = true;
 }
 
 void ContactSeries::bound_rates(double x) {
-  for (const Field field : {N, T, gap, slide}) {
-    const double* a = of(field);
-    double rate = 0.0;
-    for (std::size_t k = degree_; k >= 1; --k) rate = rate * x + static_cast<double>(k) * std::abs(a[k]);
-    rates_[field] = rate;
-  }
+  constexpr std::array<Field, 4> bounded{N, T, gap, slide};
+  std::array<const double*, bounded.size()> a{};
+  std::array<double, bounded.size()> rate{};
+  for (std::size_t f = 0; f < bounded.size(); ++f) a[f] = of(bounded[f]);
+  for (std::size_t k = degree_; k >= 1; --k)  // side by side: none waits for another's sum
+    for (std::size_t f = 0; f < bounded.size(); ++f)
+      rate[f] = rate[f] * x + static_cast<double>(k) * std::abs(a[f][k]);
+  for (std::size_t f = 0; f < bounded.size(); ++f) rates_[bounded[f]] = rate[f];
 }
 
 void ContactSeries::combine(const Form& form, double* out) const {

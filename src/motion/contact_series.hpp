@@ -26,7 +26,7 @@ inline void shift(double* a, std::size_t degree, double x) {
     for (std::size_t k = degree; k-- > j;) a[k] += x * a[k + 1];
 }
 
-/// Polynomials of one contact; rows of `degree + 1` coefficients.
+/// Polynomials of one contact; each has `degree + 1` coefficients.
 class ContactSeries {
  public:
   enum Field : std::size_t { N, T, gap, ut, vn, vt, an, pressing_rate, slide, fields };
@@ -35,14 +35,15 @@ class ContactSeries {
   /// Room for polynomials that are known otherwise; all are zero.
   void reset(std::size_t degree) {
     degree_ = degree;
-    values_.assign(fields * (degree + 1), 0.0);
+    slide_row_ = slide;
+    values_.assign(fields * stride(), 0.0);
     there_.fill(true);
   }
-  [[nodiscard]] double* place(Field field) { return values_.data() + field * (degree_ + 1); }
+  [[nodiscard]] double* place(Field field) { return values_.data() + row_of(field) * stride(); }
   [[nodiscard]] std::size_t degree() const { return degree_; }
   [[nodiscard]] const double* of(Field field) const {
     if (!there_[field]) derive(field);
-    return values_.data() + field * (degree_ + 1);
+    return values_.data() + row_of(field) * stride();
   }
   /// Where x is 0 for its coefficients, in the series of the structure: value() and integral() take x there.
   void set_origin(double origin) { origin_ = origin; }
@@ -71,14 +72,17 @@ class ContactSeries {
     rates.fill(std::numeric_limits<double>::infinity());
     return rates;
   }
+  /// From one row to the next: g and ut have two orders more, for their rates.
+  [[nodiscard]] std::size_t stride() const { return degree_ + 3; }
+  [[nodiscard]] std::size_t row_of(Field field) const { return field == slide ? slide_row_ : field; }
   void derive(Field field) const;
 
   std::size_t degree_ = 0;
   double origin_ = 0.0, scale_ = 1.0;
   std::array<double, fields> rates_ = unbounded();
+  std::size_t slide_row_ = slide;  // ut's, where the body's is the same
   mutable std::vector<double> values_;
   mutable std::array<bool, fields> there_{};  // of values_
-  std::vector<double> normal_, tangent_;      // g and ut, to two orders more
 };
 
 }  // namespace signorini

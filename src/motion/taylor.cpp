@@ -319,12 +319,7 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
   std::fill(x_.begin(), x_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   forcing.add_load(series.forcing, static_cast<std::size_t>(order), x_.data());
   if (besides_) besides_(order, x_.data());
-  for (std::size_t j = 0; j < n; ++j) {
-    const double uj = known_u_[j], vj = known_v_[j];
-    const auto end = static_cast<std::size_t>(structure_.column_start[j + 1]);
-    for (auto p = static_cast<std::size_t>(structure_.column_start[j]); p < end; ++p)
-      x_[static_cast<std::size_t>(structure_.row[p])] -= structure_.c[p] * vj + structure_.k[p] * uj;
-  }
+  structure_.subtract_forces(known_v_.data(), known_u_.data(), x_.data());
   const Unknowns& at = system_->unknowns();
   for (std::size_t c = 0; c < at.contacts; ++c) {
     const Contact& contact = model_.contacts[c];

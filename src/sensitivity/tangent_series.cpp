@@ -289,12 +289,7 @@ void TangentSeries::level(int k) {
   for (const UndampedMotion& motion : system_->undamped())
     for (const auto& [dof, factor] : motion.others)
       known_u_[static_cast<std::size_t>(dof)] -= factor * u_(motion.dof, k);
-  for (std::size_t j = 0; j < n; ++j) {
-    const double uj = known_u_[j], vj = known_v_[j];
-    const auto end = static_cast<std::size_t>(structure_.column_start[j + 1]);
-    for (auto p = static_cast<std::size_t>(structure_.column_start[j]); p < end; ++p)
-      x_[static_cast<std::size_t>(structure_.row[p])] -= structure_.c[p] * vj + structure_.k[p] * uj;
-  }
+  structure_.subtract_forces(known_v_.data(), known_u_.data(), x_.data());
   if (k <= motion_->levels) add_sources(k);
   add_rows(k);
   add_friction(k);

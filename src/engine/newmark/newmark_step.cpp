@@ -24,14 +24,6 @@ constexpr double least_gain = 0.1;
 constexpr int most_rounds = 8;
 constexpr double left_of_rounding = rounding::eps / 16.0;  // of what a refined solution may be off, in parts
 
-/// r += C v + K u
-void add_forces(const Structure& s, const double* v, const double* u, double* r) {
-  std::size_t p = 0;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(s.size); ++j)
-    for (const auto end = static_cast<std::size_t>(s.column_start[j + 1]); p < end; ++p)
-      r[s.row[p]] += s.c[p] * v[j] + s.k[p] * u[j];
-}
-
 }  // namespace
 
 NewmarkStep::NewmarkStep(const Model& model, const Structure& structure, std::size_t widest_band)
@@ -296,8 +288,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   know_motion(from, h);
   // r = P - C v - K u
   x_.setZero();
-  add_forces(structure_, v_.data(), u_.data(), x_.data());
-  for (std::size_t i = 0; i < n; ++i) x_.data()[i] = -x_.data()[i];
+  structure_.subtract_forces(v_.data(), u_.data(), x_.data());
   forcing.add_load(t1, 0, x_.data());
   const std::vector<Rows>& rows = *rows_;
   for (std::size_t k = 0; k < rows.size(); ++k) {

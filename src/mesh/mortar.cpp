@@ -3,6 +3,7 @@
 #include <Eigen/LU>  // inverses of small matrices
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
@@ -68,6 +69,16 @@ Curves curves_of(const std::vector<PlaneMesh::Edge>& edges, const PlaceOf& place
   return curves;
 }
 
+/// The greatest distance of a node from the origin. Meshes are turned and moved as a whole: each place is known to eps of
+/// that, also along an axis along which it is zero (cos 90 degrees is 6e-17).
+double reach_of(std::initializer_list<const Curves*> all) {
+  double reach = 0.0;
+  for (const Curves* curves : all)
+    for (const EdgeCurve& curve : *curves)
+      for (const Point2& at : curve.at) reach = std::max(reach, at.norm());
+  return reach;
+}
+
 /// Edges behind each other, as far as they are.
 Curves in_order(Curves curves) {
   std::map<int, std::size_t> by_start;
@@ -110,7 +121,8 @@ struct Overlap {
 
 class MortarSums {
  public:
-  explicit MortarSums(const Curves& slave) : slave_(slave) {}
+  /// reach: of all that gaps are differences of.
+  MortarSums(const Curves& slave, double reach) : slave_(slave), reach_(reach) {}
 
   void add(const EdgeCurve& edge, const std::vector<Overlap>& overlaps) {
     if (overlaps.empty()) return;
@@ -172,7 +184,7 @@ class MortarSums {
     return Eigen::Matrix3d(mass).inverse();
   }
 
-  static void add_node(int k, const NodeSums& sums, const PlaceOf& place, MortarSeam& seam) {
+  void add_node(int k, const NodeSums& sums, const PlaceOf& place, MortarSeam& seam) const {
     if (sums.corner) seam.corners.push_back(k);
     if (!(sums.length > 0.0)) {
       seam.negative.push_back(k);
@@ -182,20 +194,21 @@ class MortarSums {
     const Point2 n = -sums.outward.normalized();
     node.normal = {n[0], n[1]};
     const auto [x, y] = place(k);
-    double gap = n[0] * x + n[1] * y, size = std::abs(n[0] * x) + std::abs(n[1] * y);
+    double gap = n[0] * x + n[1] * y, size = reach_;
     for (const auto& [l, m] : sums.master) {
       const double w = m / sums.length;
       if (std::abs(w) <= rounding::of_many) continue;
       node.master.emplace_back(l, w);
       const auto [xl, yl] = place(l);
       gap -= w * (n[0] * xl + n[1] * yl);
-      size += std::abs(w * n[0] * xl) + std::abs(w * n[1] * yl);
+      size += std::abs(w) * reach_;
     }
     node.gap = std::abs(gap) <= rounding::of_many * size ? 0.0 : gap;
     seam.nodes.push_back(std::move(node));
   }
 
   const Curves& slave_;
+  double reach_;
   std::map<int, NodeSums> sums_;
 };
 
@@ -261,14 +274,15 @@ MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
                           const std::vector<PlaneMesh::Edge>& outline) {
   const Curves own = in_order(curves_of(slave, place)), other = curves_of(master, place),
                body = curves_of(outline, place);
-  MortarSums sums(own);
+  MortarSums sums(own, reach_of({&own, &other, &body}));
   for (const EdgeCurve& edge : own) sums.add(edge, overlaps_of(edge, other, body));
   return sums.seam(place);
 }
 
 MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const PlaceOf& place) {
   const Curves own = in_order(curves_of(slave, place));
-  MortarSums sums(own);
+  const double reach = reach_of({&own});
+  MortarSums sums(own, reach);
   for (const EdgeCurve& edge : own) sums.add(edge, {{-1.0, 1.0, nullptr}});
   MortarSeam seam = sums.seam(place);
   for (MortarNode& node : seam.nodes) node.gap = 0.0;
@@ -281,15 +295,15 @@ MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const Plane
   Curves own;
   for (const EdgeCurve& edge : all)
     if (edge.outward().dot(Point2(normal[0], normal[1])) < 0.0) own.push_back(edge);
-  MortarSums sums(own);
+  const double reach = reach_of({&own});
+  MortarSums sums(own, reach);
   for (const EdgeCurve& edge : own) sums.add(edge, {{-1.0, 1.0, nullptr}});
   MortarSeam seam = sums.seam(place);
   for (MortarNode& node : seam.nodes) {
     const auto [x, y] = place(node.node);
     node.normal = normal;
     const double gap = normal[0] * (x - point[0]) + normal[1] * (y - point[1]);
-    const double size = std::abs(normal[0] * x) + std::abs(normal[1] * y) + std::abs(normal[0] * point[0]) +
-                        std::abs(normal[1] * point[1]);
+    const double size = reach + std::hypot(point[0], point[1]);
     node.gap = std::abs(gap) <= rounding::of_many * size ? 0.0 : gap;
   }
   seam.corners.clear();  // the line says the normal

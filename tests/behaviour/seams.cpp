@@ -106,6 +106,34 @@ TEST_CASE("two blocks that do not match: the same events turned, and of ida; ene
   }
 }
 
+TEST_CASE(
+    "a slow start of two blocks, turned as a whole by any angle: the same contact forces, and none fits") {
+  std::vector<double> upright;
+  for (const double degrees : {0.0, 90.0, 180.0, 270.0, 179.0, 33.7}) {
+    CAPTURE(degrees);
+    std::string text = pushed_blocks("exact", degrees, "none");
+    text.replace(text.find("run = { "), 8, "run = { initial = \"frictional\", ");
+    for (std::size_t at; (at = text.find("compliant")) != std::string::npos;) {
+      text.replace(at, 9, "rigid");
+      for (const char* key : {"normal_stiffness", "tangential_stiffness", "layer"})
+        if (const std::size_t from = text.find(key, at); from < text.find("[[", at))
+          text.erase(from, text.find('\n', from) - from);
+    }
+    const Model model = build_model(seam_scene(text));
+    const StaticStart& start = model.statics;
+    REQUIRE(start.stages.size() == 1);  // "fit" would be another
+    double weight = 0.0;
+    for (const double reaction : start.reactions) weight += reaction;
+    CHECK(
+        weight ==
+        doctest::Approx(9.81 * (2.0 * (2500.0 * 0.3 * 0.2 * 0.1) + 2000.0 * 0.4 * 0.1 * 0.1)).epsilon(1e-8));
+    if (upright.empty()) upright = start.reactions;
+    REQUIRE(start.reactions.size() == upright.size());
+    for (std::size_t k = 0; k < upright.size(); ++k)
+      CHECK(std::abs(start.reactions[k] - upright[k]) <= 1e-7 * weight);
+  }
+}
+
 TEST_CASE("momentum: the ground's forces are those that change it") {
   const Scene scene = seam_scene(pushed_blocks("exact", 0.0, "none"));
   const Model model = build_model(scene);

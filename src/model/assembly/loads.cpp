@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "base/rounding.hpp"
 #include "mesh/plane_shapes.hpp"
 #include "model/assembly/pieces.hpp"
 #include "scene/components.hpp"
@@ -110,14 +113,37 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
   return load;
 }
 
-/// Forces at the ends of its elements that hold a unit strain of a member.
+/// What rounding of places does to the forces of an element, in eps of them: its directions are differences of places.
+double rounded_by_places(const DofMap& map, const FiniteElement& e) {
+  double reach = 0.0, least = std::numeric_limits<double>::infinity();
+  for (const int i : e.nodes()) {
+    const MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(i)];
+    reach = std::max(reach, std::hypot(a.x, a.y));
+    for (const int j : e.nodes()) {
+      const MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(j)];
+      if (i < j) least = std::min(least, std::hypot(a.x - b.x, a.y - b.y));
+    }
+  }
+  return reach / least;
+}
+
+/// Forces at the ends of its elements that hold a unit strain of a member. Of forces that cancel, at inner nodes of a
+/// straight line, only rounding is left: it would drive a string that nothing else holds across its line.
 Combination strain_form(const DofMap& map, int member) {
-  Vector form = Vector::Zero(map.size());
+  Vector form = Vector::Zero(map.size()), size = form;
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
     const FiniteElement& e = map.mesh.element(i);
-    if (e.member() == member && !map.within_body(e)) add_to(form, e.strain_forces(), map, i);
+    if (e.member() != member || map.within_body(e)) continue;
+    const ElementVector forces = e.strain_forces();
+    const double known = 1.0 + rounded_by_places(map, e);
+    add_to(form, forces, map, i);
+    const std::vector<int> numbers = map.element_numbers(i);
+    for (std::size_t j = 0; j < numbers.size(); ++j)
+      for (const TiedTerm& term : map.terms(numbers[j]))
+        if (term.number >= 0)
+          size[term.number] += known * std::abs(term.factor * forces[static_cast<Eigen::Index>(j)]);
   }
-  return form_of(form, 1.0);
+  return form_of((form.array().abs() > rounding::of_many * size.array()).select(form, 0.0), 1.0);
 }
 
 void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
@@ -364,10 +390,15 @@ void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& as
 }
 
 Vector static_load(const std::vector<Load>& loads, int n) {
-  Vector p = Vector::Zero(n);
-  for (const Load& load : loads)
-    if (load.is_static) load.direction.add_to(p, load.history.value(0.0));
-  return p;
+  Vector p = Vector::Zero(n), size = p;
+  for (const Load& load : loads) {
+    if (!load.is_static) continue;
+    const double value = load.history.value(0.0);
+    load.direction.add_to(p, value);
+    for (const auto& [dof, factor] : load.direction.terms) size[dof] += std::abs(factor * value);
+  }
+  // What rounding leaves of loads that cancel drives nothing.
+  return (p.array().abs() > rounding::of_many * size.array()).select(p, 0.0);
 }
 
 }  // namespace signorini

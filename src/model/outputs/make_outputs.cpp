@@ -10,6 +10,7 @@
 #include "model/outputs/body_reaction.hpp"
 #include "model/outputs/member_cuts.hpp"
 #include "model/outputs/structure_rows.hpp"
+#include "model/reduce/reduction.hpp"
 #include "scene/body_of_node.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
@@ -30,6 +31,11 @@ Combination computed(const Vector& x, const Model& model) {
   if (model.reduction) return form_of(model.reduction->shapes.transpose() * x);
   if (model.basis) return form_of(model.basis->transpose() * x);
   return form_of(x);
+}
+
+bool is_motion(OutputKind kind) {
+  return kind == OutputKind::displacement || kind == OutputKind::relative || kind == OutputKind::velocity ||
+         kind == OutputKind::acceleration;
 }
 
 class Maker {
@@ -89,11 +95,28 @@ class Maker {
     output.u = computed(row.u, model_);
     output.v = computed(row.v, model_);
     output.a = computed(row.a, model_);
+    if (model_.reduction && !is_motion(output.kind)) balance(row, output);
     output.forces = row.forces;
     output.given = row.given;
     output.constant = row.constant;
     for (const SeenLoad& seen : model_.seen_loads) see(seen, row, output);
     for (const PhysicalRow::Bowl& bowl : row.bowls) restore(bowl, output);
+  }
+
+  /// Forces within a reduced structure balance what acts on it only without what its equation of motion leaves out:
+  /// inertia of shapes without mass, and their damping where they follow at once.
+  void balance(const PhysicalRow& row, Output& output) const {
+    const Reduction& reduction = *model_.reduction;
+    Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
+    const Vector dampers = reduction.shapes.transpose() * (row.v - row.rayleigh);
+    const bool creep = static_shapes_creep(model_.beta, reduction.first_left_out);
+    for (Eigen::Index j = 0; j < a.size(); ++j) {
+      if (!model_.dofs[static_cast<std::size_t>(j)].massless) continue;
+      a[j] = 0.0;
+      if (!creep) v[j] = dampers[j];
+    }
+    output.v = form_of(v);
+    output.a = form_of(a);
   }
 
   void see(const SeenLoad& seen, const PhysicalRow& row, Output& output) const {

@@ -61,16 +61,20 @@ StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha
                             .scaled(body.thermal_expansion)});
 }
 
-void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double cv, double ca) const {
+void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double cv, double ca,
+                               double rayleigh) const {
   if (map_.is_tied(number)) {
     for (const TiedTerm& term : map_.terms(number))
-      add_motion(row, term.number, term.factor * cu, term.factor * cv, term.factor * ca);
+      add_motion(row, term.number, term.factor * cu, term.factor * cv, term.factor * ca,
+                 term.factor * rayleigh);
   } else if (number >= 0) {
     row.u[number] += cu;
-    row.v[number] += cv;
+    row.v[number] += cv + rayleigh;
     row.a[number] += ca;
-  } else if (const int s = DofMap::moving_of_code(number); s >= 0 && (cu != 0.0 || cv != 0.0 || ca != 0.0)) {
-    add_given(row, moving_[static_cast<std::size_t>(s)].with_rates(cu, cv, ca), 1.0);
+    row.rayleigh[number] += rayleigh;
+  } else if (const int s = DofMap::moving_of_code(number);
+             s >= 0 && (cu != 0.0 || cv + rayleigh != 0.0 || ca != 0.0)) {
+    add_given(row, moving_[static_cast<std::size_t>(s)].with_rates(cu, cv + rayleigh, ca), 1.0);
   }
 }
 
@@ -96,7 +100,7 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
   PlaneVector frame{0.0, 0.0};
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
-    add_motion(row, numbers[j], cu[at] + frozen[at], beta_ * cu[at] + alpha_ * ca[at], ca[at]);
+    add_motion(row, numbers[j], cu[at] + frozen[at], 0.0, ca[at], beta_ * cu[at] + alpha_ * ca[at]);
     if (unknowns[j].component < 2) frame[unknowns[j].component] += ca[at];
   }
   add_frame(row, frame[0], frame[1]);
@@ -123,7 +127,7 @@ void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, st
   for (std::size_t j = 0; j < moved.nodes.size(); ++j)
     for (std::size_t d = 0; d < 2; ++d) {
       const double a = ca[static_cast<Eigen::Index>(2 * j + d)];
-      add_motion(row, map_.numbers_at(moved.nodes[j])[d], 0.0, alpha_ * a, a);
+      add_motion(row, map_.numbers_at(moved.nodes[j])[d], 0.0, 0.0, a, alpha_ * a);
       frame[d] += a;
     }
   add_frame(row, frame[0], frame[1]);
@@ -140,7 +144,7 @@ void StructureRows::add_stress(PhysicalRow& row, std::size_t body, int node,
     const auto numbers = map_.numbers_at(term.node);
     for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
       const double cu = by_node[static_cast<Eigen::Index>(c)];
-      add_motion(row, numbers[c], cu, beta_ * cu, 0.0);
+      add_motion(row, numbers[c], cu, 0.0, 0.0, beta_ * cu);
     }
   }
   for (const History& strain : strains_[scene_.members.size() + body])
@@ -154,12 +158,14 @@ std::array<double, 3> StructureRows::direction_of(const Spring& spring) const {
 
 void StructureRows::add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const {
   const double stiffness = factor * (rotation ? spring.rotation_stiffness : spring.stiffness);
-  const double damping = factor * (rotation ? spring.rotation_damping : spring.damping) + beta_ * stiffness;
+  const double damping = factor * (rotation ? spring.rotation_damping : spring.damping);
   const std::array<double, 3> d = direction_of(spring);
   const auto add = [&](const std::string& name, double sign) {
     const auto numbers = map_.numbers_at(map_.mesh.by_name.at(name));
     for (const std::size_t c : rotation ? std::vector<std::size_t>{2} : std::vector<std::size_t>{0, 1})
-      if (d[c] != 0.0) add_motion(row, numbers[c], sign * stiffness * d[c], sign * damping * d[c], 0.0);
+      if (d[c] != 0.0)
+        add_motion(row, numbers[c], sign * stiffness * d[c], sign * damping * d[c], 0.0,
+                   sign * beta_ * stiffness * d[c]);
   };
   if (!rotation && spring.preload != 0.0) row.constant += factor * spring.preload;
   add(spring.node, 1.0);
@@ -169,7 +175,7 @@ void StructureRows::add_spring(PhysicalRow& row, const Spring& spring, bool rota
 void StructureRows::add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const {
   const double m = factor * (c == 2 ? mass.inertia : mass.mass);
   if (m == 0.0) return;
-  add_motion(row, map_.numbers_at(map_.mesh.by_name.at(mass.node))[c], 0.0, alpha_ * m, m);
+  add_motion(row, map_.numbers_at(map_.mesh.by_name.at(mass.node))[c], 0.0, 0.0, m, alpha_ * m);
   if (c != 2) add_frame(row, c == 0 ? m : 0.0, c == 1 ? m : 0.0);
 }
 

@@ -16,8 +16,9 @@ namespace signorini {
 
 /// An output on the physical degrees of freedom.
 struct PhysicalRow {
-  explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u) {}
+  explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u), rayleigh(u) {}
   Vector u, v, a;
+  Vector rayleigh;  ///< of v: what alpha M + beta K adds to a force
   std::vector<Output::ContactForces> forces;
   std::vector<Output::Given> given;
   double constant = 0.0;
@@ -34,8 +35,8 @@ class StructureRows {
   /// alpha, beta: the Rayleigh damping in force. All must outlive it.
   StructureRows(const Scene& scene, const DofMap& map, double alpha, double beta);
 
-  /// row += cu u + cv v + ca a of what stands under a number of DofMap::numbers_at().
-  void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca) const;
+  /// row += cu u + (cv + rayleigh) v + ca a of what stands under a number of DofMap::numbers_at().
+  void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca, double rayleigh = 0.0) const;
   /// The base and gravity as an acceleration of everything: row += x times it along x, y along y.
   void add_frame(PhysicalRow& row, double x, double y, bool gravity = true) const;
   /// The cut of an element.

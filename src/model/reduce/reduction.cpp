@@ -22,6 +22,7 @@ namespace {
 
 constexpr double nothing = 1e-14;      // part of a form, a shape being 1, that is rounding
 constexpr double quick_damper = 1e-6;  // time constant of a static shape times the first frequency left out
+constexpr double over_damped = 2.0;    // beta times a frequency: above it a mode does not swing, it creeps
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction", why);
@@ -103,7 +104,7 @@ struct Basis {
   Eigen::VectorXd mass, stiffness;  ///< diagonals
   Eigen::MatrixXd damping;
   Eigen::Index heavy = 0;             ///< how many have mass
-  std::vector<Eigen::Index> at_once;  ///< shapes whose damping is left out
+  std::vector<Eigen::Index> at_once;  ///< shapes that beta K leaves out
 };
 
 Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers, double alpha,
@@ -124,7 +125,10 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
     const Eigen::MatrixXd c = shapes.massless.transpose() * (dampers * shapes.massless);
     b.shapes.rightCols(r) = shapes.massless * symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
-  b.damping = (alpha * b.mass + beta * b.stiffness).asDiagonal();
+  const bool creep = static_shapes_creep(beta, modes.first_left_out);
+  Eigen::VectorXd elastic = b.stiffness;
+  if (!creep) elastic.tail(r).setZero();
+  b.damping = (alpha * b.mass + beta * elastic).asDiagonal();
   if (single) {
     const Eigen::MatrixXd c = b.shapes.transpose() * (dampers * b.shapes);
     const double size = c.cwiseAbs().maxCoeff();
@@ -133,12 +137,13 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   // A dashpot that only a static shape moves, and that lets go far sooner than any mode left out swings,
   // would be a stiff equation without any other effect.
   const double first = modes.first_left_out;
-  for (Eigen::Index j = b.heavy; j < b.shapes.cols(); ++j)
-    if (b.damping(j, j) * first <= quick_damper) {
+  for (Eigen::Index j = b.heavy; j < b.shapes.cols(); ++j) {
+    if (first > 0.0 && b.damping(j, j) * first <= quick_damper) {
       b.damping.row(j).setZero();
       b.damping.col(j).setZero();
-      b.at_once.push_back(j);
     }
+    if (!creep) b.at_once.push_back(j);
+  }
   return b;
 }
 
@@ -378,6 +383,10 @@ Eigen::MatrixXd stiffness_terms(const SparseMatrix& stiffness, const Basis& b) {
 }
 
 }  // namespace
+
+bool static_shapes_creep(double beta, double first_left_out) {
+  return first_left_out == 0.0 || beta * first_left_out > over_damped;
+}
 
 void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   check_reducible(scene, model);

@@ -16,6 +16,15 @@
 // C is R^T C R, without the part alpha M on Psi, whose mass is left out, too. Psi is turned so that the
 // dampers give each shape a time constant of its own, or none.
 //
+// beta K acts on Psi only where it over-damps every mode left out. A mode left out,
+//
+//   z'' + beta omega^2 z' + omega^2 z = f,
+//
+// swings where beta omega <= 2. Its inertia, which is left out, then holds z back longer than beta does, 1/omega >=
+// beta/2. By beta alone a shape would go after a jump of f with z' = f/(omega^2 beta) and z'' = z'/beta: the more, the
+// less is damped. So it follows at once, as without damping. With beta omega > 2 z creeps behind f with the time constant
+// beta, and so does the shape.
+//
 // Each shape is scaled to a greatest translation of 1 (rotations count with the scales of the scene), so that
 // tolerances of displacements mean for its amplitude what they say.
 //
@@ -29,5 +38,9 @@ namespace signorini {
 /// dampers: C without alpha M + beta K; n x n. Errors: SceneError where a motion without mass has no
 /// stiffness, where K has negative energy, and where what needs mass would have none.
 void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model);
+
+/// Whether shapes without mass are damped by beta; first_left_out: Reduction's (0: no mode is left out, so that they are
+/// what has no mass in the structure itself).
+[[nodiscard]] bool static_shapes_creep(double beta, double first_left_out);
 
 }  // namespace signorini

@@ -172,6 +172,32 @@ TEST_CASE(
   CHECK(std::log2(worst_gap(PlaneShape::q8, 4) / worst_gap(PlaneShape::q8, 8)) >= 2.8);
 }
 
+TEST_CASE(
+    "boundaries that lie on each other have no gap, however their bodies were turned: rounding is none") {
+  for (const double degrees : {0.0, 90.0, 180.0, 270.0, 33.7, 89.999}) {
+    CAPTURE(degrees);
+    const double a = degrees * std::numbers::pi / 180.0, c = std::cos(a), s = std::sin(a);
+    // Turned as bodies are, about a corner of each: what lies on an axis then lies off it by eps of its distance.
+    std::vector<PlanePoint> at;
+    const auto add = [&](const PlanePoint& corner, double x, double y) {
+      const double tx = c * corner[0] - s * corner[1], ty = s * corner[0] + c * corner[1];
+      at.push_back({tx + (c * x - s * y), ty + (s * x + c * y)});
+    };
+    for (const double x : {0.0, 0.13, 0.4}) add({-0.4, 0.0}, x, 0.0);         // 0, 1, 2: the slave, above
+    for (const double x : {0.0, 0.35, 0.55, 0.7}) add({-0.5, -0.2}, x, 0.2);  // 3 to 6: the master, below
+    const std::vector<PlaneMesh::Edge> slave{{{0, 1}}, {{1, 2}}}, master{{{6, 5}}, {{5, 4}}, {{4, 3}}};
+    const auto place = [&](int n) { return at[static_cast<std::size_t>(n)]; };
+    const MortarSeam seam = mortar_between(slave, master, place);
+    REQUIRE(seam.nodes.size() == 3);
+    for (const MortarNode& node : seam.nodes) CHECK(node.gap == 0.0);
+    for (const MortarNode& node : mortar_on_line(slave, {0.0, 0.0}, {-s, c}, place).nodes)
+      CHECK(node.gap == 0.0);
+    at[1][0] += 1e-12 * s;  // what is no rounding stays
+    at[1][1] -= 1e-12 * c;
+    CHECK(mortar_between(slave, master, place).nodes[1].gap == doctest::Approx(-1e-12).epsilon(1e-2));
+  }
+}
+
 TEST_CASE("on the ground and on a line") {
   Line line;
   line.add_side({0.0, 0.4, 1.1}, true, false);

@@ -72,12 +72,31 @@ void take_name(const Table& table, const std::string& name, Names& names) {
     table.fail("name", fmt::format("found \"{}\" twice, expected each load to have its own name", name));
 }
 
+/// Loads without a name are called by their number, and those that no table of loads describes by what they are.
+void refuse_given_names(const std::vector<Table>& tables, const std::vector<LoadSpec>& loads) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const std::string& name = loads[i].name;
+    for (std::size_t k = 0; k < loads.size(); ++k)
+      if (loads[k].name.empty() && name == fmt::format("load {}", k + 1))
+        tables[i].fail(
+            "name", fmt::format("found \"{}\", which load {} has without a name, expected another name", name,
+                                k + 1));
+    for (const char* kind : {"base motion", "preload of spring ", "initial strain of member ",
+                             "temperature of member ", "temperature of body "})
+      if (name.starts_with(kind))
+        tables[i].fail(
+            "name",
+            fmt::format("found \"{}\", but loads of that kind are called so, expected another name", name));
+  }
+}
+
 }  // namespace
 
 void read_loads(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
   Names names;
-  for (Table& table : tables_of(top, "loads")) {
+  std::vector<Table> tables = tables_of(top, "loads");
+  for (Table& table : tables) {
     LoadSpec load;
     load.place = table.place();
     load.name = table.optional_text("name").value_or("");
@@ -109,6 +128,7 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
     scene.loads.push_back(std::move(load));
     record.add("loads", "[[loads]]", table.record());
   }
+  refuse_given_names(tables, scene.loads);
 }
 
 void read_base_motion(Table& top, Scene& scene, RecordedScene& record) {

@@ -113,6 +113,9 @@ bool Loop::start() {
   witness_.instant(seen);
   take_decision(std::nullopt);
   begun_ = true;
+  // Squares of a motion that numbers still hold may be beyond them: then nothing is known of the balance.
+  if (!std::isfinite(last_energy_.balance()))
+    return stop("the energy at the start leaves the range of numbers");
   return witnessed();
 }
 

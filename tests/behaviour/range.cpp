@@ -43,6 +43,24 @@ TEST_CASE("a load of 6e300 newtons a second for a hundred seconds") {
   }
 }
 
+TEST_CASE("a start whose energy is beyond the range of numbers is refused, and one below it runs") {
+  for (const EngineName& name : all_engines)
+    for (const bool beyond : {false, true}) {
+      const std::string engine(name.name);
+      CAPTURE(engine);
+      CAPTURE(beyond);
+      const Scene scene = read_scene(SIGNORINI_MODELS "/oscillator.toml",
+                                     {{"run.engine", engine},
+                                      {"run.dt", "1e-2"},
+                                      {"run.t_end", "0.1"},
+                                      {"run.initial.mass.ux", beyond ? "1e300" : "1e100"}});
+      const Outcome outcome = simulate(build_model(scene), scene.run).report.outcome;
+      CHECK(outcome.kind == (beyond ? Outcome::Kind::stopped : Outcome::Kind::done));
+      if (beyond) CHECK(outcome.reason == "the energy at the start leaves the range of numbers");
+      if (beyond) CHECK(outcome.t == 0.0);
+    }
+}
+
 TEST_CASE("times below what engines can divide by: nothing moves in them") {
   for (const EngineName& name : all_engines) {
     const std::string engine(name.name);

@@ -238,6 +238,11 @@ void resolve_times(double t_end, Model& model) {
   }
 }
 
+/// What is frozen is not damped: beta times the model's stiffness is too much by that of these forces.
+void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly) {
+  assembly.dampers -= scene.damping.beta * assemble_geometric(scene, map).matrix;
+}
+
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
@@ -268,9 +273,8 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && doubted) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
-  // What is frozen is not damped: beta times the model's stiffness is too much by that of these forces.
-  if (model.geometric && scene.damping.beta != 0.0)
-    assembly.dampers -= scene.damping.beta * assemble_geometric(scene, map).matrix;
+  const SparseMatrix dashpots = assembly.dampers;
+  if (model.geometric && scene.damping.beta != 0.0) leave_out_frozen(scene, map, assembly);
   set_damping(scene, assembly.dampers, model);
   add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);
@@ -286,7 +290,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
     for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
   resolve_times(scene.run.t_end, model);
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
-    reduce(scene, assembly.dampers, model);
+    reduce(scene, assembly.dampers, dashpots, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit
     model.omega_max = highest_frequency(model);
   } else {

@@ -107,8 +107,9 @@ struct Basis {
   std::vector<Eigen::Index> at_once;  ///< shapes that beta K leaves out
 };
 
-Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers, double alpha,
-               double beta) {
+/// dampers: between shapes with mass; light: of those without.
+Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers,
+               const SparseMatrix& light, double alpha, double beta) {
   Basis b;
   const Eigen::Index n = modes.shapes.rows(), m = modes.shapes.cols(), h = shapes.massive.cols(),
                      r = shapes.massless.cols();
@@ -119,18 +120,19 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   b.mass.head(m + h).setOnes();
   b.stiffness.resize(m + h + r);
   b.stiffness << modes.squares, shapes.massive_squares, Eigen::VectorXd::Ones(r);
-  const bool single = dampers.nonZeros() > 0;
-  if (single && r > 0) {
+  if (light.nonZeros() > 0 && r > 0) {
     // Turned so that each shape has its own time constant, or none.
-    const Eigen::MatrixXd c = shapes.massless.transpose() * (dampers * shapes.massless);
+    const Eigen::MatrixXd c = shapes.massless.transpose() * (light * shapes.massless);
     b.shapes.rightCols(r) = shapes.massless * symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
   const bool creep = static_shapes_creep(beta, modes.first_left_out);
   Eigen::VectorXd elastic = b.stiffness;
   if (!creep) elastic.tail(r).setZero();
   b.damping = (alpha * b.mass + beta * elastic).asDiagonal();
-  if (single) {
-    const Eigen::MatrixXd c = b.shapes.transpose() * (dampers * b.shapes);
+  if (dampers.nonZeros() > 0 || light.nonZeros() > 0) {
+    Eigen::MatrixXd c = b.shapes.transpose() * (light * b.shapes);
+    c.topLeftCorner(b.heavy, b.heavy) =
+        b.shapes.leftCols(b.heavy).transpose() * (dampers * b.shapes.leftCols(b.heavy));
     const double size = c.cwiseAbs().maxCoeff();
     b.damping += (c.array().abs() > nothing * size).select(c, 0.0);
   }
@@ -388,7 +390,7 @@ bool static_shapes_creep(double beta, double first_left_out) {
   return first_left_out == 0.0 || beta * first_left_out > over_damped;
 }
 
-void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
+void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix& dashpots, Model& model) {
   check_reducible(scene, model);
   check_frozen(scene, model);
   const double cutoff = scene.reduction->cutoff_omega;
@@ -400,13 +402,15 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   } catch (const NotReducible& e) {
     refuse(scene, e.what());
   }
-  SparseMatrix single = dampers;
+  SparseMatrix single = dampers,
+               light = static_shapes_creep(model.beta, modes.first_left_out) ? dampers : dashpots;
   if (const auto of_all = rayleigh_factors(dampers, model.mass, model.stiffness); scene.matrices && of_all) {
     model.alpha = of_all->alpha;
     model.beta = of_all->beta;
     single.setZero();
+    light.setZero();
   }
-  Basis b = basis_of(modes, shapes, single, model.alpha, model.beta);
+  Basis b = basis_of(modes, shapes, single, light, model.alpha, model.beta);
   if (b.heavy == 0)
     refuse(scene, "no mode lies below the cutoff, and no other shape has mass; raise the cutoff");
   scale(model, b);

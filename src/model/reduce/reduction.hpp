@@ -35,9 +35,10 @@
 
 namespace signorini {
 
-/// dampers: C without alpha M + beta K; n x n. Errors: SceneError where a motion without mass has no
+/// dampers: C without alpha M + beta K; n x n. dashpots: the same without what it takes from beta K for frozen forces
+/// (run.geometric), which is left out with beta K. Errors: SceneError where a motion without mass has no
 /// stiffness, where K has negative energy, and where what needs mass would have none.
-void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model);
+void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix& dashpots, Model& model);
 
 /// Whether shapes without mass are damped by beta; first_left_out: Reduction's (0: no mode is left out, so that they are
 /// what has no mass in the structure itself).

@@ -509,8 +509,9 @@ TEST_CASE("what slides while its load goes back opens where N and T come to zero
 
 TEST_CASE(
     "a reduced line whose shoes stand at their limits runs: rates of rounding tell no direction of slip") {
-  // Static shapes are damped and have no mass. They rest, so C v = P - K u - F leaves rounding of these forces over C as their
-  // velocities, 1e-11 m/s; the witness took 1.2e-13 m/s of a shoe for a slip against its friction.
+  // Static shapes have no mass. As long as beta K damped them, C v = P - K u - F left rounding of these forces over C as their
+  // velocities, 1e-11 m/s; the witness took 1.2e-13 m/s of a shoe for a slip against its friction. Without the frozen forces'
+  // part they had damping of either sign, and the run did not get on.
   const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/starts/reduced_rack.toml");
   for (const Engine engine : {Engine::exact, Engine::ida}) {
     Scene run = scene;

@@ -4,11 +4,13 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <csignal>
 #include <exception>
+#include <list>
 #include <mutex>
 #include <thread>
 
@@ -150,13 +152,14 @@ class CompanionTask {
   std::string failure_;
 };
 
-/// All companions of a run: beside it where there are processors for both, else after it.
+/// All companions of a run: beside it, as far as there are processors for them; when it has ended, its own takes one, too.
 class Companions {
  public:
   Companions(std::vector<CompanionRun> runs, double most_steps, bool forces) {
     for (CompanionRun& run : runs)
       tasks_.push_back(std::make_unique<CompanionTask>(std::move(run), leash_, most_steps, forces));
-    if (processors() > 1) thread_.emplace([this] { compute(); });
+    left_ = tasks_.size();
+    for (std::size_t used = 1; used < processors(); ++used) start();
   }
   ~Companions() { leash_.stop(); }
   Companions(const Companions&) = delete;
@@ -166,30 +169,34 @@ class Companions {
   void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
     leash_.stop_at(reached);
     if (interrupted) leash_.stop();
-    if (!thread_) thread_.emplace([this] { compute(); });
+    start();
     std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, now_and_then, [this] { return done_; }))
+    while (!ended_.wait_for(lock, now_and_then, [this] { return left_ == 0; }))
       if (!go_on()) leash_.stop();
-    lock.unlock();
-    thread_.reset();
   }
 
   [[nodiscard]] const std::vector<std::unique_ptr<CompanionTask>>& tasks() const { return tasks_; }
 
  private:
+  void start() {
+    if (threads_.size() < tasks_.size()) threads_.emplace_back([this] { compute(); });
+  }
   void compute() {
-    for (const auto& task : tasks_) task->compute();
-    const std::lock_guard lock(mutex_);
-    done_ = true;
-    ended_.notify_all();
+    for (std::size_t mine = next_++; mine < tasks_.size(); mine = next_++) {
+      tasks_[mine]->compute();
+      const std::lock_guard lock(mutex_);
+      --left_;
+      ended_.notify_all();
+    }
   }
 
   Leash leash_;
   std::vector<std::unique_ptr<CompanionTask>> tasks_;
+  std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::condition_variable ended_;
-  bool done_ = false;
-  std::optional<QuietThread> thread_;  // the last member: it ends first
+  std::size_t left_ = 0;            // guarded by mutex_
+  std::list<QuietThread> threads_;  // the last member: they end first
 };
 
 /// Whether a run is certified without being asked for it.

@@ -1,6 +1,7 @@
 // Certified runs on cases with exact answers: what is called certain is right, and within its bound.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
+#include <sched.h>
 
 #include <cmath>
 #include <map>
@@ -32,6 +33,26 @@ CertifiedCase certified(const std::string& name, std::vector<Override> overrides
   c.certificate = std::move(*run.certificate);
   return c;
 }
+
+/// This process has one processor as long as it lives.
+class OneProcessor {
+ public:
+  OneProcessor() {
+    REQUIRE(sched_getaffinity(0, sizeof all_, &all_) == 0);
+    int first = 0;
+    while (!CPU_ISSET(first, &all_)) ++first;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(first, &one);
+    REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);
+  }
+  ~OneProcessor() { sched_setaffinity(0, sizeof all_, &all_); }
+  OneProcessor(const OneProcessor&) = delete;
+  OneProcessor& operator=(const OneProcessor&) = delete;
+
+ private:
+  cpu_set_t all_;
+};
 
 struct Judged {
   std::size_t certain = 0, expected = 0, wrong = 0, outside = 0;
@@ -150,6 +171,26 @@ TEST_CASE("certified: exact beside itself, every datum off by one rounding") {
   const CertifiedCase c = certified(name, {{"run.engine", "exact"}});
   CHECK(c.certificate.factor == 5.0);
   check_all_right(c, name);
+}
+
+// On one, both companions follow the run; on two, the first is beside it, and the second begins when the run has ended.
+TEST_CASE("certified: the same on one processor as on all") {
+  const std::vector<Override> engine = {{"run.engine", "exact"}};
+  const auto alone = [&] {
+    const OneProcessor one;
+    return certified("10a_bk_chain_20", engine);
+  }();
+  const CertifiedCase c = certified("10a_bk_chain_20", engine);
+  const Certificate &a = alone.certificate, &b = c.certificate;
+  CHECK(b.complete);
+  CHECK(b.certain_events() > 20);
+  CHECK(a.certain_events() == b.certain_events());
+  CHECK(a.until == b.until);
+  CHECK(a.reason == b.reason);
+  CHECK(a.unordered == b.unordered);
+  CHECK(a.history.bounds == b.history.bounds);
+  REQUIRE(a.t_errors.size() == b.t_errors.size());
+  for (std::size_t i = 0; i < b.certain_events(); ++i) CHECK(a.t_errors[i] == b.t_errors[i]);
 }
 
 TEST_CASE("certified: newmark beside half its step") {

@@ -107,6 +107,32 @@ TEST_CASE("closing is the apex of the cone: only the directions compare") {
   CHECK(closes(-0.81, -1.0) == State::slip_minus);
 }
 
+TEST_CASE("closing at an order at which one direction alone moves: what moves there decides") {
+  const Contact c = element();
+  MotionJet j = jet({});
+  for (std::size_t m = 0; m < MotionJet::orders; ++m) j.noise[m].gap = j.noise[m].ut = 1e-9;
+  const auto closes = [&] { return next_state(c, {State::open, 0.0}, Guard::closing, j).state; };
+  SUBCASE("straight down: it sticks, however fast it moves along at the next order") {
+    j.motion[1].gap = -1.0;
+    j.motion[2].gap = -1.0;
+    j.motion[2].ut = 5.0;  // 500 * 5 > 0.4 * 1000
+    CHECK(closes() == State::stick);
+  }
+  SUBCASE("along alone, which the gap follows at the next order: it slips") {
+    j.motion[1].ut = -0.01;
+    j.motion[2].gap = -1.0;
+    j.motion[2].ut = 0.1;
+    CHECK(closes() == State::slip_minus);
+  }
+  SUBCASE("less than the noise of either is no motion: the next order decides") {
+    j.motion[1].gap = -0.5e-9;
+    j.motion[1].ut = 0.9e-9;
+    j.motion[2].gap = -1.0;
+    j.motion[2].ut = 0.9;
+    CHECK(closes() == State::slip_plus);
+  }
+}
+
 TEST_CASE("anchors keep T continuous, and drop it where static exceeds kinetic friction") {
   const Contact c = element();
   ContactMotion m;

@@ -158,20 +158,23 @@ class Companions {
   Companions(std::vector<CompanionRun> runs, double most_steps, bool forces) {
     for (CompanionRun& run : runs)
       tasks_.push_back(std::make_unique<CompanionTask>(std::move(run), leash_, most_steps, forces));
-    left_ = tasks_.size();
-    for (std::size_t used = 1; used < processors(); ++used) start();
   }
   ~Companions() { leash_.stop(); }
   Companions(const Companions&) = delete;
   Companions& operator=(const Companions&) = delete;
 
+  /// Beside the run, which has a processor.
+  void begin() {
+    const std::size_t beside = std::min(tasks_.size(), processors() - 1);
+    while (threads_.size() < beside) start();
+  }
   /// The run has come to `reached`: companions need go no further. Until all have ended, or go_on says no.
   void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
     leash_.stop_at(reached);
     if (interrupted) leash_.stop();
-    start();
+    if (threads_.size() < tasks_.size()) start();
     std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, now_and_then, [this] { return left_ == 0; }))
+    while (!ended_.wait_for(lock, now_and_then, [this] { return done_ == tasks_.size(); }))
       if (!go_on()) leash_.stop();
   }
 
@@ -179,13 +182,13 @@ class Companions {
 
  private:
   void start() {
-    if (threads_.size() < tasks_.size()) threads_.emplace_back([this] { compute(); });
+    threads_.emplace_back([this] { compute(); });
   }
   void compute() {
     for (std::size_t mine = next_++; mine < tasks_.size(); mine = next_++) {
       tasks_[mine]->compute();
       const std::lock_guard lock(mutex_);
-      --left_;
+      ++done_;
       ended_.notify_all();
     }
   }
@@ -195,7 +198,7 @@ class Companions {
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::condition_variable ended_;
-  std::size_t left_ = 0;            // guarded by mutex_
+  std::size_t done_ = 0;            // guarded by mutex_
   std::list<QuietThread> threads_;  // the last member: they end first
 };
 
@@ -300,6 +303,7 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
     for (CompanionRun& companion : plan.runs) companion.model.outputs = model.outputs;
   Tracker own(model, options.forces, &recorder);
   Companions companions(std::move(plan.runs), most_steps, options.forces);
+  companions.begin();
   result.report = simulate(model, settings, own, options.listener);
   const Outcome& outcome = result.report.outcome;
   const auto ended = Clock::now();

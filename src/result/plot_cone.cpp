@@ -38,14 +38,11 @@ double tic_step(double range) {
   return (digit > 5.0 ? 10.0 : digit > 2.0 ? 5.0 : digit > 1.0 ? 2.0 : 1.0) * power;
 }
 
-/// gnuplot functions: the colour of a state, and of an event.
-std::string colour_functions() {
+/// A function for gnuplot: the colour of a state.
+std::string colour_function() {
   std::string s = "state_colour(s) = ";
   for (const std::string& name : state_names())
     s += "s eq " + quoted(name) + " ? " + rgb(state_colour(name)) + " : ";
-  s += "0x999999\nevent_colour(s) = ";
-  for (const EventLook& look : event_looks)
-    s += std::string("s eq '") + to_string(look.type) + "' ? " + rgb(look.colour) + " : ";
   return s + "0x999999\n";
 }
 
@@ -71,11 +68,13 @@ std::vector<Curve> curves_of(const PlottedRun& run, std::size_t k, bool small) {
   curves.push_back({data, inside + ":(state_colour(" + rows.word("state") + "))",
                     std::string("with points pointtype 7 pointsize ") + (small ? "0.2" : "0.35") +
                         " linecolor rgb variable"});
-  curves.push_back(
-      {"'marks.csv' skip 1",
-       fmt::format("({} == {} ? -{} : NaN):{}:(event_colour({}))", marks.value("row"), k, marks.value("N"),
-                   marks.number("T"), marks.word("event")),
-       fmt::format("with points pointtype 6 pointsize {} linecolor rgb variable", small ? 0.4 : 0.7)});
+  for (const EventLook& look : event_looks) {
+    const PlottedRun::Rows events = marks_of(run, to_string(look.type), static_cast<int>(k));
+    if (events.count == 0) continue;
+    curves.push_back(
+        {recorded("'marks.csv'", events), fmt::format("(-{}):{}", marks.value("N"), marks.number("T")),
+         fmt::format("with points pointtype 6 pointsize {} linecolor '{}'", small ? 0.4 : 0.7, look.colour)});
+  }
   return curves;
 }
 
@@ -166,7 +165,7 @@ Picture cone_picture(const PlottedRun& run) {
                   say(run, "Contact forces and friction cones") + part + ": " +
                       say(run, "inside sticks, on its edge slips"),
                   canvas};
-  picture.setup = colour_functions() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
+  picture.setup = colour_function() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
   if (small) picture.setup += fmt::format("set tics font ',{:.4g}'\n", canvas.font(10.0));
   const double line = 1.0 / canvas.height, left = canvas.left(), right = canvas.right();
   const double width = (right - left) / static_cast<double>(grid.columns);

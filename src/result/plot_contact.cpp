@@ -135,13 +135,11 @@ Picture states_picture(const PlottedRun& run) {
   for (const std::string& state : state_names()) {
     std::optional<std::string> name = say(run, state);
     for (std::size_t k = 0; k < count; ++k) {
-      const auto& bands = run.bands[k];
-      if (std::none_of(bands.begin(), bands.end(), [&](const auto& b) { return b.state == state; })) continue;
-      panel.curves.push_back(
-          {"'states-" + run.slugs[k] + ".csv' skip 1",
-           band_at(state, fmt::format("{}", k), fmt::format("{}-0.38", k), fmt::format("{}+0.38", k)),
-           "with boxxy fillstyle solid 1.0 noborder linecolor '" + state_colour(state) + "'",
-           std::exchange(name, std::nullopt)});
+      const double y = static_cast<double>(k);
+      std::optional<Curve> curve = band_curve(run, k, state, y - 0.38, y + 0.38, 1.0);
+      if (!curve) continue;
+      curve->name = std::exchange(name, std::nullopt);
+      panel.curves.push_back(*curve);
     }
   }
   return {"states",

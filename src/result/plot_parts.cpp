@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/number.hpp"
 #include "result/run_tables.hpp"
 
 namespace signorini {
@@ -20,16 +22,21 @@ std::string every(std::size_t times, std::size_t group, std::size_t index) {
   return fmt::format(" every {}::{}::{}", std::max<std::size_t>(stride, 1) * group, index, times * group - 1);
 }
 
-std::string recorded(const std::string& table, const PlottedRun::Rows& rows) {
-  return fmt::format("{} skip 1 every ::{}::{}", table, rows.first, rows.first + rows.count - 1);
-}
-
-bool occurs(const PlottedRun& run, std::size_t k, const std::string& state) {
-  return std::any_of(run.bands[k].begin(), run.bands[k].end(),
-                     [&](const auto& b) { return b.state == state; });
+/// Where they stand in the table of bands, which is in the order of their names.
+PlottedRun::Rows bands_in(const PlottedRun& run, std::size_t k, const std::string& state) {
+  PlottedRun::Rows rows;
+  for (const PlottedRun::Band& band : run.bands[k]) {
+    rows.first += band.state < state ? 1 : 0;
+    rows.count += band.state == state ? 1 : 0;
+  }
+  return rows;
 }
 
 }  // namespace
+
+std::string recorded(const std::string& table, const PlottedRun::Rows& rows) {
+  return fmt::format("{} skip 1 every ::{}::{}", table, rows.first, rows.first + rows.count - 1);
+}
 
 std::string rows_over_time(const std::string& table, std::size_t times) {
   return quoted(table) + " skip 1" + every(times, 1, 0);
@@ -75,33 +82,48 @@ const std::vector<std::string>& state_names() {
   return names;
 }
 
-const CsvTable<PlottedRun::Band>& band_table() {
+namespace {
+
+const CsvTable<PlottedRun::Band>& band_columns() {
   using Band = PlottedRun::Band;
   static const CsvTable<Band> table = {{"from", &Band::from}, {"to", &Band::to}, {"state", &Band::state}};
   return table;
 }
 
-std::string band_at(const std::string& state, const std::string& y, const std::string& low,
-                    const std::string& high) {
-  const CsvTable<PlottedRun::Band>& table = band_table();
-  return fmt::format("({} eq {} ? {} : NaN):({}):{}:{}:({}):({})", table.word("state"), quoted(state),
-                     table.value("from"), y, table.number("from"), table.number("to"), low, high);
+}  // namespace
+
+std::string band_table(std::vector<PlottedRun::Band> bands) {
+  std::stable_sort(bands.begin(), bands.end(),
+                   [](const auto& a, const auto& b) { return a.state < b.state; });
+  return band_columns().text(bands);
+}
+
+std::optional<Curve> band_curve(const PlottedRun& run, std::size_t k, const std::string& state, double low,
+                                double high, double opacity) {
+  const PlottedRun::Rows rows = bands_in(run, k, state);
+  if (rows.count == 0) return std::nullopt;
+  const std::size_t from = band_columns().number("from");
+  return Curve{
+      recorded("'states-" + run.slugs[k] + ".csv'", rows),
+      fmt::format("{0}:({1}):{0}:{2}:({3}):({4})", from, shortest(0.5 * (low + high)),
+                  band_columns().number("to"), shortest(low), shortest(high)),
+      fmt::format("with boxxy fillstyle solid {} noborder linecolor '{}'", opacity, state_colour(state))};
 }
 
 std::vector<Curve> bands_of(const PlottedRun& run, std::size_t k, double opacity) {
   std::vector<Curve> curves;
   for (const std::string& state : state_names())
-    if (occurs(run, k, state))
-      curves.push_back({"'states-" + run.slugs[k] + ".csv' skip 1", band_at(state, "0.5", "0", "1"),
-                        fmt::format("axes x1y2 with boxxy fillstyle solid {} noborder linecolor '{}'",
-                                    opacity, state_colour(state))});
+    if (std::optional<Curve> curve = band_curve(run, k, state, 0.0, 1.0, opacity)) {
+      curve->look = "axes x1y2 " + curve->look;
+      curves.push_back(*curve);
+    }
   return curves;
 }
 
 std::vector<Curve> band_legend(const PlottedRun& run, std::size_t k) {
   std::vector<Curve> curves;
   for (const std::string& state : state_names())
-    if (occurs(run, k, state))
+    if (bands_in(run, k, state).count > 0)
       curves.push_back(
           {"keyentry", "",
            fmt::format("with boxes fillstyle solid 1.0 noborder linecolor '{}'", state_colour(state)),

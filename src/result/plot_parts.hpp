@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct TableColumn {
   std::size_t time = 1, number = 0;
   [[nodiscard]] std::string columns() const { return fmt::format("{}:{}", time, number); }
 };
+/// These rows of one of the tables, for gnuplot.
+[[nodiscard]] std::string recorded(const std::string& table, const PlottedRun::Rows& rows);
 /// A curve by name: of curves.csv where it has it.
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& name,
                                    const TableColumn& otherwise);
@@ -38,11 +41,11 @@ struct TableColumn {
 
 /// Fill colour of a state, "#rrggbb".
 [[nodiscard]] std::string state_colour(const std::string& state);
-/// states-CONTACT.csv.
-[[nodiscard]] const CsvTable<PlottedRun::Band>& band_table();
-/// For gnuplot: the bands of this state about y, from `low` to `high`; nothing for the other bands.
-[[nodiscard]] std::string band_at(const std::string& state, const std::string& y, const std::string& low,
-                                  const std::string& high);
+/// states-CONTACT.csv: the bands of a state together.
+[[nodiscard]] std::string band_table(std::vector<PlottedRun::Band> bands);
+/// The bands of contact k in this state, from `low` to `high`; opacity 0..1. Nothing where it never is in that state.
+[[nodiscard]] std::optional<Curve> band_curve(const PlottedRun& run, std::size_t k, const std::string& state,
+                                              double low, double high, double opacity);
 /// States in the order of legends.
 [[nodiscard]] const std::vector<std::string>& state_names();
 /// They fill the panel (second y axis 0..1) with the states of contact k; `opacity` 0..1.

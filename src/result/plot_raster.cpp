@@ -43,19 +43,21 @@ Picture raster_picture(const PlottedRun& run) {
   for (std::size_t k = 1; k < count; ++k)
     panel.axes += fmt::format(
         "set arrow from graph 0, first {0}.5 to graph 1, first {0}.5 nohead linecolor '#bbbbbb'\n", k - 1);
-  const std::string data = "'marks" + run.suffix + ".csv' skip 1";
-  const std::string row_of = mark_table().value("row"), at = mark_table().value("t");
-  if (occurs(run, EventType::time))
-    panel.curves.push_back({data, fmt::format("({} < 0 ? {} : NaN):(-0.5):(0):({})", row_of, at, count),
-                            "with vectors nohead linecolor '#aaaaaa' dashtype 3", say(run, "load changes")});
+  const std::size_t at = mark_table().number("t");
+  const auto add = [&](EventType type, const std::string& columns, const std::string& look,
+                       const std::optional<std::string>& name) {
+    const PlottedRun::Rows rows = marks_of(run, to_string(type));
+    if (rows.count > 0)
+      panel.curves.push_back({recorded("'marks" + run.suffix + ".csv'", rows), columns, look, name});
+  };
+  add(EventType::time, fmt::format("{}:(-0.5):(0):({})", at, count),
+      "with vectors nohead linecolor '#aaaaaa' dashtype 3", say(run, "load changes"));
   const double lane = 0.84 / static_cast<double>(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
-    panel.curves.push_back(
-        {data,
-         "(" + mark_table().word("event") + " eq " + quoted(to_string(lanes[i].type)) +
-             fmt::format(" ? {} : NaN):({} + {:.4f}):(0):({:.4f})", at, row_of,
-                         -0.42 + lane * static_cast<double>(i), 0.86 * lane),
-         fmt::format("with vectors nohead linewidth 1.6 linecolor '{}'", lanes[i].colour)});
+    add(lanes[i].type,
+        fmt::format("{}:({} + {:.4f}):(0):({:.4f})", at, mark_table().value("row"),
+                    -0.42 + lane * static_cast<double>(i), 0.86 * lane),
+        fmt::format("with vectors nohead linewidth 1.6 linecolor '{}'", lanes[i].colour), std::nullopt);
   for (const EventLook& look : lanes)
     panel.curves.push_back({"keyentry", "", fmt::format("with lines linewidth 4 linecolor '{}'", look.colour),
                             say(run, to_string(look.type))});

@@ -34,7 +34,7 @@ PictureFiles run_pictures(const fs::path& directory, const PlotWindow& window, c
   pictures.add(run, displacement_picture(run));
   pictures.add(run, response_picture(run));
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
-    pictures.add_table("states-" + run.slugs[k], band_table().text(run.bands[k]));
+    pictures.add_table("states-" + run.slugs[k], band_table(run.bands[k]));
     pictures.add(run, contact_picture(run, k));
     if (zoomed) pictures.add(*zoomed, contact_picture(*zoomed, k));
   }

@@ -10,7 +10,7 @@
 //   DIR/plots/frame-1.gp              deformed shapes at the times of run.frames (plot_frames.hpp)
 //   DIR/plots/loads.gp               loads and the base's acceleration over time
 //   DIR/plots/energy.gp               where the energy is and went, and what the balance is off by
-//   DIR/plots/states-NAME.csv         from,to,state: the bands, exact to the event
+//   DIR/plots/states-NAME.csv         from,to,state: the bands of each state, exact to the event
 //   DIR/plots/marks.csv               row,t,event,N,T: the events of raster and cone
 //
 // Run in DIR/plots, each script writes an SVG and a PNG of its own name. Nothing here starts gnuplot.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/file_name.hpp"
 #include "base/number.hpp"
@@ -201,6 +202,9 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
       run.marks.push_back({static_cast<int>(rows.at(events.cell(who))), t, events.cell(type),
                            events.number(n), events.number(friction)});
   }
+  std::stable_sort(run.marks.begin(), run.marks.end(), [](const Mark& a, const Mark& b) {
+    return std::tie(a.event, a.row) < std::tie(b.event, b.row);
+  });
 }
 
 /// What depends on the time shown.
@@ -235,6 +239,15 @@ void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun&
 }
 
 }  // namespace
+
+PlottedRun::Rows marks_of(const PlottedRun& run, const std::string& type, std::optional<int> row) {
+  const auto meant = [&](const Mark& mark) {
+    return mark.event == type && mark.row == row.value_or(mark.row);
+  };
+  const auto begin = std::find_if(run.marks.begin(), run.marks.end(), meant);
+  const auto end = std::find_if_not(begin, run.marks.end(), meant);
+  return {static_cast<std::size_t>(begin - run.marks.begin()), static_cast<std::size_t>(end - begin)};
+}
 
 PlottedRun untold_run(const std::string& title, const Units& units, const PictureLook& look) {
   PlottedRun run;

@@ -58,7 +58,7 @@ struct PlottedRun {
   double from = 0.0, to = 0.0;  ///< the time shown
   std::string suffix;           ///< of the pictures' names
   PictureLook look;
-  /// Intervals of constant state, one list a contact.
+  /// Intervals of constant state, one list a contact, in the order of time.
   struct Band {
     double from, to;
     std::string state;
@@ -78,7 +78,7 @@ struct PlottedRun {
   double legend = Canvas::usual_legend;  ///< pixels beside its panels
   std::vector<ContactRanges> ranges;     ///< of the time shown, one a contact
   std::map<std::string, Range> moves;    ///< of the displacements, by name of the column
-  std::vector<Mark> marks;               ///< in the time shown
+  std::vector<Mark> marks;  ///< in the time shown; those of a type together, and in them a contact's
   struct Energies {
     std::set<std::string> used;  ///< columns that are not zero throughout
     std::size_t times = 0;       ///< rows of energy.csv
@@ -86,6 +86,11 @@ struct PlottedRun {
   } energies;
   std::vector<Frame> frames;  ///< in the time shown
 };
+
+/// Which of the marks are of this type, and of this row of the pictures where one is given. gnuplot takes 7 us for an
+/// expression (it guards each by system calls): a curve reads the rows that it draws, and does not look for them.
+[[nodiscard]] PlottedRun::Rows marks_of(const PlottedRun& run, const std::string& type,
+                                        std::optional<int> row = std::nullopt);
 
 /// A run of which nothing is read: what several runs, or none, are drawn as.
 [[nodiscard]] PlottedRun untold_run(const std::string& title, const Units& units,

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "behaviour/engines.hpp"
 #include "behaviour/halves.hpp"
@@ -400,6 +401,17 @@ TEST_CASE("a block that rocks in two halves: the forces of the first are those o
   for (const std::string& warning : without.warnings)
     said = said || warning.find("run.geometric") != std::string::npos;
   CHECK(said);
+  // Rows of other members or bodies, or not all of them, are no forces of this structure.
+  const auto with_rows = [&](const std::string& rows) {
+    std::ofstream(folder / "geometric.csv") << "what,from,to,N_from,N_to,stiffness\n" << rows;
+    CAPTURE(rows);
+    CHECK_THROWS_WITH_AS(static_cast<void>(built(later)),
+                         doctest::Contains("those of other members or rigid bodies"), SceneError);
+  };
+  with_rows("");
+  with_rows("rigid,another,,,,-98.1\n");
+  with_rows("rigid,block,,,,-98.1\nrigid,another,,,,-98.1\n");
+  with_rows("member,A,B,-1.0,-1.0,\nrigid,block,,,,-98.1\n");
   // Without the file others would be frozen, and nobody would know.
   REQUIRE(std::filesystem::remove(folder / "geometric.csv"));
   CHECK_THROWS_WITH_AS(static_cast<void>(built(later)),

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "behaviour/engines.hpp"
 #include "behaviour/outputs.hpp"
@@ -126,6 +127,38 @@ TEST_CASE("outputs: reactions are the sum of loads and inertia, and follow from 
     }
     CHECK(greatest > 1.0);
     CHECK(c.result.events.size() >= 2);
+  }
+}
+
+TEST_CASE("outputs: a foot between two supported nodes gives each its part of N and of T") {
+  // Weight and a pull hold a mass on the segment from P to Q, seven tenths of the way from Q.
+  for (const double angle : {0.0, 0.4, 2.0}) {
+    CAPTURE(angle);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto at = [&](double x, double y) {
+      return fmt::format("[{:.17g}, {:.17g}]", c * x - s * y, s * x + c * y);
+    };
+    std::string text = fmt::format(
+        "schema = 1\nunits = {{ force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }}\ngravity = "
+        "{}\n[run]\n"
+        "t_end = 0.1\ninitial = \"frictional\"\n[nodes]\nP = {}\nQ = {}\nm = {}\n[[masses]]\nnode = "
+        "\"m\"\nmass "
+        "= 2.0\n"
+        "[[supports]]\nnodes = [\"P\", \"Q\"]\nfix = [\"ux\", \"uy\"]\n[[loads]]\nnode = \"m\"\ndirection = "
+        "{}\n"
+        "amplitude = 5.0\n[[contacts]]\nname = \"foot\"\nnode = \"m\"\nagainst = [\"P\", \"Q\"]\nnormal = "
+        "{}\nlaw = "
+        "\"compliant\"\nnormal_stiffness = 3e4\ntangential_stiffness = 2e4\nfriction = 0.6\n",
+        at(0.0, -10.0), at(0.3, -0.2), at(2.3, -0.2), at(0.9, -0.2), at(1.0, 0.0), at(0.0, 1.0));
+    for (const char* node : {"P", "Q"})
+      for (const auto& [across, x, y] : {std::tuple{"along", 1.0, 0.0}, std::tuple{"across", 0.0, 1.0}})
+        text += output(fmt::format("{}{}", node, across), "reaction",
+                       fmt::format("at = \"{}\"\ndirection = {}", node, at(x, y)));
+    const Computed found = compute(text);
+    CHECK(std::abs(found.last("Palong") + 0.7 * 5.0) < 1e-10);
+    CHECK(std::abs(found.last("Qalong") + 0.3 * 5.0) < 1e-10);
+    CHECK(std::abs(found.last("Pacross") - 0.7 * 20.0) < 1e-10);
+    CHECK(std::abs(found.last("Qacross") - 0.3 * 20.0) < 1e-10);
   }
 }
 

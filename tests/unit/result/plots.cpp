@@ -55,11 +55,73 @@ TEST_CASE("plots: scripts, and bands that are exact to the event") {
   CHECK(scripts[1].filename() == "contact-foot.gp");
   CHECK(scripts[2].filename() == "contact-pad__left.gp");
   const auto plots = folder / "run" / "plots";
-  CHECK(slurp(plots / "states-foot.csv") == "from,to,state\n0,0.123456789,stick\n0.123456789,1,slip-\n");
+  CHECK(slurp(plots / "states-foot.csv") == "from,to,state\n0.123456789,1,slip-\n0,0.123456789,stick\n");
   CHECK(scripts[4].filename() == "raster.gp");
   CHECK(scripts[5].filename() == "cone.gp");
   CHECK(slurp(plots / "marks.csv") == "row,t,event,N,T\n0,0.123456789,slip,-58.86,-17.658\n");
   CHECK(slurp(plots / "states-pad__left.csv") == "from,to,state\n0,1,slip-\n");
+}
+
+TEST_CASE("plots: a curve reads the rows that it draws") {
+  PlottedRun run = untold_run("", {"N", "kg", "m", "s"});
+  run.slugs = {"a", "b"};
+  run.bands = {{{0.0, 1.0, "stick"}, {1.0, 2.0, "slip+"}, {2.0, 3.0, "stick"}, {3.0, 4.0, "open"}},
+               {{0.0, 4.0, "stick"}}};
+  CHECK(band_table(run.bands[0]) == "from,to,state\n3,4,open\n1,2,slip+\n0,1,stick\n2,3,stick\n");
+  const auto rows = [&](std::size_t k, const std::string& state) {
+    return band_curve(run, k, state, 2.0, 3.0, 1.0).value().rows;
+  };
+  CHECK(rows(0, "open") == "'states-a.csv' skip 1 every ::0::0");
+  CHECK(rows(0, "slip+") == "'states-a.csv' skip 1 every ::1::1");
+  CHECK(rows(0, "stick") == "'states-a.csv' skip 1 every ::2::3");
+  CHECK(rows(1, "stick") == "'states-b.csv' skip 1 every ::0::0");
+  CHECK_FALSE(band_curve(run, 1, "open", 0.0, 1.0, 1.0));
+  CHECK(band_curve(run, 0, "stick", 2.0, 3.0, 1.0)->columns == "1:(2.5):1:2:(2):(3)");
+}
+
+TEST_CASE("plots: marks stand by type and contact, whatever the order of events") {
+  const Folder folder;
+  const Scene s = scene();
+  const Model m = model();
+  RunDirectory directory(folder / "run", s, m);
+  feed(directory, 0.0);
+  const auto event = [&](double t, int contact, EventType type, State from, State to) {
+    Event e = slip(t);
+    e.contact = contact;
+    e.type = type;
+    e.from = from;
+    e.to = to;
+    directory.event(e);
+  };
+  event(0.1, 1, EventType::stick, State::slip_minus, State::stick);
+  event(0.2, 0, EventType::slip, State::stick, State::slip_minus);
+  event(0.3, 1, EventType::slip, State::stick, State::slip_minus);
+  event(0.4, 0, EventType::stick, State::slip_minus, State::stick);
+  event(0.5, 0, EventType::slip, State::stick, State::slip_minus);
+  feed(directory, 1.0);
+  (void)directory.finish(report());
+  const PlottedRun run = read_plotted_run(TableFolder(folder / "run"), read_run_facts(folder / "run"), {});
+  std::vector<std::pair<int, double>> order;
+  for (const Mark& mark : run.marks) order.emplace_back(mark.row, mark.t);
+  CHECK(order == std::vector<std::pair<int, double>>{{0, 0.2}, {0, 0.5}, {1, 0.3}, {0, 0.4}, {1, 0.1}});
+  const auto rows = [&](const char* type, std::optional<int> row = std::nullopt) {
+    const PlottedRun::Rows found = marks_of(run, type, row);
+    return std::pair(found.first, found.count);
+  };
+  CHECK(rows("slip") == std::pair<std::size_t, std::size_t>(0, 3));
+  CHECK(rows("slip", 0) == std::pair<std::size_t, std::size_t>(0, 2));
+  CHECK(rows("slip", 1) == std::pair<std::size_t, std::size_t>(2, 1));
+  CHECK(rows("stick", 1) == std::pair<std::size_t, std::size_t>(4, 1));
+  CHECK(rows("impact").second == 0);
+  // Each panel of the cone draws its own, each lane of the raster those of its type.
+  (void)write_plots(folder / "run");
+  const std::string cone = slurp(folder / "run" / "plots" / "cone.gp"),
+                    raster = slurp(folder / "run" / "plots" / "raster.gp");
+  for (const char* of_panel : {"::0::1", "::2::2", "::3::3", "::4::4"})
+    CHECK(cone.find(std::string("'marks.csv' skip 1 every ") + of_panel + " using (-$4):5 with points") !=
+          std::string::npos);
+  CHECK(raster.find("'marks.csv' skip 1 every ::0::2 using 2:($1 + ") != std::string::npos);
+  CHECK(raster.find("'marks.csv' skip 1 every ::3::4 using 2:($1 + ") != std::string::npos);
 }
 
 TEST_CASE("plots: a picture is its panels, from above, each with its axes and curves") {

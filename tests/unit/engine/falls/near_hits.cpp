@@ -58,6 +58,17 @@ TEST_CASE("each least gap below ten thousand levels, with its time and its value
   CHECK(near_hits_of(swings(-1e-3), 6.0)[0].gap == 0.0);
 }
 
+TEST_CASE("a least gap where two steps meet is one, looked at once") {
+  for (const double meeting : {1.0, 1.1, 1.7}) {
+    CAPTURE(meeting);
+    const std::vector<NearHit> hits = near_hits_of(
+        [&](double t) { return 5e-3 + 0.1 * (1.0 - std::cos(2.0 * (t - meeting))); }, meeting + 1.0);
+    REQUIRE(hits.size() == 1);
+    CHECK(std::abs(hits[0].t - meeting) < 1e-3);  // h^3 g''''/(4 g''): of the history
+    CHECK(hits[0].gap == doctest::Approx(5e-3).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("what touches and trembles by less than a level is none, and neither is what opens") {
   CHECK(near_hits_of([](double t) { return 0.4 * level_of_gap * (1.0 + std::sin(9.0 * t)); }, 5.0).empty());
   CHECK(near_hits_of([](double t) { return 0.3 * t * t; }, 5.0).empty());

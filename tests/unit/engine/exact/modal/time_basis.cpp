@@ -46,6 +46,20 @@ TEST_CASE("a history in the basis, its derivative and its series") {
     for (std::size_t k = p.size(); k-- > 0;) sum = sum * x + p[k];
     CHECK(sum == doctest::Approx(history(1.25 + 0.4 + 0.7 * x)).epsilon(1e-13));
   }
+  // A shorter polynomial is off by no more than it says, and not by much less, whatever the wave's size.
+  for (const double size : {1e-6, 1.0, 1e6}) {
+    CAPTURE(size);
+    std::vector<double> few(9);
+    const double rest = basis.taylor(size * c, 0.4, 0.7, 4.0, few).rest;
+    double most = 0.0;
+    for (const double x : {0.5, 0.8, 1.0}) {
+      double sum = 0.0;
+      for (std::size_t k = few.size(); k-- > 0;) sum = sum * x + few[k];
+      most = std::max(most, std::abs(sum - size * history(1.25 + 0.4 + 0.7 * x)));
+    }
+    CHECK(most <= rest);
+    CHECK(rest < 20.0 * most);
+  }
   // A wave that turns too far is left out, and bounded.
   const TimeBasis::Ripple fast = basis.taylor(c, 0.4, 2.0, 4.0, p);
   CHECK(fast.value == doctest::Approx(1.5).epsilon(1e-13));

@@ -115,8 +115,11 @@ Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, do
 bool Touching::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
   const Contact& contact = model_.contacts[c];
   if (!(contact.normal_damping > 0.0)) return false;
-  const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
-                          rounding::of_many * norm_of(contact.normal) * (after - before).norm();
+  // Of an elimination: what a hit does far from it, 0.3 of the last node's at each node of a beam, is no jump where it is
+  // that small.
+  const double rounding =
+      rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
+      4.0 * rounding::of_elimination * norm_of(contact.normal) * (before.norm() + after.norm());
   return gap_rate(contact, after) - gap_rate(contact, before) < -rounding;
 }
 
@@ -132,7 +135,12 @@ void Touching::follow_velocity(const Instant& instant, const Vector& before, con
       mode[c] = {State::stick, slip_of(contact, motion[c])};
     if (contact.has_gap() || !contact.sticks_rigidly() || mode[c].is_open()) continue;
     const double vt = along_surface(contact, instant.v, after.surface(c, instant.t, 1));
-    if (std::abs(vt) > rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
+    // As in presses_harder: what stuck is at rest but for what the solve has left of all that jumps.
+    const double of_jump =
+        slip_sign(mode[c].state) == 0
+            ? rounding::of_elimination * norm_of(contact.tangent) * (instant.v - before).norm()
+            : 0.0;
+    if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
   }
 }
 

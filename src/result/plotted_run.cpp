@@ -19,13 +19,17 @@ namespace {
 constexpr std::size_t most_bands = 5000;  // a contact; shorter ones are narrower than any picture resolves
 constexpr double most_marks = 3000;       // of one contact and type, over the picture's width
 
+constexpr const char* close_up = "-events";  // of pictures from the first event to the last
+
 std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
   std::vector<std::string> slugs;
   std::set<std::string> taken;
   for (const auto& contact : contacts) {
     const std::string slug = file_name(contact.name, 80, "-_", '_');
     std::string unique = slug;
-    for (int n = 2; !taken.insert(unique).second; ++n) unique = slug + "-" + std::to_string(n);
+    const auto is_taken = [&] { return taken.contains(unique) || taken.contains(unique + close_up); };
+    for (int n = 2; is_taken(); ++n) unique = slug + "-" + std::to_string(n);
+    taken.insert({unique, unique + close_up});
     slugs.push_back(unique);
   }
   return slugs;
@@ -232,8 +236,8 @@ void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun&
   };
   check("--from", window.from, window.from < run.t_last);
   check("--to", window.to, window.to > run.t_first);
-  if (shown == 0)
-    throw UsageError(fmt::format("--from {} --to {}: nothing to draw, no output time lies between",
+  if (shown < 2)
+    throw UsageError(fmt::format("--from {} --to {}: nothing to draw, not even two output times lie between",
                                  shortest(window.from.value_or(run.t_first)),
                                  shortest(window.to.value_or(run.t_last))));
 }
@@ -297,7 +301,7 @@ std::optional<PlottedRun> closer(const TableFolder& tables, const PlottedRun& ru
   PlottedRun zoomed = run;
   zoomed.from = std::max(first - air, run.t_first);
   zoomed.to = std::min(last + air, run.t_last);
-  zoomed.suffix = "-events";
+  zoomed.suffix = close_up;
   const double part = (zoomed.to - zoomed.from) / (run.t_last - run.t_first);
   if (changes < 4 || !(part > 0.0) || part >= 0.6 || run.bands.size() > most_contacts) return std::nullopt;
   read_shown(tables, zoomed);

@@ -151,6 +151,7 @@ class Finder {
   void friction_of(std::size_t k, const Sight& m);
   void old_rows(std::size_t k);
   void necessity(std::size_t k);
+  [[nodiscard]] bool its_own_falls(std::size_t k, const ContactState& old, const Sight& before) const;
   void guard_of(const RecordedEvent& event);
   [[nodiscard]] bool shear_stays(std::size_t k) const;
   void friction_continuity(std::size_t k);

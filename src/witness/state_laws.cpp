@@ -300,9 +300,8 @@ namespace {
 /// N on both sides; where a dashpot makes it jump, also by that alone, since u goes on: N is known to the rounding of
 /// kn u, cn (g'+ - g'-) to that of velocities.
 bool force_jumps(const Contact& c, const Sight& before, const Sight& after) {
-  const double of_N =
-      rounding::of_elimination * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
-  const double of_rate = rounding::of_elimination * (before.speed + after.speed);
+  const double of_N = rounding::of_many * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
+  const double of_rate = rounding::of_many * (before.speed + after.speed);
   return std::abs(after.N - before.N) > of_N ||
          (c.normal_damping > 0.0 && std::abs(after.dg - before.dg) > of_rate);
 }
@@ -322,7 +321,8 @@ void Finder::necessity(std::size_t k) {
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
     return;
-  // T stays where N jumps: what slid sticks at it until its limit is reached anew.
+  // T stays where N jumps: what slid sticks at it until its limit is reached anew. What jumps far away makes it jump by
+  // however little reaches the contact.
   if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && force_jumps(c, before, after)) return;
   const std::optional<Old> before_it = as_before(k);
   if (!before_it) return;
@@ -343,9 +343,19 @@ void Finder::necessity(std::size_t k) {
     nearest = &guard;
     limit = zero;
   }
-  if (nearest != nullptr)
-    add(static_cast<int>(k), "necessity", nearest->value, limit, nearest->unit(),
-        nearest->value > gross * nearest->size);
+  if (nearest == nullptr || its_own_falls(k, old, before)) return;
+  add(static_cast<int>(k), "necessity", nearest->value, limit, nearest->unit(),
+      nearest->value > gross * nearest->size);
+}
+
+/// It came to its own limit, though what others do at this instant would have kept it from it.
+bool Finder::its_own_falls(std::size_t k, const ContactState& old, const Sight& before) const {
+  const Contact& c = model_.contacts[k];
+  const RecordedEvent* event = event_of(k);
+  const double off = event != nullptr && event->t_uncertainty >= 0.0 ? event->t_uncertainty : 0.0;
+  for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits))
+    if (guard.value <= zero_of(guard, c) + of_uncertainty * off * std::abs(guard.rate)) return true;
+  return false;
 }
 
 /// The guard that fell is zero at the time of its event, in the motion just before.

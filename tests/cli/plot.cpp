@@ -196,10 +196,26 @@ TEST_CASE("cli plot: a window beside the run is refused, and the pictures stay")
           "error: " + window[0] + " " + window[1] + ": nothing to draw, the run covers t = 0 to 2\n");
     CHECK(shell.read("belt-run/plots/displacement.gp") == before);
   }
-  const Ending between = shell.run({"plot", "belt-run", "--from", "1.01", "--to", "1.02"});
-  CHECK(between.code == 2);
-  CHECK(between.err == "error: --from 1.01 --to 1.02: nothing to draw, no output time lies between\n");
-  CHECK(shell.read("belt-run/plots/displacement.gp") == before);
+  for (const std::string to : {"1.011", "1.02"}) {
+    const Ending between = shell.run({"plot", "belt-run", "--from", "1.01", "--to", to});
+    CHECK(between.code == 2);
+    CHECK(between.err ==
+          "error: --from 1.01 --to " + to + ": nothing to draw, not even two output times lie between\n");
+    CHECK(shell.read("belt-run/plots/displacement.gp") == before);
+  }
+  const Ending at_one = shell.run({"plot", "belt-run", "--from", "1", "--to", "1.000001"});
+  CHECK(at_one.code == 2);
+}
+
+TEST_CASE("cli plot: a window in which nothing happens is drawn") {
+  const Shell shell;
+  shell.write("belt.toml", belt(2));
+  REQUIRE(shell.run({"run", "belt.toml", "--set", "run.output_dt=1e-3"}).code == 0);
+  const Ending ending = shell.run({"plot", "belt-run", "--from", "0.0", "--to", "0.2"});
+  CAPTURE(ending.err);
+  CHECK(ending.code == 0);
+  CHECK(shell.read("belt-run/plots/marks.csv") == "row,t,event,N,T\n");
+  CHECK(shell.read("belt-run/plots/raster.gp").find("plot NaN with lines notitle, ") != std::string::npos);
 }
 
 TEST_CASE("cli plot: a folder that holds no run is refused") {

@@ -190,6 +190,23 @@ TEST_CASE("plots: names that look alike as file names stay apart") {
   CHECK(scripts[2].filename() == "contact-a_b-2.gp");
 }
 
+TEST_CASE("plots: the close-up of one contact is not the picture of another") {
+  for (const bool other_first : {false, true}) {
+    const Folder folder;
+    const Scene s = scene();
+    Model m = model();
+    m.contacts[0].name = other_first ? "a-events" : "a";
+    m.contacts[1].name = other_first ? "a" : "a-events";
+    RunDirectory directory(folder / "run", s, m);
+    feed(directory, 0.0);
+    feed(directory, 1.0);
+    (void)directory.finish(report());
+    const auto scripts = write_plots(folder / "run");
+    CHECK(scripts[1].filename() == (other_first ? "contact-a-events.gp" : "contact-a.gp"));
+    CHECK(scripts[2].filename() == (other_first ? "contact-a-2.gp" : "contact-a-events-2.gp"));
+  }
+}
+
 TEST_CASE("plots: a legend has room for its names") {
   CHECK(room_for({"ida", "exact"}) == Canvas::usual_legend);
   const std::string name = "friction-iteration:dt=1e-3";

@@ -120,7 +120,10 @@ void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, 
     // From one instant to the next it goes as far as the scene's displacements, though it be at rest at both.
     const double own = turns ? model_.scales.rotation : model_.scales.displacement;
     side.u_reach[turns] = std::max({own, u_reach_[turns], dependence * of_round_trip * u_modal_[turns]});
-    side.v_reach[turns] = std::max(v_reach_[turns], dependence * of_round_trip * v_modal_[turns]);
+    // What is at rest on a surface that begins to move has the rounding of that motion: A cos(w t - pi/2) at t = 0.
+    const double given = rounding::of_few / rounding::of_elimination *
+                         (turns ? model_.scales.angular_velocity : model_.scales.velocity);
+    side.v_reach[turns] = std::max({given, v_reach_[turns], dependence * of_round_trip * v_modal_[turns]});
   }
   if (sums_over_modes_) side.lost = dependence * round_trip * std::sqrt(energy_ + kinetic_);
   side.speeds = speeds_.empty() ? nullptr : speeds_.data();

@@ -50,6 +50,12 @@ TEST_CASE(
   CHECK(result.events.size() > 400);
 }
 
+TEST_CASE("what rests on a surface that begins to move has the rounding of that motion") {
+  for (const char* engine : {"exact", "ida", "newmark"})
+    for (const std::uint64_t seed : {3067UL, 7425UL})
+      CHECK(run(seed, {{"run.engine", engine}, {"run.dt", "1e-4"}}).events.size() > 3);
+}
+
 TEST_CASE("a motion in modes that has just begun is a sum of amplitudes that still cancel") {
   CHECK(run(173, in_modes_to("0.02")).events.size() == 0);
   CHECK(run(245, in_modes_to("0.001")).events.size() > 0);

@@ -16,9 +16,8 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t most_bands = 5000;  // a contact; shorter ones are narrower than any picture resolves
-constexpr double most_marks = 3000;       // of one contact and type, over the picture's width
-
+constexpr std::size_t most_bands = 5000;     // a contact; shorter ones are narrower than any picture resolves
+constexpr double most_marks = 3000;          // of one contact and type, over the picture's width
 constexpr const char* close_up = "-events";  // of pictures from the first event to the last
 
 std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
@@ -236,8 +235,8 @@ void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun&
   };
   check("--from", window.from, window.from < run.t_last);
   check("--to", window.to, window.to > run.t_first);
-  if (shown < 2)
-    throw UsageError(fmt::format("--from {} --to {}: nothing to draw, not even two output times lie between",
+  if (shown == 0)
+    throw UsageError(fmt::format("--from {} --to {}: nothing to draw, no output time lies between",
                                  shortest(window.from.value_or(run.t_first)),
                                  shortest(window.to.value_or(run.t_last))));
 }

@@ -11,6 +11,19 @@
 using namespace signorini;
 using namespace signorini::made_up;
 
+namespace {
+
+/// A run in folder/run with output times 0 and 1, and these events between them.
+void write_run(const Folder& folder, const Model& model, const std::vector<Event>& events = {}) {
+  RunDirectory directory(folder / "run", scene(), model);
+  feed(directory, 0.0);
+  for (const Event& event : events) directory.event(event);
+  feed(directory, 1.0);
+  (void)directory.finish(report());
+}
+
+}  // namespace
+
 TEST_SUITE_BEGIN("unit/result/plots");
 
 TEST_CASE("plots: nothing in a name is expanded by gnuplot") {
@@ -42,13 +55,7 @@ TEST_CASE("plots: a row a contact is as high as a picture allows, and names do n
 
 TEST_CASE("plots: scripts, and bands that are exact to the event") {
   const Folder folder;
-  const Scene s = scene();
-  const Model m = model();
-  RunDirectory directory(folder / "run", s, m);
-  feed(directory, 0.0);
-  directory.event(slip(0.123456789));
-  feed(directory, 1.0);
-  (void)directory.finish(report());
+  write_run(folder, model(), {slip(0.123456789)});
 
   const auto scripts = write_plots(folder / "run");
   REQUIRE(scripts.size() == 7);
@@ -81,25 +88,20 @@ TEST_CASE("plots: a curve reads the rows that it draws") {
 
 TEST_CASE("plots: marks stand by type and contact, whatever the order of events") {
   const Folder folder;
-  const Scene s = scene();
-  const Model m = model();
-  RunDirectory directory(folder / "run", s, m);
-  feed(directory, 0.0);
-  const auto event = [&](double t, int contact, EventType type, State from, State to) {
+  const auto event = [](double t, int contact, EventType type, State from, State to) {
     Event e = slip(t);
     e.contact = contact;
     e.type = type;
     e.from = from;
     e.to = to;
-    directory.event(e);
+    return e;
   };
-  event(0.1, 1, EventType::stick, State::slip_minus, State::stick);
-  event(0.2, 0, EventType::slip, State::stick, State::slip_minus);
-  event(0.3, 1, EventType::slip, State::stick, State::slip_minus);
-  event(0.4, 0, EventType::stick, State::slip_minus, State::stick);
-  event(0.5, 0, EventType::slip, State::stick, State::slip_minus);
-  feed(directory, 1.0);
-  (void)directory.finish(report());
+  write_run(folder, model(),
+            {event(0.1, 1, EventType::stick, State::slip_minus, State::stick),
+             event(0.2, 0, EventType::slip, State::stick, State::slip_minus),
+             event(0.3, 1, EventType::slip, State::stick, State::slip_minus),
+             event(0.4, 0, EventType::stick, State::slip_minus, State::stick),
+             event(0.5, 0, EventType::slip, State::stick, State::slip_minus)});
   const PlottedRun run = read_plotted_run(TableFolder(folder / "run"), read_run_facts(folder / "run"), {});
   std::vector<std::pair<int, double>> order;
   for (const Mark& mark : run.marks) order.emplace_back(mark.row, mark.t);
@@ -177,14 +179,10 @@ TEST_CASE("plots: what earlier pictures left goes only where new ones come") {
 
 TEST_CASE("plots: names that look alike as file names stay apart") {
   const Folder folder;
-  const Scene s = scene();
   Model m = model();
   m.contacts[0].name = "a/b";
   m.contacts[1].name = "a.b";
-  RunDirectory directory(folder / "run", s, m);
-  feed(directory, 0.0);
-  feed(directory, 1.0);
-  (void)directory.finish(report());
+  write_run(folder, m);
   const auto scripts = write_plots(folder / "run");
   CHECK(scripts[1].filename() == "contact-a_b.gp");
   CHECK(scripts[2].filename() == "contact-a_b-2.gp");
@@ -193,14 +191,10 @@ TEST_CASE("plots: names that look alike as file names stay apart") {
 TEST_CASE("plots: the close-up of one contact is not the picture of another") {
   for (const bool other_first : {false, true}) {
     const Folder folder;
-    const Scene s = scene();
     Model m = model();
     m.contacts[0].name = other_first ? "a-events" : "a";
     m.contacts[1].name = other_first ? "a" : "a-events";
-    RunDirectory directory(folder / "run", s, m);
-    feed(directory, 0.0);
-    feed(directory, 1.0);
-    (void)directory.finish(report());
+    write_run(folder, m);
     const auto scripts = write_plots(folder / "run");
     CHECK(scripts[1].filename() == (other_first ? "contact-a-events.gp" : "contact-a.gp"));
     CHECK(scripts[2].filename() == (other_first ? "contact-a-2.gp" : "contact-a-events-2.gp"));
@@ -266,13 +260,9 @@ TEST_CASE("plots: on paper letters stay readable, and take their room") {
 
 TEST_CASE("plots: a contact without friction has neither T nor slip, and no part in the cones") {
   const Folder folder;
-  const Scene s = scene();
   Model m = model();
   m.contacts[0].friction = {};
-  RunDirectory directory(folder / "run", s, m);
-  feed(directory, 0.0);
-  feed(directory, 1.0);
-  (void)directory.finish(report());
+  write_run(folder, m);
   (void)write_plots(folder / "run");
   const auto plots = folder / "run" / "plots";
   const std::string smooth = slurp(plots / "contact-foot.gp"), rough = slurp(plots / "contact-pad__left.gp");

@@ -37,6 +37,14 @@ double rounding_of(const Combination& form, const Vector& v) {
   return rounding::of_many * norm_of(form) * (std::sqrt(v_squared) + rest);
 }
 
+/// The size of all velocities; rotations are of another unit, and left out.
+double speed_of(const Model& model, const Vector& v) {
+  double squared = 0.0;
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (!model.dofs[static_cast<std::size_t>(i)].rotation) squared += v[i] * v[i];
+  return std::sqrt(squared);
+}
+
 /// -sum of impulse times mean velocity, of what was captured since `before`. twice: velocities before and after, added.
 double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd& before,
                const Eigen::VectorXd& now, const Vector& twice) {
@@ -117,9 +125,9 @@ bool Touching::presses_harder(std::size_t c, const Vector& before, const Vector&
   if (!(contact.normal_damping > 0.0)) return false;
   // Of an elimination: what a hit does far from it, 0.3 of the last node's at each node of a beam, is no jump where it is
   // that small.
-  const double rounding =
-      rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
-      4.0 * rounding::of_elimination * norm_of(contact.normal) * (before.norm() + after.norm());
+  const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
+                          4.0 * rounding::of_elimination * norm_of(contact.normal) *
+                              (speed_of(model_, before) + speed_of(model_, after));
   return gap_rate(contact, after) - gap_rate(contact, before) < -rounding;
 }
 
@@ -138,7 +146,7 @@ void Touching::follow_velocity(const Instant& instant, const Vector& before, con
     // As in presses_harder: what stuck is at rest but for what the solve has left of all that jumps.
     const double of_jump =
         slip_sign(mode[c].state) == 0
-            ? rounding::of_elimination * norm_of(contact.tangent) * (instant.v - before).norm()
+            ? rounding::of_elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
             : 0.0;
     if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
   }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
@@ -14,10 +15,12 @@
 namespace signorini::tests::far_hits {
 namespace {
 
-/// A beam of n nodes, 2 m apart, above the ground at an angle; moving along it at 0.5 m/s where it slides.
+/// A beam of n nodes, 2 m apart, above the ground at an angle; moving along it at 0.5 m/s where it slides. a_metre: 1, or
+/// 1000 in mm and t.
 class Beam {
  public:
-  Beam(int nodes, double angle) : nodes_(nodes), c_(std::cos(angle)), s_(std::sin(angle)) {}
+  Beam(int nodes, double angle, double a_metre = 1.0)
+      : nodes_(nodes), c_(std::cos(angle)), s_(std::sin(angle)), m_(a_metre) {}
 
   [[nodiscard]] std::string at(double x, double y) const {
     return fmt::format("[{:.17g}, {:.17g}]", c_ * x - s_ * y, s_ * x + c_ * y);
@@ -25,24 +28,33 @@ class Beam {
   [[nodiscard]] std::string last() const { return fmt::format("b{}", nodes_ - 1); }
   [[nodiscard]] std::string scene(double t_end, double speed) const {
     std::string text = fmt::format(
-        "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\ngravity = "
-        "{}\n[run]\n"
-        "t_end = {}\noutput_dt = 0.01\ncertify = false\n[run.initial]\n",
-        at(0.0, -10.0), t_end);
+        "schema = 1\nunits = {{ force = \"N\", {}, time = \"s\" }}\ngravity = {}\n[run]\nt_end = {}\n"
+        "output_dt = 0.01\ncertify = false\n[run.initial]\n",
+        m_ > 1.0 ? "mass = \"t\", length = \"mm\"" : "mass = \"kg\", length = \"m\"", at(0.0, -10.0 * m_),
+        t_end);
     for (int i = 0; i < nodes_; ++i)
-      text += fmt::format("b{} = {{ vx = {:.17g}, vy = {:.17g} }}\n", i, speed * c_, speed * s_);
-    text += "[sections.s]\nEA = 2.1e7\nEI = 2.1e6\nmass_per_length = 100.0\n[nodes]\n";
-    for (int i = 0; i < nodes_; ++i) text += fmt::format("b{} = {}\n", i, at(2.0 * i, 0.0));
+      text += fmt::format("b{} = {{ vx = {:.17g}, vy = {:.17g} }}\n", i, speed * m_ * c_, speed * m_ * s_);
+    text += fmt::format("[sections.s]\nEA = 2.1e7\nEI = {}\nmass_per_length = {}\n[nodes]\n", 2.1e6 * m_ * m_,
+                        100.0 / (m_ * m_));
+    for (int i = 0; i < nodes_; ++i) text += fmt::format("b{} = {}\n", i, at(2.0 * m_ * i, 0.0));
     text += fmt::format("[[members]]\nnodes = [\"b0..{}\"]\nsection = \"s\"\n", last());
     return text + fmt::format(
                       "[[contacts]]\nname = \"stop\"\nnode = \"{}\"\nlaw = \"rigid\"\nnormal = {}\ngap = "
-                      "0.0001\nrestitution = 0.3\n",
-                      last(), at(0.0, 1.0));
+                      "{}\nrestitution = 0.3\n",
+                      last(), at(0.0, 1.0), 1e-4 * m_);
+  }
+  /// With a dashpot, at the other end.
+  [[nodiscard]] std::string foot(const char* friction) const {
+    return fmt::format(
+        "[[contacts]]\nname = \"foot\"\nnode = \"b0\"\nlaw = \"compliant\"\nnormal = {}\nnormal_stiffness = "
+        "{}\n"
+        "tangential_stiffness = {}\nnormal_damping = {}\nfriction = {}\n",
+        at(0.0, 1.0), 1e7 / m_, 5e6 / m_, 2e4 / m_, friction);
   }
 
  private:
   int nodes_;
-  double c_, s_;
+  double c_, s_, m_;
 };
 
 Result run(const std::string& text, const char* engine) {
@@ -66,12 +78,7 @@ TEST_CASE("a foot with a dashpot slides through hits that only rounding brings, 
       for (const double angle : {0.0, 0.4, 1.9}) {
         CAPTURE(angle);
         const Beam beam(nodes, angle);
-        const std::string text =
-            beam.scene(0.03, 0.5) +
-            fmt::format(
-                "[[contacts]]\nname = \"foot\"\nnode = \"b0\"\nlaw = \"compliant\"\nnormal = {}\n"
-                "normal_stiffness = 1e7\ntangential_stiffness = 5e6\nnormal_damping = 2e4\nfriction = {}\n",
-                beam.at(0.0, 1.0), friction);
+        const std::string text = beam.scene(0.03, 0.5) + beam.foot(friction);
         for (const char* engine : {"exact", "ida", "newmark"}) {
           CAPTURE(engine);
           const Result result = run(text, engine);
@@ -80,6 +87,24 @@ TEST_CASE("a foot with a dashpot slides through hits that only rounding brings, 
         }
       }
     }
+}
+
+TEST_CASE("which hits are felt far away does not depend on the unit of length") {
+  // Rotations are no velocities: in metres they are as great as these, in millimetres a thousandth.
+  for (const int nodes : {10, 13, 14, 15, 16, 17}) {
+    CAPTURE(nodes);
+    const auto events = [&](double a_metre) {
+      const Beam beam(nodes, 0.7, a_metre);
+      return run(beam.scene(0.03, 0.5) + beam.foot("0.3"), "exact").events;
+    };
+    const std::vector<Event> metres = events(1.0), millimetres = events(1e3);
+    REQUIRE(metres.size() == millimetres.size());
+    for (std::size_t i = 0; i < metres.size(); ++i) {
+      CHECK(metres[i].contact == millimetres[i].contact);
+      CHECK(metres[i].to == millimetres[i].to);
+      CHECK(std::abs(metres[i].t - millimetres[i].t) < 1e-10);
+    }
+  }
 }
 
 TEST_CASE("a slider that sticks rigidly is not let go by the rounding of a hit") {

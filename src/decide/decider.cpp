@@ -9,6 +9,7 @@
 
 #include "decide/at_once.hpp"
 #include "decide/driven_states.hpp"
+#include "decide/own_first.hpp"
 #include "decide/places.hpp"
 #include "decide/plain_form.hpp"
 #include "decide/release.hpp"
@@ -219,8 +220,10 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
   const auto touched = [&](std::size_t c) { return course.touched && course.touched->contact == c; };
   if (course.touched && model_.contacts[course.touched->contact].normal_damping > 0.0)
     course.instant.u = way.from + course.touched->part * (way.to - way.from);
-  if (course.decision.rounds >= 2 && !course.blurred)  // once: in a circle all are asked
+  if (course.decision.rounds >= 2 && !course.blurred) {  // once: in a circle all are asked
     leave_sliding_for_later(model_, course.failed);
+    if (!found.sliders) leave_pushed_for_later(model_, course.decision.visited, blocks_.of, course.failed);
+  }
   for (const Failure& f : course.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];

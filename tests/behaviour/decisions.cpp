@@ -349,4 +349,55 @@ TEST_CASE("ida: slips slower than its tolerance are named with the key that find
   }
 }
 
+TEST_CASE("a slider that turns back does not make another slip that its new force would have held") {
+  // A bar with consistent mass: m = 1 and 1/2 where the end a is held, k = 100. While b is tried as sticking a bears the load
+  // of 3 alone, above its 2.7; in truth b slides on, and the mass between them takes 2 of it.
+  const double speed = 0.5916;
+  const double turns =
+      std::atan2(speed / 10.0, 1.0 / 100.0) / 10.0;  // u'' = 1 - 100 u, u(0) = 0, u'(0) = -speed
+  for (const double angle : {0.0, 0.7, 2.9})
+    for (const bool other_order : {false, true})
+      for (const char* engine : {"exact", "ida", "newmark"}) {
+        CAPTURE(angle);
+        CAPTURE(other_order);
+        CAPTURE(engine);
+        const double c = std::cos(angle), s = std::sin(angle);
+        const std::string along = fmt::format("[{:.17g}, {:.17g}]", c, s),
+                          across = fmt::format("[{:.17g}, {:.17g}]", -s, c);
+        const auto slider = [&](const char* node, const char* friction) {
+          return fmt::format(
+              "[[contacts]]\nname = \"{0}\"\nnode = \"{0}\"\nlaw = \"slider\"\ntangent = {1}\n"
+              "normal_force = 1.0\nfriction = {2}\n",
+              node, along, friction);
+        };
+        const std::string held = slider("a", "{ static = 2.7, kinetic = 0.5 }"), turning = slider("b", "1.0");
+        const std::string text =
+            fmt::format(
+                "schema = 1\nunits = {{ force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }}\n"
+                "[run]\nt_end = 0.2\noutput_dt = 0.1\n[run.initial]\nb = {{ vx = {:.17g}, vy = {:.17g} }}\n"
+                "[sections.s]\nEA = 1.0\nmass_per_length = 3.0\n[nodes]\na = [0.0, 0.0]\nb = {}\n"
+                "[[members]]\nnodes = [\"a\", \"b\"]\nsection = \"s\"\ntype = \"bar\"\n",
+                -speed * c, -speed * s, along) +
+            fmt::format(
+                "[[springs]]\nnode = \"a\"\ndirection = {1}\nstiffness = 50.0\n[[springs]]\nnode = \"b\"\n"
+                "direction = {1}\nstiffness = 50.0\n[[springs]]\nnode = \"b\"\ndirection = {0}\n"
+                "stiffness = 99.0\n[[loads]]\nnode = \"a\"\ndirection = {0}\namplitude = 3.0\n"
+                "history = {{ type = \"constant\" }}\n",
+                along, across) +
+            (other_order ? turning + held : held + turning);
+        const Scene scene = parse_scene(text, "bar.toml",
+                                        {{"run.engine", engine}, {"run.rtol", "1e-10"}, {"run.dt", "1e-4"}});
+        const Result result = simulate(build_model(scene), scene.run);
+        CHECK(result.report.outcome.kind == Outcome::Kind::done);
+        CHECK(result.report.witness.violated == 0);
+        REQUIRE(result.events.size() == 1);
+        CHECK(result.events[0].contact == (other_order ? 0U : 1U));
+        CHECK(result.events[0].type == EventType::reversal);
+        const double error = std::abs(result.events[0].t - turns);
+        CHECK(error < (engine == std::string("exact") ? 2.8e-15
+                       : engine == std::string("ida") ? 1e-8
+                                                      : 1e-6));
+      }
+}
+
 TEST_SUITE_END();

@@ -35,6 +35,14 @@ class TurningPoints {
   struct Range {
     double least = 0.0, greatest = 0.0;
     void see(double value);
+    /// Its width with this value.
+    [[nodiscard]] double width(double value) const {
+      return std::max(greatest, value) - std::min(least, value);
+    }
+    /// Beyond all before by more than its rounding, and on its way back: it has turned.
+    [[nodiscard]] bool is_left(double value, double rate, double rounding) const {
+      return (value - rounding > greatest && rate < 0.0) || (value + rounding < least && rate > 0.0);
+    }
     /// Whatever lies within `change` of the value, this known to `rounding`.
     [[nodiscard]] bool holds(double value, double change, double rounding) const {
       return value + change + rounding < greatest && value - change - rounding > least;

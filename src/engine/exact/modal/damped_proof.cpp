@@ -190,10 +190,15 @@ double DampedProof::within(const ModalPoint& at, const TurningPoints& known, dou
       const double off = part.ripple_rate * h_ + part.rest * static_cast<double>(count_ + 1);
       const double forth =
           stays_above(rate.data(), rate.size() - 1, x_end, rate[0] < 0.0 ? -1.0 : 1.0, -off, room);
-      if (forth >= safe) continue;
       const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
+      const double off_place = part.ripple + part.rest;
+      if (range.is_left(part.p[0], part.p[1], off_place) &&  // as ModalProof::within
+          range.is_left(part.p[0], part.p[1],
+                        off_place + rounding::of_elimination * motion_.magnitude(*shown(c)[f], at)))
+        return 0.0;
+      if (forth >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
-        const double above = (sign < 0.0 ? range.greatest : -range.least) - part.ripple - part.rest;
+        const double above = (sign < 0.0 ? range.greatest : -range.least) - off_place;
         safe =
             std::min(safe, std::max(forth, stays_above(part.p.data(), count_ - 1, x_end, sign, above, room)));
       }
@@ -208,8 +213,9 @@ double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& kno
   Eigen::Index first = 0;
   for (std::size_t c = 0; c < series_.size(); ++c)
     for (std::size_t f = 0; f < 4; ++f) {
+      const ModalQuantity& quantity = *shown(c)[f];
       const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
-      first = slow_for(*shown(c)[f], first, share * (range.greatest - range.least));
+      first = slow_for(quantity, first, share * range.width(motion_.value(quantity, at)));
     }
   double h = remaining;
   if (n > 0 && size_[std::min(first, n - 1)] > 0.0)

@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::size_t most_degree = 30;
 
+/// What g and ut may be off by, as TurningPoints::watched: of N, T, g and ut.
+std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent) {
+  return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
+          tangent};
+}
+
 }  // namespace
 
 /// Which modes a step of length h_ follows as polynomials.
@@ -40,8 +46,7 @@ ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
     normal += std::abs(state_->normal[c].real[k]) * most;
     tangent += std::abs(state_->tangent[c].real[k]) * most;
   }
-  return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
-          tangent};
+  return of_law(law, normal, tangent);
 }
 
 /// How far each of N, T, g and ut goes one way only, or not at all, of [0, 1]: without a turn. N goes with g,
@@ -65,10 +70,14 @@ double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, 
   double safe = 1.0;  // of x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
     const Watch4 ripple = ripples(c, false), forth = one_way(c, x_end, p);
+    const Watch4 unsure = of_law(laws_[c], rounding::of_elimination * normal_size_[c].place,
+                                 rounding::of_elimination * tangent_size_[c].place);
     for (std::size_t f = 0; f < ripple.size(); ++f) {
-      if (forth[f] >= safe) continue;
       const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
       const double* a = slow_[c].of(TurningPoints::watched[f]);
+      // see_begin has another sum for the slope: where that is nothing but rounding, of another sign perhaps.
+      if (range.is_left(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
+      if (forth[f] >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
         const double room = (sign < 0.0 ? range.greatest : -range.least) - ripple[f];
         safe = std::min(safe, std::max(forth[f], stays_above(a, degree_, x_end, sign, room, p)));
@@ -99,13 +108,17 @@ double ModalProof::expand_beside(const ModalPoint& at, const TurningPoints& know
   std::size_t first = 0;
   for (std::size_t c = 0; c < slow_.size(); ++c) {
     const ForceLaw& law = laws_[c];
-    const auto allowed = [&](ContactSeries::Field field, double factor) {
-      const TurningPoints::Range& range = known.range(c, field);
-      return factor == 0.0 ? Oscillators::never : share * (range.greatest - range.least) / std::abs(factor);
+    const Shown now = shown(c, at);
+    const double N = law.N(now.gap), T = law.T(now.gap, now.ut);
+    const auto allowed = [&](ContactSeries::Field field, double value, double factor) {
+      return factor == 0.0 ? Oscillators::never
+                           : share * known.range(c, field).width(value) / std::abs(factor);
     };
-    const double normal = std::min({allowed(ContactSeries::gap, 1.0), allowed(ContactSeries::N, law.N_gap),
-                                    allowed(ContactSeries::T, law.T_gap)});
-    const double tangent = std::min(allowed(ContactSeries::slide, 1.0), allowed(ContactSeries::T, law.T_ut));
+    const double normal =
+        std::min({allowed(ContactSeries::gap, now.gap, 1.0), allowed(ContactSeries::N, N, law.N_gap),
+                  allowed(ContactSeries::T, T, law.T_gap)});
+    const double tangent =
+        std::min(allowed(ContactSeries::slide, now.ut, 1.0), allowed(ContactSeries::T, T, law.T_ut));
     double normal_sum = 0.0, tangent_sum = 0.0;
     std::size_t k = n;
     for (; k > first; --k) {

@@ -9,6 +9,7 @@
 //   series(at)                                   the contacts' slow parts on the step
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "base/rounding.hpp"
@@ -16,9 +17,11 @@
 
 namespace signorini {
 
-/// Of the range of what a peak is looked for in: what fast modes may add to it where it turns, and where it is only asked
-/// whether it may. The second is chosen: with more it is asked again sooner, with less in shorter steps.
-inline constexpr double fine_ripple = rounding::of_elimination, coarse_ripple = 1e-4;
+/// Of the range of what a peak is looked for in: what fast modes may add to it. Where a peak lies it is rounding. Where it is
+/// only asked whether one may lie there, as much as leaves an answer: with more, steps are longer, but a value near its
+/// greatest so far is not told from a greater one. These are chosen.
+inline constexpr double fine_ripple = rounding::of_elimination, greatest_ripple = 1e-4, least_ripple = 1e-10,
+                        ripple_step = 10.0;
 
 /// advance(from, step, to): the closed form. Begin: the time of `from`; observed: the passage begins with a segment, at
 /// whose begin everything was looked at.
@@ -36,11 +39,23 @@ void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& 
     std::swap(point, next);
     done += step;
   };
-  while (done < length) {
+  double share = greatest_ripple;
+  for (bool moved = true; done < length;) {
     // What went one way up to here may turn at this very point.
-    proof.see_begin(point, begin + done, turning, turns);
-    const double coarse = proof.expand_beside(point, turning, coarse_ripple, length - done);
-    go(coarse > 0.0 ? proof.within(point, turning, coarse / proof.unit()) * proof.unit() : 0.0);
+    if (moved) proof.see_begin(point, begin + done, turning, turns);
+    const double look = proof.expand_beside(point, turning, share, length - done);
+    const double safe = look > 0.0 ? proof.within(point, turning, look / proof.unit()) * proof.unit() : 0.0;
+    moved = safe > 0.0;
+    if (moved) go(safe);
+    if (moved && safe >= look) {
+      share = std::min(greatest_ripple, share * ripple_step);
+      continue;
+    }
+    if (!moved && share > least_ripple) {
+      share = std::max(least_ripple, share / ripple_step);
+      continue;
+    }
+    // Where it came to, a slope may be nothing but rounding: that is no way up or down.
     if (!(done < length)) return;
     const double step = proof.expand_beside(point, turning, fine_ripple, length - done);
     if (!(step > 0.0)) return;
@@ -51,6 +66,7 @@ void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& 
     turning.find(proof.series(point), clock, 0.0, step / proof.unit(), ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
     go(step);
+    moved = true;
   }
 }
 

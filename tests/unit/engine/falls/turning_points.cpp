@@ -183,4 +183,20 @@ TEST_CASE("what its rate keeps within all that was before is not looked at, and 
   }
 }
 
+TEST_CASE("a value beyond all before has turned where it goes back, unless it is beyond by its rounding") {
+  const TurningPoints::Range range{-2.0, 3.0};
+  CHECK(range.is_left(3.5, -1e-20, 0.0));
+  CHECK(range.is_left(-2.5, 1e-20, 0.4));
+  CHECK_FALSE(range.is_left(3.5, 1.0, 0.0));  // it goes on
+  CHECK_FALSE(range.is_left(3.5, 0.0, 0.0));
+  CHECK_FALSE(range.is_left(-2.5, -1.0, 0.0));
+  CHECK_FALSE(range.is_left(3.0, -1.0, 0.0));  // as far as before
+  CHECK_FALSE(range.is_left(-2.0, 1.0, 0.0));
+  CHECK_FALSE(range.is_left(3.5, -1.0, 0.6));
+  CHECK_FALSE(range.is_left(-2.5, 1.0, 0.6));
+  CHECK(range.width(0.0) == 5.0);
+  CHECK(range.width(4.0) == 6.0);
+  CHECK(range.width(-4.0) == 7.0);
+}
+
 TEST_SUITE_END();

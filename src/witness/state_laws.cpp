@@ -324,6 +324,7 @@ void Finder::necessity(std::size_t k) {
   // T stays where N jumps: what slid sticks at it until its limit is reached anew. What jumps far away makes it jump by
   // however little reaches the contact.
   if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && force_jumps(c, before, after)) return;
+  if (its_own_falls(k, old, before)) return;
   const std::optional<Old> before_it = as_before(k);
   if (!before_it) return;
   const SeenGuards guards = guards_of(c, old, before_it->m, bench_.limits);
@@ -343,7 +344,7 @@ void Finder::necessity(std::size_t k) {
     nearest = &guard;
     limit = zero;
   }
-  if (nearest == nullptr || its_own_falls(k, old, before)) return;
+  if (nearest == nullptr) return;
   add(static_cast<int>(k), "necessity", nearest->value, limit, nearest->unit(),
       nearest->value > gross * nearest->size);
 }

@@ -144,6 +144,10 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
       record(path, place, x[end]);
     return;
   }
+  // Of a parabola that turns before `next` 1/8 of `third` less the end at most lies beyond the end; four times that, and all of
+  // `inward`, where it is none.
+  const double beyond = std::abs(inward) + 0.5 * std::abs(value[third] - value[end]);
+  if (inward > 0.0 ? value[end] - beyond >= range.least : value[end] + beyond <= range.greatest) return;
   record(path, place, turned_beside(path.a, path.degree, x[end], x[next], inward));
 }
 

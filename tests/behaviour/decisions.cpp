@@ -7,6 +7,7 @@
 
 #include "behaviour/engines.hpp"
 #include "behaviour/one_mass.hpp"
+#include "behaviour/scene_parts.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -372,18 +373,15 @@ TEST_CASE("a slider that turns back does not make another slip that its new forc
         };
         const std::string held = slider("a", "{ static = 2.7, kinetic = 0.5 }"), turning = slider("b", "1.0");
         const std::string text =
+            parts::head + parts::run_table(0.2, 0.1) +
+            fmt::format("[run.initial]\nb = {{ vx = {:.17g}, vy = {:.17g} }}\n", -speed * c, -speed * s) +
+            parts::section(1.0, 1.0, 3.0) + parts::nodes({{"a", 0.0, 0.0}, {"b", c, s}}) +
+            parts::member("a, b", "type = \"bar\"\n") + parts::spring("a", across, 50.0) +
+            parts::spring("b", across, 50.0) + parts::spring("b", along, 99.0) +
             fmt::format(
-                "schema = 1\nunits = {{ force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }}\n"
-                "[run]\nt_end = 0.2\noutput_dt = 0.1\n[run.initial]\nb = {{ vx = {:.17g}, vy = {:.17g} }}\n"
-                "[sections.s]\nEA = 1.0\nmass_per_length = 3.0\n[nodes]\na = [0.0, 0.0]\nb = {}\n"
-                "[[members]]\nnodes = [\"a\", \"b\"]\nsection = \"s\"\ntype = \"bar\"\n",
-                -speed * c, -speed * s, along) +
-            fmt::format(
-                "[[springs]]\nnode = \"a\"\ndirection = {1}\nstiffness = 50.0\n[[springs]]\nnode = \"b\"\n"
-                "direction = {1}\nstiffness = 50.0\n[[springs]]\nnode = \"b\"\ndirection = {0}\n"
-                "stiffness = 99.0\n[[loads]]\nnode = \"a\"\ndirection = {0}\namplitude = 3.0\n"
-                "history = {{ type = \"constant\" }}\n",
-                along, across) +
+                "[[loads]]\nnode = \"a\"\ndirection = {}\namplitude = 3.0\nhistory = {{ type = "
+                "\"constant\" }}\n",
+                along) +
             (other_order ? turning + held : held + turning);
         const Scene scene = parse_scene(text, "bar.toml",
                                         {{"run.engine", engine}, {"run.rtol", "1e-10"}, {"run.dt", "1e-4"}});

@@ -90,7 +90,7 @@ TEST_CASE("a foot with a dashpot slides through hits that only rounding brings, 
 }
 
 TEST_CASE("which hits are felt far away does not depend on the unit of length") {
-  // Rotations are no velocities: in metres they are as great as these, in millimetres a thousandth.
+  // Rates of rotation have another unit: beside velocities in m/s they are as great, beside those in mm/s a thousandth.
   for (const int nodes : {10, 13, 14, 15, 16, 17}) {
     CAPTURE(nodes);
     const auto events = [&](double a_metre) {

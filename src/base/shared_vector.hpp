@@ -5,7 +5,7 @@
 // Pieces are never written to once they are there: copies may be read by several threads.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -13,32 +13,30 @@
 
 namespace signorini {
 
-/// piece: places that are copied with one that changes.
+/// piece: places that are copied with one that changes; fewer where there are no more.
 template <class T, std::size_t piece = 16>
 class SharedVector {
  public:
   SharedVector() = default;
-  explicit SharedVector(std::size_t size, const T& value = T())
-      : size_(size), pieces_((size + piece - 1) / piece, filled(value)) {}
+  explicit SharedVector(std::size_t size, const T& value = T()) : size_(size) {
+    if (size >= piece) pieces_.assign(size / piece, std::make_shared<T[]>(piece, value));
+    if (size % piece > 0) pieces_.push_back(std::make_shared<T[]>(size % piece, value));
+  }
 
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] const T& operator[](std::size_t i) const { return (*pieces_[i / piece])[i % piece]; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return pieces_[i / piece][i % piece]; }
   void set(std::size_t i, T value) {
-    auto other = std::make_shared<Piece>(*pieces_[i / piece]);
-    (*other)[i % piece] = std::move(value);
-    pieces_[i / piece] = std::move(other);
+    std::shared_ptr<const T[]>& mine = pieces_[i / piece];
+    const std::size_t length = std::min(piece, size_ - i / piece * piece);
+    auto other = std::make_shared<T[]>(length);
+    std::copy_n(mine.get(), length, other.get());
+    other[i % piece] = std::move(value);
+    mine = std::move(other);
   }
 
  private:
-  using Piece = std::array<T, piece>;
-  [[nodiscard]] static std::shared_ptr<const Piece> filled(const T& value) {
-    auto result = std::make_shared<Piece>();
-    result->fill(value);
-    return result;
-  }
-
   std::size_t size_ = 0;
-  std::vector<std::shared_ptr<const Piece>> pieces_;
+  std::vector<std::shared_ptr<const T[]>> pieces_;
 };
 
 }  // namespace signorini

@@ -20,6 +20,7 @@
 #include "cli/terminal.hpp"
 #include "cli/workers.hpp"
 #include "result/csv.hpp"
+#include "scene/scene_text.hpp"
 #include "study/sweep/quantiles.hpp"
 #include "study/sweep/response_query.hpp"
 #include "study/sweep/sample.hpp"
@@ -148,16 +149,23 @@ std::string text_of_state(const Scene& scene) {
   return text;
 }
 
+struct Specified {
+  SweepSpec spec;
+  std::string text;  ///< of the scene, all rows are of it
+};
+
 /// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
 /// a wrong command line, a value that only some rows cannot take is a row.
-SweepSpec specify(const SweepOptions& options) {
-  SweepSpec spec;
+Specified specify(const SweepOptions& options) {
+  Specified specified;
+  SweepSpec& spec = specified.spec;
   spec.scene = options.scene;
   spec.settings = options.settings;
   vary_keys(options, spec);
   carry_on(options, spec);
   if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
   if (options.share) spec.share = parse_share(*options.share, environment);
+  specified.text = scene_text(options.scene);
   constexpr std::size_t most_tried = 200;  // of as many, one should have been right
   std::optional<Error> first;
   std::size_t tried = 0;
@@ -166,21 +174,21 @@ SweepSpec specify(const SweepOptions& options) {
     std::vector<Override> changes = overrides_of(options.settings);
     changes.insert(changes.end(), point.begin(), point.end());
     try {
-      const Scene scene = read_scene(options.scene, changes);
+      const Scene scene = parse_scene(specified.text, options.scene, changes);
       spec.fingerprint = fingerprint_of(scene.resolved + text_of_state(scene));
       spec.title = scene.title;
       spec.units = scene.units;
-      if (options.responses.empty() && options.strobe.empty()) return spec;
+      if (options.responses.empty() && options.strobe.empty()) return specified;
       const Model model = build_model(scene);
       if (!options.strobe.empty()) specify_strobe(options, scene, model, spec);
-      for (const std::string& text : options.responses) {
-        const ResponseQuery query = parse_query(text, model);
-        if (std::find(spec.responses.begin(), spec.responses.end(), text) != spec.responses.end())
-          throw UsageError("--response " + text + ": asked for twice");
-        spec.responses.push_back(text);
+      for (const std::string& response : options.responses) {
+        const ResponseQuery query = parse_query(response, model);
+        if (std::find(spec.responses.begin(), spec.responses.end(), response) != spec.responses.end())
+          throw UsageError("--response " + response + ": asked for twice");
+        spec.responses.push_back(response);
         spec.response_units.push_back(unit_of(query, model));
       }
-      return spec;
+      return specified;
     } catch (const FileError&) {
       throw;
     } catch (const Error& error) {
@@ -320,7 +328,7 @@ void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec) {
 }
 
 ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& command_line) {
-  const SweepSpec spec = specify(options);
+  const auto [spec, text] = specify(options);
   check_overlaps(options.scene, spec.vary, overrides_of(options.settings));
   if (!options.quiet) {
     print_patterns(options.scene, options.settings);
@@ -331,7 +339,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec);
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
-  RowTask common{options.scene, overrides_of(options.settings), 0, {}, {}, command_line};
+  RowTask common{options.scene, text, overrides_of(options.settings), 0, {}, {}, command_line};
   common.responses = options.responses;
   common.strobe = options.strobe;
   common.settle = options.settle;

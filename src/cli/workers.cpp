@@ -154,9 +154,11 @@ void keep_only(int a, int b) {
   keep_only(tasks, reports);
   std::uint64_t task = 0;
   while (receive(tasks, &task, sizeof task)) {
-    const auto [code, report] = carried_out(work, static_cast<std::size_t>(task));
+    auto [code, report] = carried_out(work, static_cast<std::size_t>(task));
     const Head head{task, report.size(), static_cast<std::int64_t>(code)};
-    if (!send(reports, &head, sizeof head) || !send(reports, report.data(), report.size())) break;
+    // As one block: the parent wakes up once.
+    report.insert(0, reinterpret_cast<const char*>(&head), sizeof head);
+    if (!send(reports, report.data(), report.size())) break;
     if (code == ExitCode::bug) _exit(0);  // memory may be short or worse: a fresh process takes the next
   }
   _exit(0);

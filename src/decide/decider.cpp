@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -37,6 +38,21 @@ std::vector<std::size_t> every_contact(const Model& model) {
   std::vector<std::size_t> all(model.contacts.size());
   std::iota(all.begin(), all.end(), 0U);
   return all;
+}
+
+/// Contacts that stick rigidly, of the block that has most of them: rows of two may be dependent. Those that take impulses
+/// are decided together, however many they are.
+std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& blocks) {
+  std::size_t most = 0;
+  for (const Block& block : blocks.all) {
+    std::size_t rigid = 0;
+    for (const std::size_t c : block) {
+      if (model.contacts[c].takes_impulses()) return std::numeric_limits<std::size_t>::max();
+      rigid += model.contacts[c].sticks_rigidly() ? 1 : 0;
+    }
+    most = std::max(most, rigid);
+  }
+  return most;
 }
 
 /// Why a mode has no system: what holds its contacts, or nothing of theirs.
@@ -89,15 +105,14 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, 
       systems_(systems),
       jets_(systems),
       every_(every_contact(model_)),
-      decide_alone_(std::none_of(
-          model_.contacts.begin(), model_.contacts.end(),
-          [](const Contact& contact) { return contact.takes_impulses() || contact.sticks_rigidly(); })),
       max_rounds_(max_rounds),
       touching_(systems, jets_, capture_velocity),
       guards_(model_),
       blocks_(model_),
-      circles_(systems, jets_, blocks_) {
-  if (whole_jets || !decide_alone_) return;
+      circles_(systems, jets_, blocks_),
+      each_alone_(most_rigid_in_a_block(model_, blocks_) <= 1) {
+  const bool soft = most_rigid_in_a_block(model_, blocks_) == 0;
+  if (whole_jets || !soft) return;
   near_.emplace(systems);
   if (!near_->possible()) near_.reset();
 }
@@ -113,9 +128,9 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& cours
   d.v = instant.v;
   course.held = near_ ? Eigen::VectorXd() : hold(model_, *d.system, forcing, instant.t, d.u, d.v);
   JetMaker::Told told;
-  if (decide_alone_)
+  if (each_alone_ && !course.found.sliders)
     told = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
-      return told_by(guards_.of(c, mode[c]), c, jet, orders, instant, unlucky);
+      return told_by(guards_.of(c, mode[c]), c, jet, orders, instant, course.found.known[c], unlucky);
     };
   std::optional<NearJets::Made> near;
   if (near_) {
@@ -323,6 +338,8 @@ Refusal Decider::try_next(DecisionCourse& course) {
   if (!course.found.hit && !std::exchange(course.found.sliders, true)) {
     course.seen.pop_back();
     course.mode = last;
+    if (!evaluate(course.after, course.mode, course))
+      return no_system(model_, course.mode);  // whole, with sliders
     if (Refusal why = propose(course)) return why;
     if (evaluate(course.after, course.mode, course)) return {};
   }

@@ -74,12 +74,12 @@ class Decider {
   JetMaker jets_;
   std::optional<NearJets> near_;          // nothing: jets are made of the whole structure
   const std::vector<std::size_t> every_;  // contact
-  bool decide_alone_;                     // no contact is decided with others
   int max_rounds_;
   Touching touching_;
   GuardsInForce guards_;
   ContactBlocks blocks_;
   CircleExit circles_;
+  bool each_alone_;              // no contact is decided with others, but where a decision goes in circles
   std::vector<MotionJet> room_;  // of the last decision, for the next one
   RoundListener listener_;
 };

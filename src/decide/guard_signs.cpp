@@ -112,17 +112,19 @@ const GuardsOfState& GuardsInForce::of(std::size_t c, const ContactState& state)
 }
 
 bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
-             const Instant& instant, double most_blur) {
+             const Instant& instant, const KnownGuards& known, double most_blur) {
   if (orders == MotionJet::orders) return true;
+  // Differences to another motion count where a limit has rested: rested().
+  if (instant.has_rested(c, Guard::slip_plus) || instant.has_rested(c, Guard::slip_minus)) return false;
   const double blur = most_blur * instant.blur, resolution = most_blur * instant.resolution;
   for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
-    if (instant.has_rested(c, guard.kind)) return false;  // differences to another motion count
     // What fell is zero, and a rate that rises is as well: failure_of().
     const bool fell = instant.has_fired(c, guard.kind);
     const QuickForm form(guard.form);
     bool told = false;
-    for (std::size_t k = fell ? 1 : 0; k < orders && !told; ++k) {
+    for (std::size_t k = std::max<std::size_t>(fell ? 1 : 0, known.of(guard.kind).zeros); k < orders && !told;
+         ++k) {
       const double d = derivative(form, jet, k);
       told = std::abs(d) > zero_of(form, jet, blur, resolution, k) && !(fell && k == 1 && d > 0.0);
       // One that fails is asked for all that it leads to.

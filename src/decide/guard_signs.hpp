@@ -87,10 +87,11 @@ struct Sign {
 
 using GuardsOfState = std::array<GuardForm, guards_per_contact>;
 
-/// Do the noises of the first `orders` orders tell all that a decision without rigid contacts asks of this one: the signs
-/// of its guards, though zeros be blurred `most_blur` times?
+/// Do the noises of the first `orders` orders tell all that a decision asks of a contact that is decided alone: the signs
+/// of its guards, of which something may be known, though zeros be blurred `most_blur` times?
 [[nodiscard]] bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
-                           std::size_t orders, const Instant& instant, double most_blur);
+                           std::size_t orders, const Instant& instant, const KnownGuards& known,
+                           double most_blur);
 
 /// The guards of every contact; whoever keeps them shares those of contacts whose states have not changed since.
 using GuardForms = SharedVector<GuardsOfState>;

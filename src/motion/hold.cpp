@@ -31,6 +31,9 @@ Eigen::VectorXd hold(const Model& model, const ModeSystem& system, const Forcing
   const auto sticks = [&](std::size_t c) {
     return mode[c].state == State::stick && model.contacts[c].sticks_rigidly();
   };
+  bool any = false;
+  for (std::size_t c = 0; c < mode.size() && !any; ++c) any = is_held(c) || sticks(c);
+  if (!any) return {};
   std::vector<double> places(2 * mode.size(), 0.0), rates(2 * mode.size(), 0.0);
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];

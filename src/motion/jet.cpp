@@ -143,7 +143,8 @@ void JetMaker::tell(const ModeSystem& system, const Forcing& forcing, const Dist
 }
 
 /// Of the balance of forces at the degrees of freedom of a contact.
-JetMaker::Balance JetMaker::balance_of(const Contact& contact, double factorial, std::size_t k) const {
+JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows, double factorial,
+                                       std::size_t k) const {
   const auto terms = taylor_.terms().col(static_cast<Eigen::Index>(k));
   const auto size = [&](const Combination& form) {
     return size_by(model_, form, [&](int dof) { return terms[dof]; });
@@ -158,8 +159,9 @@ JetMaker::Balance JetMaker::balance_of(const Contact& contact, double factorial,
     return sum > 0.0 ? sum : 1.0;
   };
   const Combination &n = contact.normal, &t = contact.tangent;
-  return {factorial * moved(n), factorial * moved(t), factorial * size(n) / squared(n),
-          factorial * size(t) / squared(t)};
+  return {factorial * moved(n), factorial * moved(t),
+          rows.normal.an != 0.0 ? factorial * size(n) / squared(n) : 0.0,
+          rows.tangent.at != 0.0 ? factorial * size(t) / squared(t) : 0.0};
 }
 
 /// Orders first .. last of a motion, without their noise.
@@ -202,12 +204,12 @@ void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t firs
     terms.at = a.ut_terms[k + 2];
     terms.pressing = std::abs(m.pressing);
     terms.pressing_rate = std::abs(m.pressing_rate);
-    const Balance balance = balance_of(model_.contacts[c], factorial, k);
+    const Balance balance = balance_of(model_.contacts[c], rows, factorial, k);
     terms.an += balance.an;
     terms.at += balance.at;
-    const double N = (rows.normal.an != 0.0 ? balance.N : 0.0) + rows.normal.magnitude(terms) +
+    const double N = balance.N + rows.normal.magnitude(terms) +
                      (k == 0 ? std::abs(rows.normal.constant) : 0.0) + std::abs(m.N);
-    const double T = (rows.tangent.at != 0.0 ? balance.T : 0.0) + rows.tangent.magnitude(terms) +
+    const double T = balance.T + rows.tangent.magnitude(terms) +
                      (k == 0 ? std::abs(rows.tangent.constant) : 0.0) + std::abs(m.T) +
                      std::abs(rows.tangent.N) * N;
     d.N = noise(a.N[k], b.N[k], N);

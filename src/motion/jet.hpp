@@ -56,7 +56,9 @@ class JetMaker {
   struct Balance {
     double an, at, N, T;
   };
-  [[nodiscard]] Balance balance_of(const Contact& contact, double factorial, std::size_t k) const;
+  /// Forces: of rows that hold an acceleration, else 0.
+  [[nodiscard]] Balance balance_of(const Contact& contact, const Rows& rows, double factorial,
+                                   std::size_t k) const;
   void tell(const ModeSystem& system, const Forcing& forcing, const Disturbance& disturbance,
             const Told& told, std::vector<MotionJet>& result);
   void rates(std::size_t contact, std::size_t first, std::size_t last, MotionJet& result) const;

@@ -124,6 +124,13 @@ void Taylor::known_of_rows(std::size_t c, int order, const Series& series, doubl
   q += tangent.constant;
 }
 
+/// Do rows of contact c know anything at this order? What drives a contact is mostly a polynomial that has ended long before.
+bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
+  const std::size_t at = c * f.count + static_cast<std::size_t>(order);
+  const double *surface = f.surface.data() + at, *pressing = f.pressing.data() + at;
+  return surface[0] != 0.0 || surface[1] != 0.0 || surface[2] != 0.0 || pressing[0] != 0.0;
+}
+
 /// Sizes known to the compiler (0: not known) let it unroll the loops over one or two masses.
 template <std::size_t fixed_n, std::size_t fixed_size>
 void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
@@ -150,7 +157,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
     for (std::size_t i = 0; i < size; ++i) x[i] = 0.0;
     forcing.add_load(series.forcing, static_cast<std::size_t>(order), x);
     for (std::size_t c = 0; c < mode.unknowns.contacts; ++c) {
-      if (order > 0 && !forcing.drives(c)) continue;
+      if (order > 0 && !(forcing.drives(c) && is_driven(series.forcing, c, order))) continue;
       double r = 0.0, q = 0.0;
       known_of_rows(c, order, series, r, q);
       x[mode.unknowns.normal(c)] = -r;

@@ -399,24 +399,24 @@ namespace {
 
 constexpr std::string_view of_pendulums = "pendulums[]";
 /// Keys of contacts that a pendulum has, too.
-constexpr std::array borrowed_by_pendulums = {"friction", "tangential_stiffness", "tangential_damping",
-                                              "initial_shear", "normal_damping"};
+constexpr std::array<std::string_view, 5> borrowed_by_pendulums = {
+    "friction", "tangential_stiffness", "tangential_damping", "initial_shear", "normal_damping"};
 /// And a seam.
-constexpr std::array borrowed_by_seams = {"friction", "surface_velocity", "restitution", "capture_velocity"};
+constexpr std::array<std::string_view, 4> borrowed_by_seams = {"friction", "surface_velocity", "restitution",
+                                                               "capture_velocity"};
 
-bool is_borrowed_by_seams(std::string_view name) {
-  return std::find(borrowed_by_seams.begin(), borrowed_by_seams.end(), name) != borrowed_by_seams.end();
+template <class Names>
+bool is_among(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
 
 const Key* find_key(std::string_view table, std::string_view name) {
-  const bool borrowed = std::find(borrowed_by_pendulums.begin(), borrowed_by_pendulums.end(), name) !=
-                        borrowed_by_pendulums.end();
-  if (table.starts_with(of_pendulums) && (table != of_pendulums || borrowed))
+  if (table.starts_with(of_pendulums) && (table != of_pendulums || is_among(borrowed_by_pendulums, name)))
     return find_key("contacts[]" + std::string(table.substr(of_pendulums.size())), name);
   constexpr std::string_view seams = "seams[]";
-  if (table == "seams[].friction" || (table == seams && is_borrowed_by_seams(name)))
+  if (table == "seams[].friction" || (table == seams && is_among(borrowed_by_seams, name)))
     return find_key("contacts[]" + std::string(table.substr(seams.size())), name);
   constexpr std::string_view stops = "stops[]";
   if (table.starts_with(stops) && !(table == stops && (name == "normal" || name == "tangent"))) {

@@ -2,24 +2,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
-#include "base/input_file.hpp"
 #include "scene/frozen_file.hpp"
 #include "scene/overrides.hpp"
 #include "scene/readers.hpp"
 #include "scene/same_structure.hpp"
+#include "scene/scene_text.hpp"
 
 namespace signorini {
 
 namespace {
-
-constexpr std::size_t longest_file = 64u << 20;
 
 /// The end of the string that begins at i, or of the text.
 std::size_t end_of_string(const std::string& text, std::size_t i) {
@@ -205,39 +200,18 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   throw UsageError(all + ": " + message);
 }
 
-namespace {
-
-std::string text_of_file(const std::string& path) {
-  if (const std::string why = why_no_input_file(path); !why.empty())
-    throw FileError(path, why + ", expected a scene file");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path, std::strerror(errno ? errno : EIO));
-  std::string text;
-  std::array<char, 8192> block;
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
-    if (text.size() > longest_file)
-      throw SceneError({path, 0, 0}, "", "larger than 64 MB, expected a scene file");
-  }
-  if (in.bad()) throw FileError(path, "cannot be read");
-  return text;
-}
-
-}  // namespace
-
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
-  return parse_scene(text_of_file(path), path, overrides);
+  return parse_scene(scene_text(path), path, overrides);
 }
 
 std::vector<std::string> places_in(const std::string& scene, const std::string& path) {
-  return places_of(parse_text(text_of_file(scene), scene), path);
+  return places_of(parse_text(scene_text(scene), scene), path);
 }
 
 std::string tables_met_in(const std::string& scene, const std::vector<Override>& before,
                           const std::string& path) {
   if (path.find('*') == std::string::npos) return {};  // most have none
-  toml::table root = parse_text(text_of_file(scene), scene);
+  toml::table root = parse_text(scene_text(scene), scene);
   apply_overrides(root, before);
   return tables_met(root, path);
 }

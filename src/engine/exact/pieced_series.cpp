@@ -1,8 +1,10 @@
 #include "engine/exact/pieced_series.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "base/wide_lanes.hpp"
+#include "engine/falls/first_fall.hpp"
 
 namespace signorini {
 namespace {
@@ -15,6 +17,21 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
     lanes_at<Four>(sum + i).v =
         lanes_at<Four>(sum + i).v * lanes_at<Four>(x + i).v + factor * lanes_at<Four>(a + i).v;
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
+}
+
+constexpr std::size_t longest = most_fall_degree + 1;  // series
+constexpr std::size_t few = 4;  // so many sums are taken one by one: entry by entry of each order costs more
+
+/// sum_k a_k x^k, or of factors_k a_k, where the coefficients are `stride` apart.
+double sum_at(double x, const double* a, std::size_t stride, std::size_t degree, const double* factors) {
+  double sum = 0.0;
+  for (std::size_t k = degree + 1; k-- > 0;) sum = sum * x + factors[k] * a[k * stride];
+  return sum;
+}
+double sum_at(double x, const double* a, std::size_t stride, std::size_t degree) {
+  double sum = 0.0;
+  for (std::size_t k = degree + 1; k-- > 0;) sum = sum * x + a[k * stride];
+  return sum;
 }
 
 void copy_shifted(const Eigen::MatrixXd& from, Eigen::Index row, std::size_t count, double x, double* out) {
@@ -97,6 +114,16 @@ void PiecedSeries::place_at(double x, Point& point) const {
   if (!origins_.empty()) return pieces_at(x, point);
   double *u = point.u.data(), *v = point.v.data(), *f = point.forces.data();
   const auto forces = static_cast<std::size_t>(whole.forces.rows());
+  if (n <= few) {
+    std::array<double, longest> factors;
+    for (std::size_t k = 0; k <= degree_; ++k) factors[k] = static_cast<double>(k + 1) / whole.scale;
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] = sum_at(x, whole.u.data() + i, n, degree_);
+      v[i] = sum_at(x, whole.u.data() + n + i, n, degree_, factors.data());
+    }
+    for (std::size_t i = 0; i < forces; ++i) f[i] = sum_at(x, whole.forces.data() + i, forces, degree_);
+    return;
+  }
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* c0 = whole.u.data() + k * n;
     const double* c1 = c0 + n;
@@ -115,6 +142,14 @@ void PiecedSeries::evaluate_at(double x, Point& point) const {
   const auto n = static_cast<std::size_t>(whole.u.rows());
   point.a.setZero(whole.u.rows());
   double* a = point.a.data();
+  if (n <= few && origins_.empty()) {
+    std::array<double, longest> factors;
+    for (std::size_t k = 0; k <= degree_; ++k)
+      factors[k] = static_cast<double>(k + 1) / whole.scale * static_cast<double>(k + 2) / whole.scale;
+    for (std::size_t i = 0; i < n; ++i)
+      a[i] = sum_at(x, whole.u.data() + 2 * n + i, n, degree_, factors.data());
+    return;
+  }
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* c2 = whole.u.data() + (k + 2) * n;
     const double first = static_cast<double>(k + 1) / whole.scale;

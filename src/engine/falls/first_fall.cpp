@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "base/rounding.hpp"
 
@@ -14,21 +16,26 @@ constexpr double near_root = 1e-6;            // relative: so near, Newton's nex
 constexpr double finest = rounding::of_many;  // width, of the whole step
 using Coefficients = std::array<double, size>;
 
-/// conversion[n][k][i] = C(i,k)/C(n,k): what a_k adds to b_i in degree n.
-const std::array<Coefficients, size>& conversion(std::size_t n) {
+/// What a_k adds to b_i in degree n: C(i,k)/C(n,k), row by row for k = 0 .. n, where i = k .. n.
+const double* conversion(std::size_t n) {
   static const auto tables = [] {
-    std::array<std::array<Coefficients, size>, size> all{};
-    for (std::size_t degree = 0; degree < size; ++degree)
+    std::array<std::vector<double>, size> all;
+    for (std::size_t degree = 0; degree < size; ++degree) {
+      std::array<Coefficients, size> rows;
       for (std::size_t i = 0; i <= degree; ++i) {
         double ratio = 1.0;
         for (std::size_t k = 0; k <= i; ++k) {
-          all[degree][k][i] = ratio;
+          rows[k][i] = ratio;
           if (k < degree) ratio *= static_cast<double>(i - k) / static_cast<double>(degree - k);
         }
       }
+      for (std::size_t k = 0; k <= degree; ++k)
+        all[degree].insert(all[degree].end(), rows[k].begin() + static_cast<std::ptrdiff_t>(k),
+                           rows[k].begin() + static_cast<std::ptrdiff_t>(degree + 1));
+    }
     return all;
   }();
-  return tables[n];
+  return tables[n].data();
 }
 
 /// The only zero of p in [lo, hi], where it falls: Newton's steps, kept inside by bisection.
@@ -102,9 +109,9 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
   stack[0].lo = 0.0;
   stack[0].hi = 1.0;
   std::fill_n(stack[0].b.begin(), degree + 1, 0.0);
-  const auto& table = conversion(degree);
-  for (std::size_t k = 0; k <= degree; ++k)
-    for (std::size_t i = k; i <= degree; ++i) stack[0].b[i] += a[k] * table[k][i];
+  const double* row = conversion(degree);
+  for (std::size_t k = 0; k <= degree; row += degree + 1 - k, ++k)
+    for (std::size_t i = k; i <= degree; ++i) stack[0].b[i] += a[k] * row[i - k];
 
   FirstFall result;  // none, or the first touch
   const auto falls_at = [&](double x) { return FirstFall{FirstFall::Kind::fall, x, result.intervals}; };

@@ -4,35 +4,51 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "engine/falls/first_fall.hpp"
 
 namespace signorini {
 namespace {
 
-/// Where the slope of a polynomial is zero, by Newton steps from a place; stays between low and high.
-double turn_from(const double* a, std::size_t degree, double at, double low, double high) {
-  for (int newton = 0; newton < 4; ++newton) {
-    double slope = 0.0, bend = 0.0;
-    for (std::size_t k = degree; k >= 1; --k) {
-      bend = bend * at + slope;
-      slope = slope * at + static_cast<double>(k) * a[k];
-    }
-    if (bend != 0.0) at = std::clamp(at - slope / bend, low, high);
+/// The slope of a polynomial, and the slope's slope.
+class Slope {
+ public:
+  Slope(const double* a, std::size_t degree) : degree_(degree) {
+    for (std::size_t k = 1; k <= degree; ++k) b_[k] = static_cast<double>(k) * a[k];
   }
-  return at;
-}
+  [[nodiscard]] double at(double x) const {
+    double slope = 0.0;
+    for (std::size_t k = degree_; k >= 1; --k) slope = slope * x + b_[k];
+    return slope;
+  }
+  /// Where it is zero, by Newton steps from a place; stays between low and high.
+  [[nodiscard]] double zero_from(double at, double low, double high) const {
+    for (int newton = 0; newton < 4; ++newton) {
+      double slope = 0.0, bend = 0.0;
+      for (std::size_t k = degree_; k >= 1; --k) {
+        bend = bend * at + slope;
+        slope = slope * at + b_[k];
+      }
+      if (bend != 0.0) at = std::clamp(at - slope / bend, low, high);
+    }
+    return at;
+  }
+
+ private:
+  std::size_t degree_;
+  std::array<double, most_fall_degree + 1> b_;  // 1 .. degree
+};
 
 /// Where a polynomial that moves one way from `end`, or begins to, has turned before `next`: by halves, nearly. Newton steps from the
 /// end itself stay there where it is a turn of the other kind, as after a hit that stops a slip.
 double turned_beside(const double* a, std::size_t degree, double end, double next, double inward) {
+  const Slope slope(a, degree);
   const double forth = next > end ? inward : -inward;  // sign of the slope at `next`
   double near = end, far = next;
   for (int halved = 0; halved < 12; ++halved) {
     const double middle = 0.5 * (near + far);
-    double slope = 0.0;
-    for (std::size_t k = degree; k >= 1; --k) slope = slope * middle + static_cast<double>(k) * a[k];
-    (slope * forth < 0.0 ? near : far) = middle;
+    (slope.at(middle) * forth < 0.0 ? near : far) = middle;
   }
-  return turn_from(a, degree, 0.5 * (near + far), std::min(near, far), std::max(near, far));
+  return slope.zero_from(0.5 * (near + far), std::min(near, far), std::max(near, far));
 }
 
 }  // namespace
@@ -191,7 +207,7 @@ void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& 
     const double turn = value[i] + 1.1 * rise;
     if (turn >= range.least && turn <= range.greatest) continue;
     const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
-    const double at = turn_from(path.a, path.degree, guess, x[i - 1], x[i + 1]);
+    const double at = Slope(path.a, path.degree).zero_from(guess, x[i - 1], x[i + 1]);
     const double there = value_at(path.a, path.degree, at);
     // Those steps may have led away from the turn.
     record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);

@@ -24,7 +24,7 @@ class TurningPoints {
   /// observed: somebody looks at the values at the ends of a step. At those of its parts nobody does, but where the first
   /// one begins.
   enum class Ends : unsigned char { observed, first_part, part };
-  /// On [x_begin, x_end] of a series.
+  /// On [x_begin, x_end] of a series, of degree most_fall_degree at most.
   void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_begin, double x_end,
             Ends ends = Ends::observed);
   /// The same, quantity by quantity: a_0 + a_1 x + ... on [0, x_end], t = begin + scale x. Between open() and close().

@@ -101,9 +101,8 @@ std::optional<double> SweepRow::response(std::size_t i) const {
 namespace {
 
 PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) {
-  if (carried == nullptr || !*carried) return prepare_run(task.scene, task.changes);
-  Scene scene = read_scene(task.scene, task.changes);
-  scene.initial = {.saved = **carried};
+  Scene scene = parse_scene(task.text, task.scene, task.changes);
+  if (carried != nullptr && *carried) scene.initial = {.saved = **carried};
   return prepare_run(std::move(scene), std::nullopt);
 }
 

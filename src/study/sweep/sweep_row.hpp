@@ -60,7 +60,9 @@ inline constexpr std::array sweep_figures = {
 };
 
 struct RowTask {
-  std::string scene;
+  std::string scene;  ///< its file
+  std::string
+      text;  ///< what the file said when the sweep began: rows are of one scene, whoever changes the file
   std::vector<Override> changes;  ///< the sweep's settings, then the varied keys
   std::size_t index = 0;
   std::vector<std::string> values;

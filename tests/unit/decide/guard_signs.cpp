@@ -66,6 +66,36 @@ TEST_CASE("what was set to zero is not asked; what was found to rise only whethe
   CHECK(sign_of_guard(gap(), jet, instant, {3, true}).sign == -1);
 }
 
+TEST_CASE("a guard is told by the first order from which it is asked, though zeros be blurred") {
+  const auto told = [](std::array<double, MotionJet::orders> derivatives, std::size_t orders,
+                       std::size_t zeros, const Instant& instant = {}, Guard kind = Guard::sliding) {
+    GuardsOfState all{};
+    all[0].kind = kind;
+    all[0].form = gap();
+    KnownGuards known;
+    known.sliding.zeros = zeros;
+    return told_by(all, 0, gap_of(derivatives, 1.0), orders, instant, known, 16.0);
+  };
+  CHECK(told({17.0, 0.0, 0.0, 0.0, 0.0}, 1, 0));
+  CHECK_FALSE(told({15.0, 0.0, 0.0, 0.0, 0.0}, 1, 0));
+  CHECK_FALSE(told({-17.0, 0.0, 0.0, 0.0, 0.0}, 1, 0));  // it fails: all that follows is asked for
+  CHECK(told({-17.0, 0.0, 0.0, 0.0, 0.0}, 2, 0));
+  // A slip rate that is zero is asked from its rate on, whatever rounding has made of it.
+  CHECK_FALSE(told({17.0, 0.0, 0.0, 0.0, 0.0}, 1, 1));
+  CHECK_FALSE(told({17.0, 15.0, 90.0, 0.0, 0.0}, 2, 1));
+  CHECK(told({17.0, 15.0, 90.0, 0.0, 0.0}, 3, 1));
+  CHECK(told({0.0, 0.0, 0.0, 0.0, 0.0}, MotionJet::orders, 0));
+  // After a limit that has rested differences to another motion count, of that limit and of the slip that left it.
+  Instant rested;
+  rested.rested = {{0, Guard::slip_plus}};
+  CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested));
+  CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested, Guard::slip_plus));
+  rested.rested = {{1, Guard::slip_plus}};
+  CHECK(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested));
+  rested.rested = {{0, Guard::slip_minus}};
+  CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested));
+}
+
 TEST_CASE("forgiveness is the greatest negative derivative before a positive one, in roundings") {
   const Instant instant;
   CHECK(forgiveness(gap(), gap_of({3.0, -9.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == 0.0);

@@ -101,6 +101,25 @@ TEST_SUITE("unit/model/rescale") {
                scene.run.t_end * odd.time);
   }
 
+  TEST_CASE("what a pendulum's surface adds to an output has the unit of the output") {
+    Model model = build_model(read_scene(good + "frame.toml"));
+    Output output;
+    output.restoring.push_back({0, {{{0, 2.0}}}, 3.0, 5.0});  // 3 (|N| - 5) 2 u_0
+    for (const Unit& of : {Unit{1, 0, 0}, Unit{1, 1, 0}, Unit{2, 1, 3}}) {
+      output.unit = of;
+      model.outputs = {output};
+      const Output there = rescaled(model, odd).outputs.front();
+      REQUIRE(there.restoring.size() == 1);
+      const Output::Restoring& r = there.restoring.front();
+      CHECK(r.said == 5.0 * odd.force);
+      // of N = 7 and u_0 = 11
+      const double value =
+          r.factor * (7.0 * odd.force - r.said) * r.slip.terms.front().second * 11.0 * odd.length;
+      CHECK(value == 3.0 * (7.0 - 5.0) * 2.0 * 11.0 * std::pow(odd.force, of.force) *
+                         std::pow(odd.length, of.length) * std::pow(odd.time, of.time));
+    }
+  }
+
   TEST_CASE("there and back") {
     const Scene scene = read_scene(good + "frame.toml");
     const Model model = build_model(scene);

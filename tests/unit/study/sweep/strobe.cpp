@@ -10,7 +10,6 @@
 #include "signorini/error.hpp"
 #include "signorini/model.hpp"
 #include "study/sweep/sweep_row.hpp"
-#include "unit/result/made_up.hpp"
 
 using namespace signorini;
 
@@ -62,11 +61,10 @@ amplitude = 0.0
 history = { type = "constant" }
 )";
 
-SweepRow row_of(const made_up::Folder& folder, const std::string& scene, const std::string& strobe,
-                std::optional<double> settle = {}) {
+SweepRow row_of(const std::string& scene, const std::string& strobe, std::optional<double> settle = {}) {
   RowTask task;
-  task.scene = folder / "scene.toml";
-  made_up::spill(task.scene, scene);
+  task.scene = "scene.toml";  // no such file: rows are of the text
+  task.text = scene;
   task.strobe = strobe;
   task.settle = settle;
   return compute_row(task);
@@ -97,8 +95,7 @@ std::string refusal(const std::string& text, const std::string& scene_text = bel
 TEST_SUITE_BEGIN("unit/study/sweep/strobe");
 
 TEST_CASE("strobe: states at multiples of a period, of displacement, velocity and outputs") {
-  const made_up::Folder folder;
-  const SweepRow row = row_of(folder, oscillator, "0.7", 0.0);
+  const SweepRow row = row_of(oscillator, "0.7", 0.0);
   REQUIRE(row.outcome == "done");
   REQUIRE(row.points.size() == 8);  // 0.7 to 5.6; neither the start nor t_end
   for (std::size_t k = 0; k < row.points.size(); ++k) {
@@ -111,20 +108,18 @@ TEST_CASE("strobe: states at multiples of a period, of displacement, velocity an
     CHECK(std::abs(std::abs(row.points[k].values[2]) - std::abs(1.5 * std::cos(5.0 * t))) < 1e-11);
   }
   // The end of the run is a point where it is a multiple.
-  CHECK(row_of(folder, oscillator, "1.5", 0.0).points.back().t == 6.0);
+  CHECK(row_of(oscillator, "1.5", 0.0).points.back().t == 6.0);
 }
 
 TEST_CASE("strobe: without --settle the second half of the run has points") {
-  const made_up::Folder folder;
-  const SweepRow row = row_of(folder, oscillator, "0.5");
+  const SweepRow row = row_of(oscillator, "0.5");
   REQUIRE(row.points.size() == 7);
   CHECK(row.points.front().t == 3.0);
 }
 
 TEST_CASE("strobe: after events the block has the velocity of its belt") {
-  const made_up::Folder folder;
-  const SweepRow sticks = row_of(folder, belt, "stick@belt", 0.0);
-  const SweepRow slips = row_of(folder, belt, "slip", 0.0);
+  const SweepRow sticks = row_of(belt, "stick@belt", 0.0);
+  const SweepRow slips = row_of(belt, "slip", 0.0);
   REQUIRE(sticks.points.size() == static_cast<std::size_t>(sticks.events.at("stick")));
   REQUIRE(slips.points.size() == static_cast<std::size_t>(slips.events.at("slip")));
   REQUIRE(sticks.points.size() > 3);
@@ -157,13 +152,12 @@ law = "rigid"
 normal = [1.0, 0.0]
 gap = 0.004
 )";
-  const made_up::Folder folder;
   for (const auto& [engine, tolerance] :
        {std::pair{"exact", 1e-12}, std::pair{"ida", 1e-6}, std::pair{"newmark", 1e-5}}) {
     CAPTURE(engine);
     RowTask task;
-    task.scene = folder / "scene.toml";
-    made_up::spill(task.scene, apart);
+    task.scene = "scene.toml";  // no such file: rows are of the text
+    task.text = apart;
     task.changes = {{"run.engine", std::string("\"") + engine + "\""}};
     task.strobe = "contact@stop";
     task.settle = 0.0;
@@ -179,10 +173,9 @@ gap = 0.004
 }
 
 TEST_CASE("strobe: runs that go on from each other show the hysteresis of friction") {
-  const made_up::Folder folder;
   RowTask task;
-  task.scene = folder / "scene.toml";
-  made_up::spill(task.scene, hysteresis);
+  task.scene = "scene.toml";  // no such file: rows are of the text
+  task.text = hysteresis;
   task.strobe = "10";
   std::optional<SavedState> carried;
   double u = 0.0;
@@ -207,12 +200,11 @@ TEST_CASE("strobe: runs that go on from each other show the hysteresis of fricti
 TEST_CASE(
     "strobe: at the period of each run's loads the steady state has one point, where its closed form is") {
   // m u'' + c u' + k u = F sin w t: u = F (D sin w t - C cos w t)/(D^2 + C^2), D = k - m w^2, C = c w, at phase 0
-  const made_up::Folder folder;
   for (const double w : {2.0, 4.0, 7.3}) {
     CAPTURE(w);
     RowTask task;
-    task.scene = folder / "scene.toml";
-    made_up::spill(task.scene, forced);
+    task.scene = "scene.toml";  // no such file: rows are of the text
+    task.text = forced;
     task.changes = {{"loads.1.history.omega", std::to_string(w)}};
     task.strobe = "loads";
     const SweepRow row = compute_row(task);
@@ -253,8 +245,7 @@ TEST_CASE("strobe: a period that is none of the loads is doubted, a multiple of 
 }
 
 TEST_CASE("strobe: rows keep their points on disk") {
-  const made_up::Folder folder;
-  const SweepRow row = row_of(folder, oscillator, "0.7");
+  const SweepRow row = row_of(oscillator, "0.7");
   const SweepRow again = parse_row(row_text(row));
   REQUIRE(again.points.size() == row.points.size());
   for (std::size_t k = 0; k < row.points.size(); ++k) {

@@ -52,6 +52,21 @@ TEST_SUITE("unit/model/scales") {
     }
   }
 
+  TEST_CASE("of a load on several degrees of freedom the greatest part counts, whichever way it acts") {
+    for (const char* direction :
+         {"{ d0 = 1.0, d1 = -3.0 }", "{ d0 = -1.0, d1 = 3.0 }", "{ d0 = -3.0, d1 = -1.0 }"}) {
+      CAPTURE(direction);
+      const Scene s = parse_scene(
+          "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end "
+          "= 1.0\n"
+          "[matrices]\nmass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[40.0, 0.0], [0.0, 40.0]]\n"
+          "[[loads]]\ndirection = " +
+              std::string(direction) + "\namplitude = 10.0\n",
+          "test.toml");
+      CHECK(build_model(s).scales.force == doctest::Approx(30.0).epsilon(1e-13));
+    }
+  }
+
   TEST_CASE("a compression that is short counts with its impulse, too") {
     const auto force = [](double duration, double amplitude) {
       return build_model(

@@ -6,6 +6,7 @@
 #include "model/build.hpp"
 #include "model/rescale.hpp"
 #include "scene/key_path.hpp"
+#include "scene/scene_text.hpp"
 #include "sensitivity/discrete_run.hpp"
 #include "sensitivity/known_laws.hpp"
 #include "sensitivity/parameter.hpp"
@@ -56,10 +57,12 @@ RunSpec without_companion(RunSpec run) {
 }  // namespace
 
 SceneReader reader_of(std::string path, std::vector<Override> always) {
-  return [path = std::move(path), always = std::move(always)](const std::vector<Override>& changes) {
+  std::string text = scene_text(path);
+  return [text = std::move(text), path = std::move(path),
+          always = std::move(always)](const std::vector<Override>& changes) {
     std::vector<Override> all = always;
     all.insert(all.end(), changes.begin(), changes.end());
-    return read_scene(path, all);
+    return parse_scene(text, path, all);
   };
 }
 

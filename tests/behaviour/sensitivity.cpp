@@ -4,10 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string>
 
 #include "behaviour/one_mass.hpp"
 #include "behaviour/rates.hpp"
+#include "unit/result/made_up.hpp"
 
 using namespace signorini;
 using namespace signorini::tests;
@@ -267,4 +270,17 @@ TEST_CASE("the least changes at which neighbours meet, and keys that are refused
                                       "stribeck_velocity = 0.1 }"),
                            {"contacts.c.friction"}),
                   UsageError);
+}
+
+TEST_CASE("a reader is of the file as it was when the reader was made, however long it is used") {
+  const made_up::Folder folder;
+  const std::filesystem::path file = folder / "scene.toml";
+  const std::string text = oscillator("normal_force = 1.0\nfriction = 0.3");
+  made_up::spill(file, text);
+  const SceneReader read = reader_of(file.string());
+  made_up::spill(file, oscillator("normal_force = 2.0\nfriction = 0.3"));
+  CHECK(read({}).resolved == parse_scene(text, file.string()).resolved);
+  CHECK(read({{"contacts.c.friction", "0.4"}}).contacts[0].friction.static_ == 0.4);
+  CHECK(reader_of(file.string())({}).resolved != read({}).resolved);
+  CHECK_THROWS_AS((void)reader_of((folder / "none.toml").string()), FileError);
 }

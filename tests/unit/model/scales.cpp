@@ -53,7 +53,7 @@ TEST_SUITE("unit/model/scales") {
   }
 
   TEST_CASE("of a load on several degrees of freedom the greatest part counts, whichever way it acts") {
-    for (const char* direction :
+    for (const std::string direction :
          {"{ d0 = 1.0, d1 = -3.0 }", "{ d0 = -1.0, d1 = 3.0 }", "{ d0 = -3.0, d1 = -1.0 }"}) {
       CAPTURE(direction);
       const Scene s = parse_scene(

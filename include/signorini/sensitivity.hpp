@@ -28,8 +28,8 @@ namespace signorini {
 
 /// The scene with some of its keys changed.
 using SceneReader = std::function<Scene(const std::vector<Override>& changes)>;
-/// Of a file, which is read now: whoever changes it later changes nothing. `always` is changed in any case, first. Errors:
-/// FileError.
+/// Reads the file once, at this call; later changes to it have no effect. `always` is changed in any case, first. Errors:
+/// FileError; SceneError where the file is larger than 64 MB.
 [[nodiscard]] SceneReader reader_of(std::string path, std::vector<Override> always = {});
 
 /// A key that is varied, as `--set` takes it; "contacts.*.friction" is one parameter.

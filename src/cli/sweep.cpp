@@ -151,7 +151,7 @@ std::string text_of_state(const Scene& scene) {
 
 struct Specified {
   SweepSpec spec;
-  std::string text;  ///< of the scene, all rows are of it
+  std::string text;  ///< of the scene file
 };
 
 /// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
@@ -313,13 +313,13 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
 }
 
 /// Of the first and the last row: a varied key may change the period of the loads.
-void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec) {
+void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec, const std::string& text) {
   const auto all = points(spec.vary);
   for (const auto* point : {&all.front(), &all.back()}) {
     std::vector<Override> changes = overrides_of(options.settings);
     changes.insert(changes.end(), point->begin(), point->end());
     try {
-      const Scene scene = read_scene(options.scene, changes);
+      const Scene scene = parse_scene(text, options.scene, changes);
       const std::string doubt = strobe_doubt(parse_strobe(options.strobe, scene, build_model(scene)), scene);
       if (!doubt.empty()) return print_note(doubt);
     } catch (const Error&) {  // a row that is refused says so itself
@@ -336,7 +336,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
     for (const Vary& vary : spec.vary)
       if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
-  if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec);
+  if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec, text);
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
   RowTask common{options.scene, text, overrides_of(options.settings), 0, {}, {}, command_line};

@@ -156,7 +156,7 @@ void keep_only(int a, int b) {
   while (receive(tasks, &task, sizeof task)) {
     auto [code, report] = carried_out(work, static_cast<std::size_t>(task));
     const Head head{task, report.size(), static_cast<std::int64_t>(code)};
-    // As one block: the parent wakes up once.
+    // One block, so that the parent is woken once.
     report.insert(0, reinterpret_cast<const char*>(&head), sizeof head);
     if (!send(reports, report.data(), report.size())) break;
     if (code == ExitCode::bug) _exit(0);  // memory may be short or worse: a fresh process takes the next

@@ -40,8 +40,8 @@ std::vector<std::size_t> every_contact(const Model& model) {
   return all;
 }
 
-/// Contacts that stick rigidly, of the block that has most of them: rows of two may be dependent. Those that take impulses
-/// are decided together, however many they are.
+/// The number of contacts that stick rigidly in the block that has most of them: the rows of two may be dependent. Contacts
+/// that take impulses are decided together even when there is only one; then the number is the greatest of its type.
 std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& blocks) {
   std::size_t most = 0;
   for (const Block& block : blocks.all) {
@@ -109,10 +109,10 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, 
       touching_(systems, jets_, capture_velocity),
       guards_(model_),
       blocks_(model_),
-      circles_(systems, jets_, blocks_),
-      each_alone_(most_rigid_in_a_block(model_, blocks_) <= 1) {
-  const bool soft = most_rigid_in_a_block(model_, blocks_) == 0;
-  if (whole_jets || !soft) return;
+      circles_(systems, jets_, blocks_) {
+  const std::size_t rigid = most_rigid_in_a_block(model_, blocks_);
+  each_alone_ = rigid <= 1;
+  if (whole_jets || rigid > 0) return;
   near_.emplace(systems);
   if (!near_->possible()) near_.reset();
 }
@@ -338,8 +338,8 @@ Refusal Decider::try_next(DecisionCourse& course) {
   if (!course.found.hit && !std::exchange(course.found.sliders, true)) {
     course.seen.pop_back();
     course.mode = last;
-    if (!evaluate(course.after, course.mode, course))
-      return no_system(model_, course.mode);  // whole, with sliders
+    // The decision of several sliders reads all orders of their motions.
+    if (!evaluate(course.after, course.mode, course)) return no_system(model_, course.mode);
     if (Refusal why = propose(course)) return why;
     if (evaluate(course.after, course.mode, course)) return {};
   }

@@ -79,7 +79,7 @@ class Decider {
   GuardsInForce guards_;
   ContactBlocks blocks_;
   CircleExit circles_;
-  bool each_alone_;              // no contact is decided with others, but where a decision goes in circles
+  bool each_alone_ = false;      // no contact is decided with others, but where a decision goes in circles
   std::vector<MotionJet> room_;  // of the last decision, for the next one
   RoundListener listener_;
 };

@@ -124,12 +124,16 @@ void Taylor::known_of_rows(std::size_t c, int order, const Series& series, doubl
   q += tangent.constant;
 }
 
-/// Do rows of contact c know anything at this order? What drives a contact is mostly a polynomial that has ended long before.
+namespace {
+
+/// Does a surface or a normal force act on contact c at this order? Most of them are polynomials of low degree.
 bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
   const std::size_t at = c * f.count + static_cast<std::size_t>(order);
   const double *surface = f.surface.data() + at, *pressing = f.pressing.data() + at;
   return surface[0] != 0.0 || surface[1] != 0.0 || surface[2] != 0.0 || pressing[0] != 0.0;
 }
+
+}  // namespace
 
 /// Sizes known to the compiler (0: not known) let it unroll the loops over one or two masses.
 template <std::size_t fixed_n, std::size_t fixed_size>

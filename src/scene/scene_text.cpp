@@ -9,13 +9,9 @@
 #include "signorini/error.hpp"
 
 namespace signorini {
-namespace {
-
-constexpr std::size_t longest_file = 64u << 20;
-
-}  // namespace
 
 std::string scene_text(const std::string& path) {
+  constexpr std::size_t longest_file = 64u << 20;
   if (const std::string why = why_no_input_file(path); !why.empty())
     throw FileError(path, why + ", expected a scene file");
   errno = 0;

@@ -1,10 +1,8 @@
 #include "engine/exact/pieced_series.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "base/wide_lanes.hpp"
-#include "engine/falls/first_fall.hpp"
 
 namespace signorini {
 namespace {
@@ -19,8 +17,8 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
 }
 
-constexpr std::size_t longest = most_fall_degree + 1;  // series
-constexpr std::size_t few = 4;  // so many sums are taken one by one: entry by entry of each order costs more
+/// Up to so many entries each sum is taken alone. Loops over so few entries cost more than their arithmetic.
+constexpr std::size_t few = 4;
 
 /// sum_k a_k x^k, or of factors_k a_k, where the coefficients are `stride` apart.
 double sum_at(double x, const double* a, std::size_t stride, std::size_t degree, const double* factors) {
@@ -45,6 +43,10 @@ PiecedSeries::PiecedSeries(const Model& model) : model_(model), contacts_(model.
 
 void PiecedSeries::taken(std::size_t degree) {
   degree_ = degree;
+  for (std::size_t k = 0; k <= degree_; ++k) {
+    to_rate_[k] = static_cast<double>(k + 1) / whole.scale;
+    to_acceleration_[k] = to_rate_[k] * static_cast<double>(k + 2) / whole.scale;
+  }
   origins_.clear();
   force_origins_.clear();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -101,7 +103,7 @@ void PiecedSeries::pieces_at(double x, Point& point) const {
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* u = whole.u.data() + k * n;
     horner(point.u.data(), of_dofs_.data(), u, 1.0, n);
-    horner(point.v.data(), of_dofs_.data(), u + n, static_cast<double>(k + 1) / whole.scale, n);
+    horner(point.v.data(), of_dofs_.data(), u + n, to_rate_[k], n);
     horner(point.forces.data(), of_forces_.data(), whole.forces.data() + k * forces, 1.0, forces);
   }
 }
@@ -115,11 +117,9 @@ void PiecedSeries::place_at(double x, Point& point) const {
   double *u = point.u.data(), *v = point.v.data(), *f = point.forces.data();
   const auto forces = static_cast<std::size_t>(whole.forces.rows());
   if (n <= few) {
-    std::array<double, longest> factors;
-    for (std::size_t k = 0; k <= degree_; ++k) factors[k] = static_cast<double>(k + 1) / whole.scale;
     for (std::size_t i = 0; i < n; ++i) {
       u[i] = sum_at(x, whole.u.data() + i, n, degree_);
-      v[i] = sum_at(x, whole.u.data() + n + i, n, degree_, factors.data());
+      v[i] = sum_at(x, whole.u.data() + n + i, n, degree_, to_rate_.data());
     }
     for (std::size_t i = 0; i < forces; ++i) f[i] = sum_at(x, whole.forces.data() + i, forces, degree_);
     return;
@@ -127,10 +127,9 @@ void PiecedSeries::place_at(double x, Point& point) const {
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* c0 = whole.u.data() + k * n;
     const double* c1 = c0 + n;
-    const double first = static_cast<double>(k + 1) / whole.scale;
     for (std::size_t i = 0; i < n; ++i) {
       u[i] = u[i] * x + c0[i];
-      v[i] = v[i] * x + first * c1[i];
+      v[i] = v[i] * x + to_rate_[k] * c1[i];
     }
     const double* g = whole.forces.data() + k * forces;
     for (std::size_t i = 0; i < forces; ++i) f[i] = f[i] * x + g[i];
@@ -143,22 +142,17 @@ void PiecedSeries::evaluate_at(double x, Point& point) const {
   point.a.setZero(whole.u.rows());
   double* a = point.a.data();
   if (n <= few && origins_.empty()) {
-    std::array<double, longest> factors;
-    for (std::size_t k = 0; k <= degree_; ++k)
-      factors[k] = static_cast<double>(k + 1) / whole.scale * static_cast<double>(k + 2) / whole.scale;
     for (std::size_t i = 0; i < n; ++i)
-      a[i] = sum_at(x, whole.u.data() + 2 * n + i, n, degree_, factors.data());
+      a[i] = sum_at(x, whole.u.data() + 2 * n + i, n, degree_, to_acceleration_.data());
     return;
   }
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* c2 = whole.u.data() + (k + 2) * n;
-    const double first = static_cast<double>(k + 1) / whole.scale;
-    const double second = first * static_cast<double>(k + 2) / whole.scale;
     if (!origins_.empty()) {
-      horner(a, of_dofs_.data(), c2, second, n);
+      horner(a, of_dofs_.data(), c2, to_acceleration_[k], n);
       continue;
     }
-    for (std::size_t i = 0; i < n; ++i) a[i] = a[i] * x + second * c2[i];
+    for (std::size_t i = 0; i < n; ++i) a[i] = a[i] * x + to_acceleration_[k] * c2[i];
   }
 }
 
@@ -169,22 +163,15 @@ void PiecedSeries::place_at(double x, std::size_t contact, Point& point) const {
   const Contact& c = model_.contacts[contact];
   for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
     for (const auto& term : form->terms) {
-      const auto i = static_cast<Eigen::Index>(term.first);
-      const double at = x - origin_of(static_cast<std::size_t>(term.first));
-      double u = 0.0, v = 0.0;
-      for (auto k = static_cast<Eigen::Index>(degree_) + 1; k-- > 0;) {
-        u = u * at + whole.u(i, k);
-        v = v * at + static_cast<double>(k + 1) / whole.scale * whole.u(i, k + 1);
-      }
-      point.u[i] = u;
-      point.v[i] = v;
+      const auto n = static_cast<std::size_t>(whole.u.rows()), i = static_cast<std::size_t>(term.first);
+      const double at = x - origin_of(i);
+      point.u[term.first] = sum_at(at, whole.u.data() + i, n, degree_);
+      point.v[term.first] = sum_at(at, whole.u.data() + n + i, n, degree_, to_rate_.data());
     }
   for (const std::size_t slot : {normal_slot(contact), tangent_slot(contact)}) {
-    const auto i = static_cast<Eigen::Index>(slot);
     const double at = x - (force_origins_.empty() ? 0.0 : force_origins_[slot]);
-    double f = 0.0;
-    for (auto k = static_cast<Eigen::Index>(degree_) + 1; k-- > 0;) f = f * at + whole.forces(i, k);
-    point.forces[i] = f;
+    point.forces[static_cast<Eigen::Index>(slot)] =
+        sum_at(at, whole.forces.data() + slot, static_cast<std::size_t>(whole.forces.rows()), degree_);
   }
 }
 

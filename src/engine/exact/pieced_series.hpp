@@ -7,6 +7,10 @@
 // Shapes: n degrees of freedom, two forces a contact.
 #pragma once
 
+#include <array>
+#include <vector>
+
+#include "engine/falls/first_fall.hpp"
 #include "motion/contact_series.hpp"
 #include "motion/near_series.hpp"
 #include "motion/point.hpp"
@@ -19,7 +23,7 @@ class PiecedSeries {
 
   /// Of the whole structure, to be made anew: its coefficients are its owner's until taken().
   Series whole;
-  /// `whole` has been made: u, v, a and forces are complete up to this degree.
+  /// `whole` has been made: u, v, a and forces are complete up to this degree, most_fall_degree at most.
   void taken(std::size_t degree);
   /// The part of it from x on, up to `reach` further.
   void take_over(const NearSeries::Made& near, double x, double reach);
@@ -49,6 +53,7 @@ class PiecedSeries {
 
   const Model& model_;
   std::size_t degree_ = 0;
+  std::array<double, most_fall_degree + 1> to_rate_{}, to_acceleration_{};  // (k + 1)/s, (k + 1) (k + 2)/s^2
   std::vector<ContactSeries> contacts_;
   std::vector<double> origins_, force_origins_;      // empty: all are zero
   mutable std::vector<double> of_dofs_, of_forces_;  // x - o; room

@@ -60,9 +60,8 @@ inline constexpr std::array sweep_figures = {
 };
 
 struct RowTask {
-  std::string scene;  ///< its file
-  std::string
-      text;  ///< what the file said when the sweep began: rows are of one scene, whoever changes the file
+  std::string scene;              ///< its file, for messages and to find data files beside it
+  std::string text;               ///< of the file when the sweep began: all rows are of one scene
   std::vector<Override> changes;  ///< the sweep's settings, then the varied keys
   std::size_t index = 0;
   std::vector<std::string> values;

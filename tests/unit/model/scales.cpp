@@ -61,7 +61,7 @@ TEST_SUITE("unit/model/scales") {
           "= 1.0\n"
           "[matrices]\nmass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[40.0, 0.0], [0.0, 40.0]]\n"
           "[[loads]]\ndirection = " +
-              std::string(direction) + "\namplitude = 10.0\n",
+              direction + "\namplitude = 10.0\n",
           "test.toml");
       CHECK(build_model(s).scales.force == doctest::Approx(30.0).epsilon(1e-13));
     }

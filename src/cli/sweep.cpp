@@ -264,12 +264,18 @@ bool run_rows(SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& 
       ++file_error;  // it has said why
       return false;
     }
-    tasks.take(end);
-    return true;
+    try {
+      tasks.take(end);
+    } catch (const FileError& error) {
+      print_error(error.what());
+      ++file_error;
+    }
+    return file_error == 0;
   };
   Progress progress(directory, directory.rows().size() + tasks.rows(), !options.quiet);
   const bool whole = run_workers(
-      tasks.list(), jobs_of(options), [&](std::size_t first) { return tasks.work(first); }, ended,
+      tasks.list(), jobs_of(options),
+      [&](std::size_t first, const Tell& tell) { return tasks.work(first, tell); }, ended,
       [&](std::size_t running) { progress.idle(running); });
   if (file_error > 0)
     throw Error(ExitCode::file,

@@ -2,13 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
-
-#include "result/csv.hpp"
 
 namespace signorini::cli {
 namespace {
@@ -44,25 +41,18 @@ RowTask SweepTasks::task(std::size_t index) const {
   return task;
 }
 
-std::string SweepTasks::work(std::size_t first) const {
+std::string SweepTasks::work(std::size_t first, const Tell& tell) const {
+  if (!directory_.spec().carry.on) return row_line(compute_row(task(first)));
   std::optional<SavedState> carried;
-  std::string text;
-  for (std::size_t i = first; i < first + length_; ++i) {
-    text = row_text(directory_.spec().carry.on ? compute_row(task(i), carried) : compute_row(task(i)));
-    write_file(directory_.row_file(i), text);
-  }
-  return length_ == 1 ? text : "";
+  const std::size_t last = first + length_ - 1;
+  for (std::size_t i = first; i < last; ++i) tell(row_line(compute_row(task(i), carried)));
+  return row_line(compute_row(task(last), carried));
 }
 
 void SweepTasks::take(const WorkerEnd& end) {
-  const bool whole = end.code == 0 && end.signal == 0;
-  if (length_ == 1 && whole) return directory_.take(end.task, end.report);
-  std::error_code error;
-  for (std::size_t i = end.task; i < end.task + length_; ++i) {
-    if (whole || (length_ > 1 && std::filesystem::exists(directory_.row_file(i), error))) {
-      directory_.take(i);
-      continue;
-    }
+  if (!end.report.empty()) directory_.add(end.report);
+  const auto told = static_cast<std::size_t>(std::count(end.report.begin(), end.report.end(), '\n'));
+  for (std::size_t i = end.task + told; i < end.task + length_; ++i) {
     SweepRow row;
     row.index = i;
     row.values = values_of(directory_.points()[i]);

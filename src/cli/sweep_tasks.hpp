@@ -19,8 +19,8 @@ class SweepTasks {
   [[nodiscard]] const std::vector<std::size_t>& list() const { return list_; }
   [[nodiscard]] std::size_t rows() const { return list_.size() * length_; }
 
-  /// In a worker: writes the rows, and returns the text of one that is alone.
-  [[nodiscard]] std::string work(std::size_t first) const;
+  /// In a worker: computes the rows and tells their lines, the last one's as what it returns.
+  [[nodiscard]] std::string work(std::size_t first, const Tell& tell) const;
   /// Takes the rows of a task that has ended; those that a crash has left out become rows that say so.
   void take(const WorkerEnd& end);
 

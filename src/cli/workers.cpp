@@ -113,16 +113,23 @@ bool receive(int fd, void* data, std::size_t size) {
 }
 
 struct Head {
+  static constexpr std::int64_t not_done = -1;
+
   std::uint64_t task = 0, length = 0;
   std::int64_t code = 0;
 };
 
-using Work = std::function<std::string(std::size_t)>;
+/// One block, so that the parent is woken once.
+bool report(int fd, std::uint64_t task, std::int64_t code, std::string text) {
+  const Head head{task, text.size(), code};
+  text.insert(0, reinterpret_cast<const char*>(&head), sizeof head);
+  return send(fd, text.data(), text.size());
+}
 
 /// One task; its exit code and report.
-std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task) {
+std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task, const Tell& tell) {
   try {
-    return {ExitCode::done, work(task)};
+    return {ExitCode::done, work(task, tell)};
   } catch (const Error& error) {
     print_error(error.what());
     return {error.code(), ""};
@@ -154,11 +161,9 @@ void keep_only(int a, int b) {
   keep_only(tasks, reports);
   std::uint64_t task = 0;
   while (receive(tasks, &task, sizeof task)) {
-    auto [code, report] = carried_out(work, static_cast<std::size_t>(task));
-    const Head head{task, report.size(), static_cast<std::int64_t>(code)};
-    // One block, so that the parent is woken once.
-    report.insert(0, reinterpret_cast<const char*>(&head), sizeof head);
-    if (!send(reports, report.data(), report.size())) break;
+    const Tell tell = [&](const std::string& text) { (void)report(reports, task, Head::not_done, text); };
+    auto [code, text] = carried_out(work, static_cast<std::size_t>(task), tell);
+    if (!report(reports, task, static_cast<std::int64_t>(code), std::move(text))) break;
     if (code == ExitCode::bug) _exit(0);  // memory may be short or worse: a fresh process takes the next
   }
   _exit(0);
@@ -170,6 +175,7 @@ struct Worker {
   Descriptor tasks, reports;
   std::deque<std::size_t> given;  // the first is under way
   std::string heard;              // bytes of a report that is not whole yet
+  std::string told;               // by the task under way
 };
 
 class Pool {
@@ -257,7 +263,8 @@ class Pool {
       const ssize_t n = read(w.reports.get(), block, sizeof block);
       if (n > 0) {
         w.heard.append(block, static_cast<std::size_t>(n));
-        continue;
+        if (static_cast<std::size_t>(n) == sizeof block) continue;
+        break;
       }
       if (n < 0 && errno == EINTR) continue;
       open = n < 0 && errno == EAGAIN;
@@ -269,9 +276,11 @@ class Pool {
       std::memcpy(&head, w.heard.data() + done, sizeof head);
       if (w.heard.size() - done - sizeof head < head.length) break;
       done += sizeof head;
-      ends.push_back({static_cast<std::size_t>(head.task), static_cast<int>(head.code), 0,
-                      w.heard.substr(done, static_cast<std::size_t>(head.length))});
+      w.told.append(w.heard, done, static_cast<std::size_t>(head.length));
       done += static_cast<std::size_t>(head.length);
+      if (head.code == Head::not_done) continue;
+      ends.push_back({static_cast<std::size_t>(head.task), static_cast<int>(head.code), 0,
+                      std::exchange(w.told, std::string())});
       if (!w.given.empty()) w.given.pop_front();
     }
     w.heard.erase(0, done);
@@ -283,7 +292,7 @@ class Pool {
     const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // it left between two tasks
     if (!w.given.empty() && !clean) {
       ends.push_back({w.given.front(), WIFEXITED(status) ? WEXITSTATUS(status) : 1,
-                      WIFSIGNALED(status) ? WTERMSIG(status) : 0, ""});
+                      WIFSIGNALED(status) ? WTERMSIG(status) : 0, std::move(w.told)});
       w.given.pop_front();
     }
     queue.insert(queue.begin(), w.given.begin(), w.given.end());

@@ -3,7 +3,7 @@
 //   const bool whole = run_workers(tasks, jobs, work, ended, idle);
 //
 //   parent --- task -->  pipe  --> worker:  for each task: work(task), then
-//   parent <-- report -- pipe <--           { task, exit code, length, what work returned }
+//   parent <-- report -- pipe <--           { task, exit code, length, what work returned }, after what it told
 //
 // Processes, not threads: a run that crashes or fills the memory takes no other with it
 // (docs/decisions/sweep-workers.md). A worker that dies costs the task at which it was, and is started anew; the
@@ -23,15 +23,18 @@ struct WorkerEnd {
   std::size_t task = 0;
   int code = 0;        ///< exit code; that of an Error which `work` threw
   int signal = 0;      ///< that ended its process, or 0
-  std::string report;  ///< what `work` returned
+  std::string report;  ///< what `work` told and returned; of one that died: what it told
 };
+
+/// Of a task that is not done yet, from its worker: it is kept if the worker dies.
+using Tell = std::function<void(const std::string&)>;
+using Work = std::function<std::string(std::size_t task, const Tell&)>;
 
 /// `work` runs in a worker, and its report comes here; what it throws becomes a code (the message goes to
 /// stderr). `ended` runs here, in the order of the ends, and says whether to go on. `idle` runs here now and
 /// then, with the number of tasks under way. Returns false when interrupted. Errors: FileError where no process
 /// can be started; all others have ended then.
-[[nodiscard]] bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs,
-                               const std::function<std::string(std::size_t)>& work,
+[[nodiscard]] bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const Work& work,
                                const std::function<bool(const WorkerEnd&)>& ended,
                                const std::function<void(std::size_t)>& idle);
 

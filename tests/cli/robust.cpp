@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "base/fingerprint.hpp"
 #include "program.hpp"
 
 using nlohmann::json;
@@ -96,47 +97,57 @@ TEST_CASE("cli run: of three --force at once into one directory one is kept whol
 
 TEST_CASE("cli sweep: --force removes no file that is not its own") {
   const Shell shell;
-  sweep(shell);
-  for (const std::string foreign : {"2023.xlsx", "000002.txt", "12.json", "notes"}) {
-    CAPTURE(foreign);
-    shell.write("belt-sweep/rows/" + foreign, "mine");
-    const Ending ending =
-        shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "--force"});
-    CHECK(ending.code == 6);
-    CHECK(has(ending.err, foreign));
-    CHECK(shell.read("belt-sweep/rows/" + foreign) == "mine");
-    CHECK(exists(shell, "belt-sweep/rows/000001.json"));
-    fs::remove(shell / ("belt-sweep/rows/" + foreign));
-  }
+  sweep(shell, {"--keep"});
+  const std::vector<std::string> foreign = {"rows/000001.json", "notes", "rows.txt", "runs/000002.txt",
+                                            "runs/12/mine"};
+  for (const char* folder : {"rows", "runs/12"}) fs::create_directories(shell / "belt-sweep" / folder);
+  for (const std::string& file : foreign) shell.write("belt-sweep/" + file, "mine");
+  const std::string before = shell.read("belt-sweep/rows.jsonl");
   sweep(shell, {"--force"});
+  for (const std::string& file : foreign) {
+    CAPTURE(file);
+    CHECK(shell.read("belt-sweep/" + file) == "mine");
+  }
+  CHECK(shell.read("belt-sweep/rows.jsonl") != before);  // computed again
+  CHECK_FALSE(exists(shell, "belt-sweep/runs/000001"));
 }
 
 TEST_CASE("cli sweep: --force follows no link") {
   const Shell shell;
   sweep(shell, {"--keep"});
-  for (const std::string folder : {"rows", "runs"}) {
-    CAPTURE(folder);
-    fs::rename(shell / ("belt-sweep/" + folder), shell / "elsewhere");
-    fs::create_directory_symlink(shell / "elsewhere", shell / ("belt-sweep/" + folder));
-    const Ending ending =
-        shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "--force"});
-    CHECK(ending.code == 6);
-    CHECK(has(ending.err, "belt-sweep/" + folder));
-    CHECK(std::distance(fs::directory_iterator(shell / "elsewhere"), {}) == 3);
-    fs::remove(shell / ("belt-sweep/" + folder));
-    fs::rename(shell / "elsewhere", shell / ("belt-sweep/" + folder));
-  }
+  fs::rename(shell / "belt-sweep/runs", shell / "elsewhere");
+  fs::create_directory_symlink(shell / "elsewhere", shell / "belt-sweep/runs");
+  const Ending ending =
+      shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "--force"});
+  CHECK(ending.code == 6);
+  CHECK(has(ending.err, "belt-sweep/runs"));
+  CHECK(std::distance(fs::directory_iterator(shell / "elsewhere"), {}) == 3);
+  fs::remove(shell / "belt-sweep/runs");
+  fs::rename(shell / "elsewhere", shell / "belt-sweep/runs");
   // A run that is a link is somebody else's: it stays, with what it leads to.
   fs::rename(shell / "belt-sweep/runs/000002", shell / "kept");
   fs::create_directory_symlink(shell / "kept", shell / "belt-sweep/runs/000002");
   sweep(shell, {"--force"});
   CHECK(exists(shell, "kept/events.csv"));
+  // So are rows: a link is not followed, and --force removes the link alone.
+  fs::rename(shell / "belt-sweep/rows.jsonl", shell / "mine");
+  fs::create_symlink(shell / "mine", shell / "belt-sweep/rows.jsonl");
+  const std::string mine = shell.read("mine");
+  const Ending linked = shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet"});
+  CHECK(linked.code == 6);
+  CHECK(has(linked.err, "rows.jsonl: is a link, expected the rows of a sweep"));
+  sweep(shell, {"--force"});
+  CHECK(shell.read("mine") == mine);
 }
 
 TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, are 6") {
   const Shell shell;
   sweep(shell);
-  const std::string row = "belt-sweep/rows/000002.json", good = shell.read(row);
+  const std::string file = "belt-sweep/rows.jsonl", good = shell.read(file);
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < good.size(); begin = good.find('\n', begin) + 1)
+    lines.push_back(good.substr(begin, good.find('\n', begin) + 1 - begin));
+  REQUIRE(lines.size() == 3);
   const auto refused = [&](const std::string& message) {
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"sweep", "belt.toml", "--vary", three_rows, "--no-plots"},
@@ -147,22 +158,80 @@ TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, ar
     }
     fs::remove_all(shell / "joined");
   };
-  std::string altered = good;
-  const std::size_t at = altered.find("\"steps\": ") + 9;
+  std::string altered = lines[1];
+  const std::size_t at = altered.find("\"steps\":") + 8;
   altered[at] = altered[at] == '1' ? '2' : '1';
-  shell.write(row, altered);
-  refused("has been altered");
-  shell.write(row, shell.read("belt-sweep/rows/000001.json"));
-  refused("is not the row of this sweep with that number");
-  fs::remove(shell / row);
-  fs::create_directory(shell / row);
-  refused("is a directory");
-  fs::remove(shell / row);
-  REQUIRE(mkfifo((shell / row).c_str(), 0600) == 0);
-  refused("is a pipe");
-  fs::remove(shell / row);
-  shell.write(row, good);
+  shell.write(file, lines[0] + altered + lines[2]);
+  refused("rows.jsonl: line 2 has been altered since it was written");
+  shell.write(file, lines[0] + "\n" + lines[1]);
+  refused("rows.jsonl: line 2 has been altered since it was written");
+  // A line without its checksum, and one whose checksum is right but which is no row.
+  shell.write(file, lines[0].substr(0, lines[0].find(",\"checksum\"")) + "}\n");
+  refused("rows.jsonl: line 1 has been altered since it was written");
+  shell.write(file, R"({"row":1,"checksum":")" + signorini::fingerprint_of(R"({"row":1})") + "\"}\n");
+  refused("rows.jsonl: line 1 is not a row of a sweep: ");
+  fs::remove(shell / file);
+  fs::create_directory(shell / file);
+  refused("is a directory, expected the rows of a sweep");
+  fs::remove(shell / file);
+  REQUIRE(mkfifo((shell / file).c_str(), 0600) == 0);
+  refused("is a pipe, expected the rows of a sweep");
+  fs::remove(shell / file);
+  shell.write(file, good);
   CHECK(shell.run({"sweep", "--merge", "belt-sweep", "-o", "joined", "--no-plots"}).code == 0);
+  // An earlier version of the directory.
+  std::string spec = shell.read("belt-sweep/sweep.json");
+  spec.replace(spec.find("\"sweep\": 2"), 10, "\"sweep\": 1");
+  shell.write("belt-sweep/sweep.json", spec);
+  refused("sweep.json: is of an earlier version of Signorini");
+}
+
+TEST_CASE("cli sweep: a row of another value, or of another share, is none of this sweep") {
+  const Shell shell;
+  sweep(shell);
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
+    std::vector<std::string> arguments = {"sweep", "belt.toml", "--no-plots", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ending ending = shell.run(arguments);
+    CHECK(ending.code == 6);
+    CHECK_MESSAGE(has(ending.err, message), ending.err);
+  };
+  REQUIRE(shell
+              .run({"sweep", "belt.toml", "--vary", "contacts.belt.friction.static=1:2:0.25", "--no-plots",
+                    "--quiet", "-o", "finer"})
+              .code == 0);
+  fs::copy_file(shell / "finer/rows.jsonl", shell / "belt-sweep/rows.jsonl",
+                fs::copy_options::overwrite_existing);
+  refused({"--vary", three_rows}, "is not the row of this sweep with that number");
+  REQUIRE(shell
+              .run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "--share", "2/2",
+                    "-o", "half"})
+              .code == 0);
+  CHECK(shell.read("half/rows.jsonl").starts_with("{\"row\":2,"));
+  sweep(shell, {"--force"});
+  fs::copy_file(shell / "belt-sweep/rows.jsonl", shell / "half/rows.jsonl",
+                fs::copy_options::overwrite_existing);
+  refused({"--vary", three_rows, "--share", "2/2", "-o", "half"}, "is not of share 2/2");
+}
+
+TEST_CASE(
+    "cli sweep: where a row cannot be written whole, the others stay, and the sweep goes on from them") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const std::vector<std::string> command = {"sweep", "belt.toml", "--vary",
+                                            "contacts.belt.friction.static=1:2:0.05", "--no-plots"};
+  const Ending full = shell.wait(shell.start(command, ".out", 3000));
+  CHECK(full.code == 6);
+  CHECK_MESSAGE(has(full.err, "belt-sweep/rows.jsonl: cannot be written: File too large"), full.err);
+  CHECK(has(full.err, "the sweep stopped where a file could not be written; "));
+  const std::string kept = shell.read("belt-sweep/rows.jsonl");
+  CHECK(kept.size() > 1000);
+  CHECK(kept.back() == '\n');
+  const Ending again = shell.run(command);
+  CHECK(again.code == 0);
+  CHECK(has(again.err, std::to_string(signorini::cli_test::lines(kept)) + " rows of 21 there already"));
+  CHECK(shell.read("belt-sweep/rows.jsonl").starts_with(kept));
+  CHECK(signorini::cli_test::lines(shell.read("belt-sweep/rows.jsonl")) == 21);
 }
 
 TEST_CASE("cli sweep: shares that contradict each other are not merged") {
@@ -176,11 +245,11 @@ TEST_CASE("cli sweep: shares that contradict each other are not merged") {
   // The same sweep of a scene that ends earlier, passed off as a share.
   shell.write("belt.toml", belt(4));
   REQUIRE(shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "-o", "short"}).code == 0);
-  fs::copy_file(shell / "short/rows/000003.json", shell / "two/rows/000003.json",
-                fs::copy_options::overwrite_existing);
+  fs::copy_file(shell / "short/rows.jsonl", shell / "two/rows.jsonl", fs::copy_options::overwrite_existing);
   const Ending ending = merge();
   CHECK(ending.code == 6);
-  CHECK(has(ending.err, "two/rows/000003.json: contradicts"));
+  CHECK_MESSAGE(has(ending.err, "two/rows.jsonl: line "), ending.err);
+  CHECK(has(ending.err, "contradicts another share's row 1"));
 }
 
 TEST_CASE("cli: a gnuplot that floods is ended, and the run is there") {

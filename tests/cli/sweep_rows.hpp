@@ -2,6 +2,8 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "program.hpp"
 
@@ -14,6 +16,16 @@ inline const std::string vary = "contacts.belt.friction.static=1:2:0.25";  // fi
   nlohmann::json list = nlohmann::json::parse(shell.read(directory + "/results.json"))["rows"];
   for (nlohmann::json& row : list) row.erase("wall_time");
   return list;
+}
+
+/// The line of rows.jsonl that holds row n, from 1, with its end: the last of them; empty where none does.
+[[nodiscard]] inline std::string line_of(const Shell& shell, const std::string& directory, int n) {
+  if (!exists(shell, directory + "/rows.jsonl")) return "";
+  std::istringstream rows(shell.read(directory + "/rows.jsonl"));
+  std::string found;
+  for (std::string line; std::getline(rows, line);)
+    if (line.starts_with("{\"row\":" + std::to_string(n) + ",")) found = line + "\n";
+  return found;
 }
 
 /// A block of 2 kg that slides at v on a floor, pressed by 10 N with friction 0.5: it stops after v^2 / 5.

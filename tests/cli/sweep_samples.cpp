@@ -1,10 +1,15 @@
 // Answers as columns, samples and their quantiles.
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "sweep_rows.hpp"
 
@@ -13,11 +18,24 @@ using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
 using signorini::cli_test::exists;
 using signorini::cli_test::has;
+using signorini::cli_test::line_of;
 using signorini::cli_test::on_path;
 using signorini::cli_test::rows;
 using signorini::cli_test::Shell;
 using signorini::cli_test::sliding_block;
 using signorini::cli_test::vary;
+
+namespace {
+
+/// The first process that a process has started; 0: none now.
+pid_t child_of(pid_t process) {
+  std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", process));
+  pid_t first = 0;
+  children >> first;
+  return first;
+}
+
+}  // namespace
 
 TEST_SUITE_BEGIN("cli/sweep_samples");
 
@@ -183,23 +201,16 @@ TEST_CASE("cli sweep: a killed sweep goes on with the same samples; a row that c
                                             "--jobs",     "2",
                                             "--no-plots", "--quiet",
                                             "--set",      "run.rtol=1e-11"};
-  const auto child_of = [](pid_t process) {
-    std::ifstream children("/proc/" + std::to_string(process) + "/task/" + std::to_string(process) +
-                           "/children");
-    pid_t first = 0;
-    children >> first;
-    return first;
-  };
-  const auto started = [&](const char* file) {
+  const auto started = [&](int row) {
     const pid_t child = shell.start(command);
-    for (int i = 0; i < 600 && !exists(shell, file); ++i)
+    for (int i = 0; i < 600 && line_of(shell, "belt-sweep", row).empty(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return child;
   };
-  const pid_t killed = started("belt-sweep/rows/000001.json");
+  const pid_t killed = started(1);
   kill(killed, SIGKILL);
   (void)shell.wait(killed);
-  const pid_t hurt = started("belt-sweep/rows/000003.json");
+  const pid_t hurt = started(3);
   if (const pid_t worker = child_of(hurt); worker > 0) kill(worker, SIGKILL);
   CHECK(shell.wait(hurt).code == 0);
   const json first = rows(shell, "belt-sweep");
@@ -218,6 +229,46 @@ TEST_CASE("cli sweep: a killed sweep goes on with the same samples; a row that c
   REQUIRE(shell.run(whole).code == 0);
   CHECK(rows(shell, "belt-sweep") == rows(shell, "whole"));
   CHECK(shell.read("belt-sweep/quantiles.csv") == shell.read("whole/quantiles.csv"));
+}
+
+TEST_CASE("cli sweep: where a process dies within rows that go on from each other, those before stay") {
+  const Shell shell;
+  shell.write("belt.toml", belt(200));
+  const auto command = [](int count, const char* directory) {
+    return std::vector<std::string>{
+        "sweep",   "belt.toml",
+        "--vary",  fmt::format("contacts.belt.friction.static=1.2:{}:0.01", 1.195 + 0.01 * count),
+        "--carry", "--no-plots",
+        "--quiet", "-o",
+        directory};
+  };
+  constexpr int all = 80;
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  REQUIRE(shell.run(command(8, "few")).code == 0);
+  const auto for_some = Clock::now() - begin;  // long enough for some rows of many
+  const pid_t child = shell.start(command(all, "hurt"));
+  std::this_thread::sleep_for(for_some);
+  const pid_t worker = child_of(child);
+  REQUIRE(worker > 0);
+  kill(worker, SIGKILL);
+  CHECK(shell.wait(child).code == 0);
+  const json hurt = rows(shell, "hurt");
+  REQUIRE(hurt.size() == all);
+  std::size_t done = 0;
+  while (done < hurt.size() && hurt[done]["outcome"] == "done") ++done;
+  CHECK(done > 0);
+  CHECK(done < hurt.size());
+  for (std::size_t i = done; i < hurt.size(); ++i) {
+    CHECK(hurt[i]["outcome"] == "crashed");
+    CHECK(has(hurt[i]["reason"].get<std::string>(), "signal 9"));
+  }
+  // The same command computes the chain from its start.
+  REQUIRE(shell.run(command(all, "hurt")).code == 0);
+  REQUIRE(shell.run(command(all, "whole")).code == 0);
+  const json again = rows(shell, "hurt"), whole = rows(shell, "whole");
+  CHECK(again == whole);
+  for (std::size_t i = 0; i < done; ++i) CHECK(hurt[i] == whole[i]);
 }
 
 TEST_CASE("cli sweep: what is wrong with queries and samples is told before anything is written") {
@@ -279,10 +330,15 @@ TEST_CASE(
   CHECK(other.code == 6);
   CHECK_MESSAGE(has(other.err, "has another content now"), other.err);
   REQUIRE(before("0.1").code == 0);
-  shell.write("swept/rows/000021.json", shell.read("swept/rows/000001.json"));
+  std::vector<std::string> longer = sweep;
+  longer[3] += ",0.4";
+  longer.back() = "longer";
+  REQUIRE(shell.run(longer).code == 0);
+  shell.write("swept/rows.jsonl", shell.read("swept/rows.jsonl") + line_of(shell, "longer", 3));
   const Ending beyond = shell.run(sweep);
   CHECK(beyond.code == 6);
-  CHECK_MESSAGE(has(beyond.err, "000021.json: is no row of this sweep, which has 2"), beyond.err);
+  CHECK_MESSAGE(has(beyond.err, "rows.jsonl: line 3: row 3 is no row of this sweep, which has 2"),
+                beyond.err);
 }
 
 TEST_SUITE_END();

@@ -61,15 +61,15 @@ class Folder {
 
 /// Only names that a run or a sweep has.
 bool is_known(const std::string& name) {
-  for (const char* known : {"events.csv", "history.csv", "contacts.csv", "energy.csv", "frames.csv",
-                            "motion.csv", "curves.csv", "loads.csv", "frame_contacts.csv", "summary.json",
-                            "sweep.json", "rows/000001.json", "rows/000002.json"})
+  for (const char* known :
+       {"events.csv", "history.csv", "contacts.csv", "energy.csv", "frames.csv", "motion.csv", "curves.csv",
+        "loads.csv", "frame_contacts.csv", "summary.json", "sweep.json", "rows.jsonl"})
     if (name == known) return true;
   return false;
 }
 
 void unpack(std::string_view bytes, const fs::path& folder) {
-  fs::create_directories(folder / "rows");
+  fs::create_directories(folder);
   std::istringstream in{std::string(bytes)};
   std::ofstream file;
   for (std::string line; std::getline(in, line);) {

@@ -29,13 +29,13 @@ sweep=("$program" sweep belt.toml --set run.engine=exact --vary 'contacts.belt.f
 
 fail() { echo "cluster.sh: $*" >&2; exit 1; }
 
-# Rows without what a clock says of them, in their order.
-rows() { sed -E 's/"wall_time": [^,]*,//; s/"checksum": .*//' "$1"/rows/*.json; }
+# Rows without what a clock says of them, in their order: a line has {"row":3, first.
+rows() { sed -E 's/"wall_time":[^,]*,//; s/,"checksum":.*//' "$1"/rows.jsonl | sort -t : -k 2n; }
 
 # compare NAME: the shares NAME-*, joined, are the sweep.
 compare() {
   "$program" sweep --merge "$1"-*-of-* -o "$1" --no-plots --quiet || fail "$1: shares do not join"
-  [[ $(ls "$1"/rows | wc -l) == 21 ]] || fail "$1: rows are missing"
+  [[ $(wc -l <"$1"/rows.jsonl) == 21 ]] || fail "$1: rows are missing"
   cmp <(rows alone) <(rows "$1") || fail "$1: rows differ"
   echo "cluster.sh: $1: 21 rows in $(ls -d "$1"-*-of-* | wc -l) shares, the bytes of one sweep"
 }

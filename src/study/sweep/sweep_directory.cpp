@@ -22,13 +22,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int format = 2;  // of the directory; in the first one each row had a file
+constexpr const char* rows_name = "rows.jsonl";
+
 Json spec_json(const SweepSpec& spec) {
-  Json json = {{"sweep", 1},
-               {"signorini", version},
-               {"scene", spec.scene},
-               {"fingerprint", spec.fingerprint},
-               {"title", spec.title},
-               {"units", units_json(spec.units)},
+  Json json = {{"sweep", format},          {"signorini", version},
+               {"scene", spec.scene},      {"fingerprint", spec.fingerprint},
+               {"title", spec.title},      {"units", units_json(spec.units)},
                {"settings", spec.settings}};
   json["vary"] = Json::array();
   for (const Vary& vary : spec.vary)
@@ -77,18 +77,10 @@ void check_directory(const fs::path& path) {
     throw FileError(path.string(), "is not empty and holds no sweep (no sweep.json) to go on with");
 }
 
-/// As row_file() and run_directory() number them: six digits, more only where they are needed.
+/// As run_directory() numbers them: six digits, more only where they are needed.
 bool is_row_number(const std::string& text) {
   return text.size() >= 6 && text.find_first_not_of("0123456789") == std::string::npos &&
          (text.size() == 6 || text[0] != '0');
-}
-
-bool is_row_file(const fs::directory_entry& entry) {
-  const fs::path name = entry.path().filename();
-  const bool draft = name.extension() == ".part";  // of a sweep that was killed
-  const fs::path row = draft ? name.stem() : name;
-  return entry.symlink_status().type() == fs::file_type::regular && row.extension() == ".json" &&
-         is_row_number(row.stem().string());
 }
 
 /// A folder of the sweep's own; what a link leads to is somebody else's.
@@ -98,17 +90,6 @@ bool is_own_folder(const fs::path& path) {
   if (!fs::exists(status)) return false;
   if (fs::is_directory(status)) return true;
   throw FileError(path.string(), "is no folder of a sweep; --force removes nothing there");
-}
-
-std::vector<fs::path> old_rows(const fs::path& rows) {
-  std::vector<fs::path> files;
-  if (!is_own_folder(rows)) return files;
-  for (const auto& entry : fs::directory_iterator(rows)) {
-    if (!is_row_file(entry))
-      throw FileError(entry.path().string(), "is no row of a sweep; --force removes nothing beside it");
-    files.push_back(entry.path());
-  }
-  return files;
 }
 
 /// Folders with other files than those of a run stay with them.
@@ -125,13 +106,13 @@ std::vector<fs::path> old_runs(const fs::path& runs) {
 /// Only what a sweep writes. Looks at everything before it removes anything.
 void remove_old(const fs::path& path) {
   std::error_code error;
-  std::vector<fs::path> ours = old_rows(path / "rows");
+  std::vector<fs::path> ours;
   for (const fs::path& run : old_runs(path / "runs")) {
     remove_run(run);
     if (fs::is_empty(run, error)) ours.push_back(run);
   }
-  for (const char* name :
-       {"sweep.csv", "results.json", "quantiles.csv", "exceedance.csv", "strobe.csv", "report.html"})
+  for (const char* name : {rows_name, "sweep.csv", "results.json", "quantiles.csv", "exceedance.csv",
+                           "strobe.csv", "report.html"})
     ours.push_back(path / name);
   for (const fs::path& file : ours) {
     fs::remove(file, error);
@@ -158,55 +139,44 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
   } else if (force) {
     remove_old(path_);
   }
-  make_directory(path_ / "rows");
-  check_rows();
+  for (auto& [index, found] : rows_in(path_ / rows_name)) rows_[index] = std::move(found.row);
   write_file(path_ / "sweep.json", json_text(spec_json(spec_)));
-  read_rows();
-}
-
-fs::path SweepDirectory::row_file(std::size_t index) const {
-  return path_ / "rows" / fmt::format("{:06}.json", index + 1);
+  file_.emplace(path_ / rows_name);
 }
 
 fs::path SweepDirectory::run_directory(std::size_t index) const {
   return path_ / "runs" / fmt::format("{:06}", index + 1);
 }
 
-void SweepDirectory::check_rows() const {
-  for (const auto& entry : fs::directory_iterator(path_ / "rows")) {
-    if (!is_row_file(entry)) continue;
-    const fs::path& file = entry.path();
-    const auto number = parse_integer(file.stem().string());
-    if (number && static_cast<std::size_t>(*number) > points_.size())
-      throw FileError(file.string(), fmt::format("is no row of this sweep, which has {}", points_.size()));
+std::map<std::size_t, NumberedRow> SweepDirectory::rows_in(const fs::path& file) const {
+  std::map<std::size_t, NumberedRow> rows = read_rows(file);
+  for (const auto& [index, found] : rows) {
+    const auto wrong = [&](const std::string& what) {
+      return FileError(file.string(), fmt::format("line {}: row {} is {}", found.line, index + 1, what));
+    };
+    if (index >= points_.size())
+      throw wrong(fmt::format("no row of this sweep, which has {}", points_.size()));
+    if (!spec_.share.holds(index)) throw wrong("not of share " + spec_.share.text());
+    const auto& point = points_[index];
+    bool ours = found.row.values.size() == point.size();
+    for (std::size_t i = 0; ours && i < point.size(); ++i) ours = found.row.values[i] == point[i].value;
+    if (!ours) throw wrong("not the row of this sweep with that number");
   }
+  // Another try may fare better.
+  std::erase_if(rows, [](const auto& entry) { return entry.second.row.outcome == "crashed"; });
+  return rows;
 }
 
-void SweepDirectory::read_rows() {
-  std::error_code error;
-  for (std::size_t index = 0; index < points_.size(); ++index) {
-    if (!spec_.share.holds(index) || !fs::exists(row_file(index), error)) continue;
-    take(index);
-    if (rows_.at(index).outcome == "crashed") rows_.erase(index);  // another try may fare better
+void SweepDirectory::add(const SweepRow& row) { add(row_line(row)); }
+
+void SweepDirectory::add(const std::string& lines) {
+  file_->append(lines);
+  for (std::size_t begin = 0, end = 0; begin < lines.size(); begin = end + 1) {
+    end = lines.find('\n', begin);
+    SweepRow row = parse_row(lines.substr(begin, end - begin));
+    const std::size_t index = row.index;
+    rows_[index] = std::move(row);
   }
-}
-
-void SweepDirectory::take(std::size_t index) { rows_[index] = row_of_sweep(row_file(index), index); }
-
-void SweepDirectory::take(std::size_t index, const std::string& text) { rows_[index] = parse_row(text); }
-
-SweepRow SweepDirectory::row_of_sweep(const fs::path& file, std::size_t index) const {
-  SweepRow row = read_row(file);
-  const auto& point = points_.at(index);
-  bool ours = row.index == index && row.values.size() == point.size();
-  for (std::size_t i = 0; ours && i < point.size(); ++i) ours = row.values[i] == point[i].value;
-  if (!ours) throw FileError(file.string(), "is not the row of this sweep with that number");
-  return row;
-}
-
-void SweepDirectory::add(const SweepRow& row) {
-  write_file(row_file(row.index), row_text(row));
-  rows_[row.index] = row;
 }
 
 void SweepDirectory::write_table() const { write_file(path_ / "sweep.csv", sweep_csv(spec_, rows_)); }
@@ -223,6 +193,9 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
   if (!stream) throw FileError(file.string(), "cannot be read; expected the directory of a sweep");
   try {
     const Json json = parse_json(stream);
+    if (json.at("sweep") != format)
+      throw FileError(file.string(),
+                      "is of an earlier version of Signorini; choose another directory, or use --force");
     SweepSpec spec;
     spec.scene = json.at("scene");
     spec.fingerprint = json.at("fingerprint");
@@ -288,17 +261,14 @@ std::vector<std::size_t> merge_sweeps(const std::vector<fs::path>& from, SweepDi
     const SweepSpec spec = read_sweep_spec(directory);
     const std::string differs = difference(to.spec(), spec);
     if (!differs.empty()) throw FileError(directory.string(), "is no share of the same sweep: " + differs);
-    std::error_code error;
-    for (std::size_t index = 0; index < count; ++index) {
-      const fs::path file = directory / "rows" / to.row_file(index).filename();
-      if (!fs::exists(fs::symlink_status(file, error))) continue;
-      const SweepRow row = to.row_of_sweep(file, index);
-      if (row.outcome == "crashed") continue;
+    const fs::path file = directory / rows_name;
+    for (const auto& [index, found] : to.rows_in(file)) {
       const auto known = to.rows().find(index);
       if (known == to.rows().end())
-        to.add(row);
-      else if (!same_result(known->second, row))
-        throw FileError(file.string(), "contradicts another share's row of that number");
+        to.add(found.row);
+      else if (!same_result(known->second, found.row))
+        throw FileError(file.string(),
+                        fmt::format("line {} contradicts another share's row {}", found.line, index + 1));
     }
   }
   std::vector<std::size_t> missing;

@@ -1,7 +1,7 @@
 // sweep_directory.hpp: a sweep on disk, that can be stopped, resumed, shared out and merged.
 //
 //   DIR/sweep.json        what is swept; a directory is continued only with the same
-//   DIR/rows/000001.json  a finished row each, written whole or not at all
+//   DIR/rows.jsonl        the finished rows as they came (row_file.hpp)
 //   DIR/sweep.csv         the table of the finished rows, renewed as they come
 //   DIR/results.json      the same as JSON, at the end
 //   DIR/strobe.csv        the points of a stroboscopic sweep, at the end (strobe_files.hpp)
@@ -10,10 +10,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "result/directory_lock.hpp"
+#include "study/sweep/row_file.hpp"
 #include "study/sweep/share.hpp"
 #include "study/sweep/sweep_row.hpp"
 #include "study/sweep/vary.hpp"
@@ -67,31 +69,25 @@ class SweepDirectory {
   [[nodiscard]] const std::vector<std::vector<Override>>& points() const { return points_; }
   /// Finished rows by index.
   [[nodiscard]] const std::map<std::size_t, SweepRow>& rows() const { return rows_; }
-  [[nodiscard]] std::filesystem::path row_file(std::size_t index) const;
   [[nodiscard]] std::filesystem::path run_directory(std::size_t index) const;
 
-  /// A row from a file, of this sweep or of a share of it. Errors: also where it has been altered or is the
-  /// row of another number.
-  [[nodiscard]] SweepRow row_of_sweep(const std::filesystem::path& file, std::size_t index) const;
-  /// Takes the row that has been written to row_file(index): from there, or from the same text.
-  void take(std::size_t index);
-  void take(std::size_t index, const std::string& text);
-  /// Writes a row and takes it.
+  /// The rows of another directory of this sweep, or of a share of it; those that crashed are left out. Errors: also where
+  /// one is altered or is no row of this sweep.
+  [[nodiscard]] std::map<std::size_t, NumberedRow> rows_in(const std::filesystem::path& file) const;
+  /// Writes a row, or lines of row_line(), and takes them.
   void add(const SweepRow& row);
+  void add(const std::string& lines);
   /// sweep.csv and, at the end, results.json.
   void write_table() const;
   void write_results() const;
 
  private:
-  void read_rows();
-  /// Refuses rows beyond the last one.
-  void check_rows() const;
-
   std::filesystem::path path_;
   SweepSpec spec_;
   std::vector<std::vector<Override>> points_;
   std::map<std::size_t, SweepRow> rows_;
   DirectoryLock lock_;
+  std::optional<RowFile> file_;
 };
 
 /// DIR/sweep.json. Errors: FileError where there is no sweep.

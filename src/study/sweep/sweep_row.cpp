@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "base/fingerprint.hpp"
-#include "base/input_file.hpp"
 #include "base/json.hpp"
 #include "scene/saved_state.hpp"
 #include "signorini/simulate.hpp"
@@ -208,35 +206,33 @@ SweepRow row_of(const Json& json) {
 
 std::string row_json(const SweepRow& row) { return json_text(json_of(row)); }
 
-std::string row_text(const SweepRow& row) {
-  Json json = json_of(row);
-  json["checksum"] = fingerprint_of(json_line(json));
-  return json_text(json);
+namespace {
+
+// Before the end of a line; quotes within texts are escaped, so it stands once.
+constexpr const char* checksum_key = ",\"checksum\":\"";
+
+}  // namespace
+
+std::string row_line(const SweepRow& row) {
+  std::string line = json_line(json_of(row));
+  const std::string checksum = fingerprint_of(line);
+  line.pop_back();
+  return line + checksum_key + checksum + "\"}\n";
 }
 
-SweepRow parse_row(const std::string& text) { return row_of(parse_json(text)); }
+bool is_unaltered(const std::string& line) {
+  const std::size_t end = line.rfind(checksum_key);
+  if (end == std::string::npos) return false;
+  const std::string row = line.substr(0, end) + "}";
+  return line.substr(end) == checksum_key + fingerprint_of(row) + "\"}";
+}
+
+SweepRow parse_row(const std::string& line) { return row_of(parse_json(line)); }
 
 bool same_result(const SweepRow& a, const SweepRow& b) {
   SweepRow other = b;
   other.wall_time = a.wall_time;
   return row_json(a) == row_json(other);
-}
-
-SweepRow read_row(const std::filesystem::path& file) {
-  if (const std::string why = why_no_input_file(file); !why.empty())
-    throw FileError(file.string(), why + ", expected a row of a sweep");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file.string(), "cannot be read");
-  try {
-    Json json = parse_json(stream);
-    const std::string checksum = json.at("checksum");
-    json.erase("checksum");
-    if (checksum != fingerprint_of(json_line(json)))
-      throw FileError(file.string(), "has been altered since it was written");
-    return row_of(json);
-  } catch (const Json::exception& error) {
-    throw FileError(file.string(), std::string("is not a row of a sweep: ") + error.what());
-  }
 }
 
 }  // namespace signorini

@@ -79,13 +79,13 @@ struct RowTask {
 [[nodiscard]] SweepRow compute_row(const RowTask& task, std::optional<SavedState>& carried);
 
 [[nodiscard]] std::string row_json(const SweepRow& row);
-/// The same as a file: with a checksum, so that what somebody has altered is not taken for a result.
-[[nodiscard]] std::string row_text(const SweepRow& row);
-/// From row_text(), unseen by anybody since.
-[[nodiscard]] SweepRow parse_row(const std::string& text);
+/// The same as a line of a file, with its end: with a checksum, so that what somebody has altered is not taken for a result.
+[[nodiscard]] std::string row_line(const SweepRow& row);
+/// A line, without its end, as row_line() made it.
+[[nodiscard]] bool is_unaltered(const std::string& line);
+/// From such a line. Errors: Json::exception.
+[[nodiscard]] SweepRow parse_row(const std::string& line);
 /// Alike but for the time that they took.
 [[nodiscard]] bool same_result(const SweepRow& a, const SweepRow& b);
-/// Errors: FileError, also where the checksum does not fit.
-[[nodiscard]] SweepRow read_row(const std::filesystem::path& file);
 
 }  // namespace signorini

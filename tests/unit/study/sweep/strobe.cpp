@@ -246,7 +246,7 @@ TEST_CASE("strobe: a period that is none of the loads is doubted, a multiple of 
 
 TEST_CASE("strobe: rows keep their points on disk") {
   const SweepRow row = row_of(oscillator, "0.7");
-  const SweepRow again = parse_row(row_text(row));
+  const SweepRow again = parse_row(row_line(row));
   REQUIRE(again.points.size() == row.points.size());
   for (std::size_t k = 0; k < row.points.size(); ++k) {
     CHECK(again.points[k].t == row.points[k].t);

@@ -189,8 +189,6 @@ Specified specify(const SweepOptions& options) {
         spec.response_units.push_back(unit_of(query, model));
       }
       return specified;
-    } catch (const FileError&) {
-      throw;
     } catch (const Error& error) {
       if (!first) first = error;
     }
@@ -277,10 +275,15 @@ bool run_rows(SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& 
       tasks.list(), jobs_of(options),
       [&](std::size_t first, const Tell& tell) { return tasks.work(first, tell); }, ended,
       [&](std::size_t running) { progress.idle(running); });
-  if (file_error > 0)
+  if (file_error > 0) {
+    try {
+      directory.write_table();
+    } catch (const FileError&) {  // the rows themselves are kept
+    }
     throw Error(ExitCode::file,
                 fmt::format("the sweep stopped where a file could not be written; {} kept in {}",
                             count_of(directory.rows().size(), "row"), directory.path().string()));
+  }
   return whole;
 }
 

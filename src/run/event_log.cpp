@@ -8,6 +8,7 @@
 
 #include "base/rounding.hpp"
 #include "contact/motion.hpp"
+#include "decide/release.hpp"
 #include "model/said.hpp"
 #include "run/physical.hpp"
 
@@ -43,6 +44,11 @@ void settle(const Contact& contact, double error, Event& event) {
   if (event.type != EventType::separation || !vanishes(event.N)) return;
   event.N = event.T = 0.0;
   if (event.gap && vanishes(contact.normal_stiffness * *event.gap)) event.gap = 0.0;
+}
+
+/// Its sliding point can be elsewhere at once: it has no mass, or hangs on a spring.
+bool can_slide_at_once(const Model& model, const Contact& contact) {
+  return !contact.takes_impulses() && (!contact.sticks_rigidly() || carries_massless(model, contact));
 }
 
 /// As events name states: at the limit is slip, whether others hold it there or not.
@@ -116,7 +122,7 @@ void EventLog::instant(const Instant& now, const Stepper& stepper) {
   for (std::size_t k = 0; k < now.before->size(); ++k) {
     const State from = in_events((*now.before)[k].state), to = in_events(decision.mode[k].state);
     const bool let_go = from == State::stick && decision.visited[k] && decision.jumped[k] &&
-                        !model_.contacts[k].takes_impulses();
+                        can_slide_at_once(model_, model_.contacts[k]);
     auto type = is_hit(decision, k) ? std::optional(EventType::impact) : classify(from, to, let_go);
     if (!type && now.load_jumps && decision.jumped[k]) type = EventType::time;
     if (type) contact(now, k, *type, stepper);

@@ -327,6 +327,31 @@ TEST_CASE("newmark: a ball comes to rest on what rests") {
   CHECK(result.events.size() < 400);
 }
 
+// Stiff modes force 16,500 steps within the last slip of `s1`. One tolerance for each made 7e-4 m/s, and its turn by 2e-4 m/s
+// was taken for rounding: it went on sliding against its friction.
+TEST_CASE("ida: a slip that stiff modes part into many steps ends where it ends") {
+  const auto run = [](const char* engine, const char* rtol) {
+    const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/decisions/many-steps.toml",
+                                   {{"run.engine", engine}, {"run.rtol", rtol}});
+    return simulate(build_model(scene), scene.run);
+  };
+  const Result exact = run("exact", "1e-8");
+  REQUIRE(exact.events.size() == 206);
+  CHECK(exact.events.back().t == doctest::Approx(0.07471149116).epsilon(1e-9));
+  for (const char* rtol : {"1e-7", "1e-8"}) {
+    CAPTURE(rtol);
+    const Result ida = run("ida", rtol);
+    CAPTURE(ida.report.outcome.reason);
+    CHECK(ida.report.outcome.kind == Outcome::Kind::done);
+    REQUIRE(ida.events.size() == exact.events.size());
+    for (std::size_t i = 0; i < ida.events.size(); ++i) {
+      CHECK(ida.events[i].contact == exact.events[i].contact);
+      CHECK(ida.events[i].type == exact.events[i].type);
+      CHECK(std::abs(ida.events[i].t - exact.events[i].t) < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("ida: slips slower than its tolerance are named with the key that finds them") {
   const std::string path = SIGNORINI_TEST_DATA "/scenes/decisions/slow-slips.toml";
   const auto run = [&](std::vector<Override> changes) {

@@ -127,6 +127,26 @@ TEST_CASE("a slider that sticks rigidly is not let go by the rounding of a hit")
   }
 }
 
+TEST_CASE("a rigid slider that moves for less than the clock resolves has no row of it, and breaks no law") {
+  for (const char* engine : {"exact", "ida"}) {
+    CAPTURE(engine);
+    const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/decisions/slider-beside-chatter.toml",
+                                   {{"run.engine", engine}});
+    const Result result = simulate(build_model(scene), scene.run);
+    CHECK(result.report.outcome.kind == Outcome::Kind::done);
+    CHECK(result.report.witness.violated == 0);
+    CHECK(result.events.size() > 600);
+    State last = State::stick;  // of s2
+    for (const Event& e : result.events) {
+      if (e.contact != 2) continue;
+      CAPTURE(e.t);
+      CHECK(e.from == last);
+      CHECK(e.to != e.from);
+      last = e.to;
+    }
+  }
+}
+
 TEST_CASE(
     "a contact that comes to its own limit slips, though another that slips with it would have relieved it") {
   // Static friction is above the kinetic one: c15 lets go at its static limit, c16 follows by the drop.

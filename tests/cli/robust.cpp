@@ -227,6 +227,7 @@ TEST_CASE(
   const std::string kept = shell.read("belt-sweep/rows.jsonl");
   CHECK(kept.size() > 1000);
   CHECK(kept.back() == '\n');
+  CHECK(signorini::cli_test::lines(shell.read("belt-sweep/sweep.csv")) > 1);
   const Ending again = shell.run(command);
   CHECK(again.code == 0);
   CHECK(has(again.err, std::to_string(signorini::cli_test::lines(kept)) + " rows of 21 there already"));

@@ -108,6 +108,27 @@ TEST_CASE("cli sweep: where every run is refused the sweep is, by the code of a 
   CHECK(list[1]["outcome"] == "refused");
 }
 
+TEST_CASE("cli sweep: a run whose file is not there is refused, and costs no other") {
+  const Shell shell;
+  shell.write("there.csv", "t,value\n0,0\n1,2\n2,0\n");
+  shell.write("pushed.toml", sliding_block +
+                                 "[[loads]]\nnode = \"block\"\ndirection = [1.0, 0.0]\namplitude = 3.0\n"
+                                 "history = { type = \"table\", file = \"there.csv\" }\n");
+  for (const char* order : {"there.csv,gone.csv", "gone.csv,there.csv"}) {
+    CAPTURE(order);
+    const Ending ending = shell.run({"sweep", "pushed.toml", "--vary",
+                                     std::string("loads.1.history.file=") + order, "--no-plots", "--force"});
+    CHECK_MESSAGE(ending.code == 0, ending.err);
+    const json list = rows(shell, "pushed-sweep");
+    REQUIRE(list.size() == 2);
+    for (const json& row : list) {
+      const bool there = row["values"][0] == "there.csv";
+      CHECK(row["outcome"] == (there ? "done" : "refused"));
+      CHECK(has(row["reason"].get<std::string>(), there ? "" : "gone.csv"));
+    }
+  }
+}
+
 TEST_CASE("cli sweep: resumes where it was; a differing specification is refused") {
   const Shell shell;
   shell.write("belt.toml", belt(10));

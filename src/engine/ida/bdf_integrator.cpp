@@ -385,6 +385,12 @@ void BdfIntegrator::evaluate(double t, Point& point) {
   m_->problem.read(NV_DATA_S(m_->y), NV_DATA_S(m_->yp), point);
 }
 
+void BdfIntegrator::correction(Point& point) {
+  check(IDAGetEstLocalErrors(m_->ida, m_->work), "IDAGetEstLocalErrors");
+  const double* e = NV_DATA_S(m_->work);
+  m_->problem.read(e, e, point);
+}
+
 double BdfIntegrator::residual() {
   // The formula's own derivative, y' = y'_predicted + cj (y - y_predicted): IDA returns that of the
   // interpolating polynomial instead, which does not satisfy the equations.

@@ -43,6 +43,9 @@ class BdfIntegrator {
   Rehearsal start(const Segment& segment, const Jet& jet, const Watch& watch);
   [[nodiscard]] BdfStep advance();
   void evaluate(double t, Point& point);
+  /// What the corrector has changed in the last step, from which IDA estimates the step's error: above the error, of which
+  /// it is at most k + 1 times, k the step's order.
+  void correction(Point& point);
   [[nodiscard]] double residual();
   void count();
 

@@ -57,6 +57,7 @@ class IdaEngine final : public Stepper {
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
   [[nodiscard]] bool opens_instead(const Located& slip, const Located& opening, double x, double h) const;
   [[nodiscard]] bool only_touches(std::size_t slot, double x) const;
+  void add_errors();
   [[nodiscard]] double allowance(std::size_t slot) const;
 
   const Model& model_;
@@ -76,12 +77,13 @@ class IdaEngine final : public Stepper {
   std::optional<Step> flight_;  // the step that a short flight has taken
   Segment segment_;
   Jet jet_;  // whole, where the decision's is not
-  Point point_;
+  Point point_, correction_;
   std::vector<double> integrals_;
-  bool accelerations_ = false;  // a guard needs them
-  bool consistently_ = false;   // points of the segment are made consistent
-  long steps_ = 0;              // of the segment
-  bool touched_ = false;        // has been said
+  bool accelerations_ = false;          // a guard needs them
+  bool consistently_ = false;           // points of the segment are made consistent
+  std::vector<std::size_t> touchable_;  // guards that began at zero
+  std::vector<double> off_;             // what the steps of the segment have been off in each of these
+  bool touched_ = false;                // has been said
 };
 
 }  // namespace signorini

@@ -98,10 +98,13 @@ std::optional<double> SweepRow::response(std::size_t i) const {
 
 namespace {
 
-PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) {
+/// A file that cannot be read refuses this run; one that cannot be written ends the sweep.
+PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) try {
   Scene scene = parse_scene(task.text, task.scene, task.changes);
   if (carried != nullptr && *carried) scene.initial = {.saved = **carried};
   return prepare_run(std::move(scene), std::nullopt);
+} catch (const FileError& error) {
+  throw Error(error.code(), error.what());
 }
 
 SweepRow computed(const RowTask& task, std::optional<SavedState>* carried) {

@@ -1,4 +1,7 @@
 #include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
 
 #include "behaviour/scene_parts.hpp"
 #include "unit/model/scenes.hpp"
@@ -36,6 +39,26 @@ TEST_SUITE("unit/model/scales") {
                                "\nhistory = " + history + "\n",
                            "test.toml"))
         .scales;
+  }
+
+  TEST_CASE("a body that can only turn counts with its inertia over the length of the structure squared") {
+    for (const double angle : {0.0, 0.7}) {
+      CAPTURE(angle);
+      const double c = std::cos(angle), s = std::sin(angle);
+      const Scales scales =
+          build_model(parse_scene(tests::parts::head +
+                                      "[run]\nt_end = 1.0\ninitial = { A = { wz = 0.3 } }\n" +
+                                      tests::parts::nodes({{"A", 0, 0}, {"B", 2 * c, 2 * s}}) +
+                                      fmt::format("[[rigid]]\nname = \"body\"\nnodes = [\"B\"]\n"
+                                                  "centre = \"A\"\nmass = 5.0\ninertia = 12.0\n") +
+                                      tests::parts::fixed("A", "ux, uy") +
+                                      tests::parts::spring("B", fmt::format("[{}, {}]", -s, c), 100.0),
+                                  "test.toml"))
+              .scales;
+      // 12 / 2^2 in place of a mass; omega^2 = 100 2^2 / 12
+      CHECK(scales.force == doctest::Approx(3.0 * (400.0 / 12.0) * scales.displacement).epsilon(1e-12));
+      CHECK(scales.displacement > 0.0);
+    }
   }
 
   TEST_CASE("a load that lasts counts with its amplitude, whatever its history") {

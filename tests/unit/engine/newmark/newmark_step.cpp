@@ -57,6 +57,35 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
     }
   }
 
+  TEST_CASE("a part without mass moves by the same formula: its velocity follows from where it stood") {
+    const Model m = build_model(parse_scene(
+        "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+        "1.0\n"
+        "initial = { u = [0.1, 0.0], v = [0.3, 0.0] }\n[matrices]\nmass = [[2.0, 0.0], [0.0, 0.0]]\n"
+        "stiffness = [[30.0, -5.0], [-5.0, 20.0]]\n[[loads]]\ndirection = { d0 = 1.0, d1 = 2.0 }\n"
+        "amplitude = 3.0\nhistory = { type = \"harmonic\", omega = 2.0 }\n",
+        "test.toml"));
+    const Structure structure(m);
+    ModeSystems systems(m, structure);
+    const ModeSystemPtr system = systems.of({});
+    REQUIRE(system);
+    const Forcing forcing(m, 0.0, Side::after);
+    Point from{m.u0, m.v0, Vector::Zero(0)}, to;
+    from.u[1] = 5.0 * from.u[0] / 20.0;  // K u = P of the second row, P(0) = 0
+    ConsistentMotion(systems).make(system, forcing, 0.0, from);
+    NewmarkStep step(m, structure);
+    step.set({}, system->rows());
+    for (double h : {1e-6, 1e-2, 0.5}) {
+      CAPTURE(h);
+      REQUIRE(step.take(forcing, from, h, h, false, to));
+      CHECK(20.0 * to.u[1] == doctest::Approx(5.0 * to.u[0] + 6.0 * std::sin(2.0 * h)).epsilon(1e-13));
+      // u1 = u0 + h (v0 + v1) / 2
+      CHECK(std::abs(from.u[1] + 0.5 * h * (from.v[1] + to.v[1]) - to.u[1]) < 1e-14);
+      CHECK(to.v[1] != 0.0);
+      CHECK(to.a[1] == 0.0);
+    }
+  }
+
   TEST_CASE("a factorisation is kept for a length that comes again in the same states") {
     const Model m = model();
     const Structure structure(m);

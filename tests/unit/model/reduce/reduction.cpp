@@ -389,6 +389,13 @@ TEST_CASE("an initial state that the modes cannot represent is reported") {
   CHECK(fine.reduction->initial_displacement_lost < 1e-12);
   CHECK(fine.reduction->initial_velocity_lost < 1e-9);
   CHECK((fine.reduction->physical(fine.v0) - build_model(scene).v0).cwiseAbs().maxCoeff() < 1e-9);
+  // As much of the opposite state.
+  for (auto& component : scene.initial.components) component.value = -component.value;
+  const Model opposite = build_model(cut(scene, 100.0));
+  CHECK(opposite.reduction->initial_displacement_lost ==
+        doctest::Approx(coarse.reduction->initial_displacement_lost).epsilon(1e-12));
+  CHECK(opposite.reduction->initial_velocity_lost ==
+        doctest::Approx(coarse.reduction->initial_velocity_lost).epsilon(1e-12));
 }
 
 TEST_CASE("gaps of rigid contacts start as they were, also where the state is projected") {

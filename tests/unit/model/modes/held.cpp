@@ -53,6 +53,8 @@ TEST_CASE("held: motions that one contact fixes, two fix in other units, or seve
   same({first, other}, z);
   same({first, again, other}, z);
   same({again, other, first, other}, z);
+  // What is left of a motion that is fixed twice is rounding, of either sign.
+  for (int i = 1; i <= 20; ++i) same({first, {{{0, 0.1 * i}}}, other, {{{4, -0.7 / i}}}}, z);
   Eigen::MatrixXd tight = Eigen::MatrixXd::Zero(5, 2);  // and 0.6 u1 = 0.8 u2
   tight(1, 0) = 0.8;
   tight(2, 0) = 0.6;

@@ -26,7 +26,7 @@ struct WorkerEnd {
   std::string report;  ///< what `work` told and returned; of one that died: what it told
 };
 
-/// Of a task that is not done yet, from its worker: it is kept if the worker dies.
+/// Sends a part of the report before the task is done. It is kept if the worker dies.
 using Tell = std::function<void(const std::string&)>;
 using Work = std::function<std::string(std::size_t task, const Tell&)>;
 

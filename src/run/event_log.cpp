@@ -46,7 +46,7 @@ void settle(const Contact& contact, double error, Event& event) {
   if (event.gap && vanishes(contact.normal_stiffness * *event.gap)) event.gap = 0.0;
 }
 
-/// Its sliding point can be elsewhere at once: it has no mass, or hangs on a spring.
+/// The sliding point can jump: it has no mass, or a spring is between it and the mass.
 bool can_slide_at_once(const Model& model, const Contact& contact) {
   return !contact.takes_impulses() && (!contact.sticks_rigidly() || carries_massless(model, contact));
 }

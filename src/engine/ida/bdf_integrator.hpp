@@ -43,8 +43,8 @@ class BdfIntegrator {
   Rehearsal start(const Segment& segment, const Jet& jet, const Watch& watch);
   [[nodiscard]] BdfStep advance();
   void evaluate(double t, Point& point);
-  /// What the corrector has changed in the last step, from which IDA estimates the step's error: above the error, of which
-  /// it is at most k + 1 times, k the step's order.
+  /// Solution less prediction of the last step: displacements, velocities and forces. IDA estimates the local error from it;
+  /// with equal steps of order k the error is 1/(k + 1) of it.
   void correction(Point& point);
   [[nodiscard]] double residual();
   void count();

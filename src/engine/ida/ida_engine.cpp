@@ -279,7 +279,7 @@ bool IdaEngine::only_touches(std::size_t slot, double x) const {
   return depth <= allowance(slot);
 }
 
-/// Of the last step: what the corrector has changed in a guard, one tolerance at most, which the step has kept.
+/// Adds the corrector's change in each guard that began at zero. A step keeps its tolerance, so one tolerance is the most.
 void IdaEngine::add_errors() {
   if (touchable_.empty()) return;
   bdf_.correction(correction_);
@@ -298,7 +298,7 @@ void IdaEngine::add_errors() {
   }
 }
 
-/// What the steps of the segment may have been off in a guard, and one tolerance for the end.
+/// Possible error of a guard since the segment began: that of its steps, and one tolerance for the last value.
 double IdaEngine::allowance(std::size_t slot) const {
   const auto place = std::lower_bound(touchable_.begin(), touchable_.end(), slot) - touchable_.begin();
   const ContactMotion& motion = segment_.decision->after[contact_of_guard(slot)];

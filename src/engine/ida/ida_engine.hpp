@@ -81,7 +81,7 @@ class IdaEngine final : public Stepper {
   std::vector<double> integrals_;
   bool accelerations_ = false;          // a guard needs them
   bool consistently_ = false;           // points of the segment are made consistent
-  std::vector<std::size_t> touchable_;  // guards that began at zero
+  std::vector<std::size_t> touchable_;  // guards that began at zero, except closing gaps
   std::vector<double> off_;             // what the steps of the segment have been off in each of these
   bool touched_ = false;                // has been said
 };

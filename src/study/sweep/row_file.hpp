@@ -15,25 +15,25 @@
 
 namespace signorini {
 
-/// Rows by index, each with the number of its line, from 1.
+/// A row and the number of its line, from 1.
 struct NumberedRow {
   SweepRow row;
   std::size_t line = 0;
 };
 
-/// Of a file; none where there is no file. Errors: FileError, with the number of the line.
+/// The rows of a file by index; none if the file does not exist. Errors: FileError, with the number of the line.
 [[nodiscard]] std::map<std::size_t, NumberedRow> read_rows(const std::filesystem::path& file);
 
-/// A file that lines are appended to. Errors of all members: FileError.
+/// Appends lines. Errors of all members: FileError.
 class RowFile {
  public:
-  /// Cuts off half a line at the end. The file is no link.
+  /// Cuts off half a line at the end. Refuses a link: it would lead to somebody else's file.
   explicit RowFile(std::filesystem::path path);
   ~RowFile();
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
 
-  /// lines: of row_line(), one or more. What cannot be written whole is cut off again.
+  /// lines: one or more of row_line(). Lines that cannot be written whole are cut off again.
   void append(const std::string& lines);
 
  private:

@@ -55,6 +55,25 @@ TEST_CASE("the first derivative that is not zero decides, and says how clearly")
   CHECK(sign_after(gap(), gap_of({0.5, -0.3, 0.1, 0.0, 0.0}, 1.0), instant, 0).sign == 0);
 }
 
+TEST_CASE(
+    "a guard starts at zero within its noise and what it changes in the resolution of time, on either side") {
+  Instant instant;
+  instant.blur = 2.0;
+  instant.resolution = 1e-3;
+  const auto starts = [&](double value, double rate) {
+    return starts_at_zero(gap(), gap_of({value, rate, 0.0, 0.0, 0.0}, 0.25), instant);
+  };
+  for (const double side : {1.0, -1.0}) {
+    CAPTURE(side);
+    CHECK(starts(0.49 * side, 0.0));
+    CHECK_FALSE(starts(0.51 * side, 0.0));
+    for (const double rate : {100.0, -100.0}) {
+      CHECK(starts(0.59 * side, rate));
+      CHECK_FALSE(starts(0.61 * side, rate));
+    }
+  }
+}
+
 TEST_CASE("what was set to zero is not asked; what was found to rise only whether it clearly falls") {
   const Instant instant;
   const MotionJet jet = gap_of({-7.0, -5.0, 0.4, -50.0, 0.0}, 1.0);

@@ -385,10 +385,12 @@ void BdfIntegrator::evaluate(double t, Point& point) {
   m_->problem.read(NV_DATA_S(m_->y), NV_DATA_S(m_->yp), point);
 }
 
-void BdfIntegrator::correction(Point& point) {
+void BdfIntegrator::keep_correction() {
   check(IDAGetEstLocalErrors(m_->ida, m_->work), "IDAGetEstLocalErrors");
-  const double* e = NV_DATA_S(m_->work);
-  m_->problem.read(e, e, point);
+}
+
+ContactMotion BdfIntegrator::correction(std::size_t contact) const {
+  return m_->problem.change(contact, NV_DATA_S(m_->work));
 }
 
 double BdfIntegrator::residual() {

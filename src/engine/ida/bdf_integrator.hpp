@@ -43,9 +43,11 @@ class BdfIntegrator {
   Rehearsal start(const Segment& segment, const Jet& jet, const Watch& watch);
   [[nodiscard]] BdfStep advance();
   void evaluate(double t, Point& point);
-  /// Solution less prediction of the last step: displacements, velocities and forces. IDA estimates the local error from it;
-  /// with equal steps of order k the error is 1/(k + 1) of it.
-  void correction(Point& point);
+  /// Keeps the correction of the last step: solution less prediction. IDA estimates the local error from it; with equal steps
+  /// of order k the error is 1/(k + 1) of it.
+  void keep_correction();
+  /// N, T, gap, ut, vn, vt of a contact in it; velocities without those of massless parts.
+  [[nodiscard]] ContactMotion correction(std::size_t contact) const;
   [[nodiscard]] double residual();
   void count();
 

@@ -8,6 +8,7 @@
 
 #include "contact/friction.hpp"
 #include "decide/plain_form.hpp"
+#include "decide/release.hpp"
 #include "engine/ida/locate.hpp"
 #include "model/said.hpp"
 #include "motion/clock.hpp"
@@ -105,9 +106,8 @@ void IdaEngine::start(const Segment& segment) {
     // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
     if (guard.at_zero) level += 2.0 * std::abs(decision.form(slot).value(motion));
     levels.push_back(level);
-    if (guard.at_zero && guard.kind != Guard::closing) touchable_.push_back(slot);
+    if (guard.at_zero && guard.kind != Guard::closing) add_touchable(slot);
   }
-  off_.assign(touchable_.size(), 0.0);
   grazes_.start(decision.guards, levels);
   near_hits_.start(decision.guards, levels);
   turns_.start(decision, *segment.forcing);
@@ -279,30 +279,36 @@ bool IdaEngine::only_touches(std::size_t slot, double x) const {
   return depth <= allowance(slot);
 }
 
-/// Adds the corrector's change in each guard that began at zero. A step keeps its tolerance, so one tolerance is the most.
+void IdaEngine::add_touchable(std::size_t slot) {
+  const Decision& decision = *segment_.decision;
+  const std::size_t contact = contact_of_guard(slot);
+  const Form& form = decision.form(slot);
+  const bool by_velocity = form.vn != 0.0 || form.vt != 0.0;
+  const bool known = form.limit == 0.0 && form.limit_rate == 0.0 && form.an == 0.0 && form.at == 0.0 &&
+                     !(by_velocity && carries_massless(model_, model_.contacts[contact]));
+  touchable_.push_back({slot, tolerance(form, decision.after[contact], tolerance_), known, 0.0});
+}
+
+/// Adds the correction of each guard that began at zero. A step keeps its tolerance, so one tolerance is the most, and it
+/// is taken where the correction is not known.
 void IdaEngine::add_errors() {
   if (touchable_.empty()) return;
-  bdf_.correction(correction_);
-  for (std::size_t i = 0; i < touchable_.size(); ++i) {
-    const std::size_t contact = contact_of_guard(touchable_[i]);
-    const Form& form = segment_.decision->form(touchable_[i]);
-    ContactMotion e;
-    e.N = correction_.N(contact);
-    e.T = correction_.T(contact);
-    e.gap = model_.contacts[contact].normal.dot(correction_.u);
-    e.ut = model_.contacts[contact].tangent.dot(correction_.u);
-    e.vn = model_.contacts[contact].normal.dot(correction_.v);
-    e.vt = model_.contacts[contact].tangent.dot(correction_.v);
-    off_[i] +=
-        std::min(std::abs(form.rate(e)), tolerance(form, segment_.decision->after[contact], tolerance_));
+  bdf_.keep_correction();
+  for (Touchable& guard : touchable_) {
+    const double change =
+        guard.known
+            ? std::abs(
+                  segment_.decision->form(guard.slot).rate(bdf_.correction(contact_of_guard(guard.slot))))
+            : guard.tolerance;
+    guard.off += std::min(change, guard.tolerance);
   }
 }
 
 /// Possible error of a guard since the segment began: that of its steps, and one tolerance for the last value.
 double IdaEngine::allowance(std::size_t slot) const {
-  const auto place = std::lower_bound(touchable_.begin(), touchable_.end(), slot) - touchable_.begin();
-  const ContactMotion& motion = segment_.decision->after[contact_of_guard(slot)];
-  return off_[static_cast<std::size_t>(place)] + tolerance(segment_.decision->form(slot), motion, tolerance_);
+  const auto guard = std::lower_bound(touchable_.begin(), touchable_.end(), slot,
+                                      [](const Touchable& g, std::size_t s) { return g.slot < s; });
+  return guard->off + guard->tolerance;
 }
 
 void IdaEngine::integrate(double from, double to, Works& works) {

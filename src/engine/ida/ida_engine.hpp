@@ -50,6 +50,13 @@ class IdaEngine final : public Stepper {
     std::size_t slot;
     double time;
   };
+  /// A guard that began at zero, and is no gap that closes.
+  struct Touchable {
+    std::size_t slot;
+    double tolerance;  // of its value
+    bool known;        // its change in a step follows from N, T, u and v
+    double off;        // possible error of the steps so far
+  };
   [[nodiscard]] bool follows_at_once() const;
   void fill(double t, const Point& point, double* out);
   void remember(const Jet& jet, const Rehearsal& past);
@@ -57,6 +64,7 @@ class IdaEngine final : public Stepper {
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
   [[nodiscard]] bool opens_instead(const Located& slip, const Located& opening, double x, double h) const;
   [[nodiscard]] bool only_touches(std::size_t slot, double x) const;
+  void add_touchable(std::size_t slot);
   void add_errors();
   [[nodiscard]] double allowance(std::size_t slot) const;
 
@@ -77,13 +85,12 @@ class IdaEngine final : public Stepper {
   std::optional<Step> flight_;  // the step that a short flight has taken
   Segment segment_;
   Jet jet_;  // whole, where the decision's is not
-  Point point_, correction_;
+  Point point_;
   std::vector<double> integrals_;
-  bool accelerations_ = false;          // a guard needs them
-  bool consistently_ = false;           // points of the segment are made consistent
-  std::vector<std::size_t> touchable_;  // guards that began at zero, except closing gaps
-  std::vector<double> off_;             // what the steps of the segment have been off in each of these
-  bool touched_ = false;                // has been said
+  bool accelerations_ = false;        // a guard needs them
+  bool consistently_ = false;         // points of the segment are made consistent
+  std::vector<Touchable> touchable_;  // ascending slots
+  bool touched_ = false;              // has been said
 };
 
 }  // namespace signorini

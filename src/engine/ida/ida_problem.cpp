@@ -165,6 +165,19 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   return m;
 }
 
+ContactMotion IdaProblem::change(std::size_t k, const double* of) const {
+  const Contact& contact = model_.contacts[k];
+  const auto velocity = by_dof([&](std::size_t, int v) { return v >= 0 ? of[v] : 0.0; });
+  ContactMotion m;
+  m.N = of[layout_.force(k)];
+  m.T = of[layout_.force(k) + 1];
+  m.gap = contact.normal.dot(of);
+  m.ut = contact.tangent.dot(of);
+  m.vn = contact.normal.dot(velocity);
+  m.vt = contact.tangent.dot(velocity);
+  return m;
+}
+
 /// s z z' f: what is the same for all shares of the forces would else only be extrapolated from step to step, and that
 /// grows like a polynomial from the rounding of its first values.
 void IdaProblem::add_shared(const double* y, double* r) const {

@@ -43,6 +43,9 @@ class IdaProblem {
   /// A contact slips whose friction rises with its rate.
   [[nodiscard]] bool has_knee() const { return knee_; }
 
+  /// N, T, gap, ut, vn, vt of a contact for a change of the unknowns; velocities without those of massless parts.
+  [[nodiscard]] ContactMotion change(std::size_t contact, const double* of) const;
+
   [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
 
  private:

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "model/assembly/springs.hpp"
+#include "model/modes/modes.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

@@ -243,8 +243,19 @@ void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly)
   assembly.dampers -= scene.damping.beta * assemble_geometric(scene, map).matrix;
 }
 
+/// Those of the run that this one goes on from, if there is one.
+Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
+  const Scales own = find_scales(model, map, closed, scene.run.t_end);
+  const SavedState* before = same_run(scene);
+  if (!before || !before->scales) return own;
+  const auto& s = *before->scales;
+  return {s[0], s[1], s[2], s[3], s[4]};
+}
+
+enum class Extent { structure, undoubted, all };
+
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
-Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
+Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
   map.shown_length = unit.length;
   if (map.size() == 0)
@@ -271,7 +282,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   if (borrowed) continue_borrowed(*borrowed, scene, model);
   if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
-  if (model.geometric && doubted) set_load_factors(scene, map, closed, model);
+  if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
   if (model.geometric && scene.damping.beta != 0.0) leave_out_frozen(scene, map, assembly);
@@ -279,16 +290,16 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);
   if (scene.initial.saved) take_out_rounding(*scene.initial.saved, model);
-  model.scales = find_scales(model, map, closed, scene.run.t_end);
-  if (const SavedState* before = same_run(scene); before && before->scales) {
-    const auto& s = *before->scales;
-    model.scales = {s[0], s[1], s[2], s[3], s[4]};
-  }
+  model.scales = scales_of(scene, map, closed, model);
   if (model.static_start) take_out_rounding_of_statics(model);
   check_rigid_contacts(scene, model);
-  if (doubted)
+  if (extent == Extent::all)
     for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
   resolve_times(scene.run.t_end, model);
+  if (extent == Extent::structure) {
+    if (borrowed) show_borrowed(*borrowed, model);
+    return model;
+  }
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
     reduce(scene, assembly.dampers, dashpots, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit
@@ -304,10 +315,10 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   return model;
 }
 
-Model built(const Scene& scene, bool doubted) {
+Model built(const Scene& scene, Extent extent) {
   const Factors machine = machine_units(scene);
   try {
-    Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine, doubted), machine);
+    Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine, extent), machine);
     model.machine = machine;
     // The same to the last bit; one object for all models of a scene.
     for (std::size_t k = 0; k < scene.contacts.size(); ++k) model.contacts[k].own = scene.contacts[k].own;
@@ -320,7 +331,8 @@ Model built(const Scene& scene, bool doubted) {
 
 }  // namespace
 
-Model build_model(const Scene& scene) { return built(scene, true); }
-Model build_undoubted(const Scene& scene) { return built(scene, false); }
+Model build_model(const Scene& scene) { return built(scene, Extent::all); }
+Model build_undoubted(const Scene& scene) { return built(scene, Extent::undoubted); }
+Model build_structure(const Scene& scene) { return built(scene, Extent::structure); }
 
 }  // namespace signorini

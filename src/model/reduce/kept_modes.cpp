@@ -13,7 +13,6 @@
 namespace signorini {
 namespace {
 
-constexpr int dense_up_to = 400;       // degrees of freedom with mass, whatever the cutoff
 constexpr int dense_at_most = 5000;    // the same, where the cutoff leaves a third of all modes or more
 constexpr int most_modes = 5000;       // that can be kept
 constexpr double roundings = 1e-12;    // of the terms of a sum, that count as zero
@@ -99,7 +98,7 @@ ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, 
 ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                            const Eigen::MatrixXd& rigid, int heavies) {
   const auto free = static_cast<int>(rigid.cols());
-  if (heavies <= dense_up_to) return all_elastic(cutoff, mass, stiffness, free, heavies);
+  if (heavies <= all_modes_up_to) return all_elastic(cutoff, mass, stiffness, free, heavies);
   const int counted = modes_below(mass, stiffness, cutoff * cutoff);
   if (counted < 0) throw NotReducible("the modes below the cutoff cannot be counted; move the cutoff");
   const int count = std::max(counted, free);

@@ -20,6 +20,9 @@
 
 namespace signorini {
 
+/// Degrees of freedom with mass up to which all modes are computed, whatever the cutoff.
+inline constexpr int all_modes_up_to = 400;
+
 /// Why a structure cannot be reduced so.
 struct NotReducible : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/assembly/selection.hpp"
+#include "model/build.hpp"
+#include "model/modes/mode_count.hpp"
 #include "model/reduce/kept_modes.hpp"
 #include "model/statics/null_motions.hpp"
 #include "signorini/error.hpp"
 #include "signorini/simulate.hpp"
+#include "study/reduction/excited_modes.hpp"
 #include "study/reduction/left_out.hpp"
 
 namespace signorini {
@@ -22,22 +26,48 @@ constexpr double least_growth = 2.0;  // so that what the next one adds is most 
 constexpr double most_radians = 1.0;  // in half a step, where few instants are compared: a factor of 1.85
 constexpr double nothing_known =
     1.0;  // error of a trial beside one that misses no less: all of the displacement
-constexpr double usual_order = 2.0;              // of what is missed, in the cutoff, until two trials tell
-constexpr Eigen::Index fewest_compared = 2048;   // instants at which trials are compared; chosen
+constexpr double usual_order = 2.0;             // of what is missed, in the cutoff, until two trials tell
+constexpr int most_failures = 4;                // trials that cannot run, one after the other
+constexpr int most_moves = 8;                   // of a frequency below which modes cannot be counted or found
+constexpr double move_by = 1.01;                // factor
+constexpr double raised = 1.5;                  // a frequency below which too few modes lie
+constexpr Eigen::Index fewest_compared = 2048;  // instants at which trials are compared; chosen
 constexpr Eigen::Index most_compared = 1 << 22;  // displacements that a trial keeps for that: 32 MB
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction.tolerance", why);
 }
 
+/// Places where displacements are asked for, as the only ones that a reduced model has: a run then computes as before, and
+/// its samples cost what few rows cost. Other parts of the model know the structure's degrees of freedom and must not be left in it.
+void see_places_alone(const std::vector<AskedPlace>& asked, Model& model) {
+  const auto count = static_cast<Eigen::Index>(asked.size());
+  Reduction& reduction = *model.reduction;
+  Eigen::MatrixXd forms(count, reduction.shapes.rows());
+  reduction.dofs.clear();
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const AskedPlace& place = asked[static_cast<std::size_t>(p)];
+    forms.row(p) = place.form.transpose();
+    reduction.dofs.push_back({place.name, "rate of " + place.name, false, false});
+  }
+  reduction.shapes = forms * reduction.shapes;
+  for (SeenLoad& seen : model.seen_loads) seen.displacements = forms * seen.displacements;
+  model.ties.reset();
+  model.columns.clear();
+  model.outputs.clear();
+  model.reaction_sums.clear();
+  model.drawing.clear();
+  model.drawn_nodes.clear();
+}
+
 /// Forces of contacts and displacements, at equal steps.
 class Watcher final : public Recorder {
  public:
   /// samples: steps of the run; both numbers are fewest_compared times a power of two.
-  Watcher(LeftOut& left_out, const Eigen::MatrixXd& places, Eigen::Index samples, Eigen::Index instants,
+  Watcher(LeftOut& left_out, Eigen::Index places, Eigen::Index samples, Eigen::Index instants,
           const std::function<bool()>& go_on)
-      : left_out_(left_out), places_(places), every_(samples / instants), go_on_(go_on) {
-    at.setZero(places.rows(), instants + 1);
+      : left_out_(left_out), every_(samples / instants), go_on_(go_on) {
+    at.setZero(places, instants + 1);
   }
   void event(const Event& /*event*/) override {}
   void sample(const Sample& s) override {
@@ -47,9 +77,9 @@ class Watcher final : public Recorder {
       forces_.push_back(contact.T);
     }
     left_out_.sample(s.t, forces_);
-    const Vector now = places_ * s.u->head(places_.cols());
-    greatest = std::max(greatest, now.cwiseAbs().maxCoeff());
-    if (samples_ % every_ == 0 && samples_ / every_ < at.cols()) at.col(samples_ / every_) = now;
+    if (at.rows() > 0) greatest = std::max(greatest, s.u->head(at.rows()).cwiseAbs().maxCoeff());
+    if (samples_ % every_ == 0 && samples_ / every_ < at.cols())
+      at.col(samples_ / every_) = s.u->head(at.rows());
     ++samples_;
   }
   bool progress(double /*t*/) override { return go_on_(); }
@@ -59,36 +89,74 @@ class Watcher final : public Recorder {
 
  private:
   LeftOut& left_out_;
-  const Eigen::MatrixXd& places_;
   Eigen::Index every_, samples_ = 0;
   const std::function<bool()>& go_on_;
   std::vector<double> forces_;
 };
 
-struct Modes {
-  Eigen::VectorXd square;
-  Eigen::MatrixXd shapes;
-  Eigen::Index free = 0;
-};
-
-Modes all_modes_of(const Scene& scene, const Model& full) {
-  if (full.basis || std::any_of(full.contacts.begin(), full.contacts.end(),
-                                [](const Contact& contact) { return contact.shear.has_value(); }))
-    refuse(scene,
-           "contacts with tangential_damping, and motions without mass and damping, have no modes that "
-           "could be counted in or out; give cutoff_omega");
-  try {
-    KeptModes all = modes_up_to(std::numeric_limits<double>::max(), full.mass, full.stiffness,
-                                null_motions(full.stiffness));
-    return {std::move(all.squares), std::move(all.shapes), all.free};
-  } catch (const NotReducible& e) {
-    refuse(scene, e.what());
+/// The structure and, where they are few enough, all of its modes.
+class Structure {
+ public:
+  explicit Structure(const Scene& scene)
+      : model(built(scene)), null_(null_motions(model.stiffness)), heavies_(degrees_with_mass(model.mass)) {
+    if (heavies_ > all_modes_up_to) return;
+    try {
+      all_ = modes_up_to(std::numeric_limits<double>::max(), model.mass, model.stiffness, null_);
+    } catch (const NotReducible& e) {
+      refuse(scene, e.what());
+    }
   }
-}
+
+  [[nodiscard]] Eigen::Index free() const { return null_.cols(); }
+  [[nodiscard]] Eigen::Index all() const { return all_ ? all_->squares.size() : heavies_; }
+
+  struct Cutoff {
+    double omega = 0.0;
+    Eigen::Index kept = 0;  ///< modes below it; -1: they cannot be counted
+  };
+  /// Above all modes up to a frequency, above so many at least.
+  [[nodiscard]] Cutoff cutoff_above(double omega, Eigen::Index least) const {
+    least = std::min(least, all());
+    if (all_) {
+      const Eigen::Index below = std::count_if(all_->squares.begin(), all_->squares.end(),
+                                               [&](double square) { return square <= omega * omega; });
+      const Eigen::Index kept = std::clamp(below, least, all());
+      const double last = std::sqrt(all_->squares[kept - 1]);
+      return {kept == all() ? 2.0 * last : 0.5 * (last + std::sqrt(all_->squares[kept])), kept};
+    }
+    for (int failures = 0; failures < most_moves;) {
+      const int below = modes_below(model.mass, model.stiffness, omega * omega);
+      if (below >= least) return {omega, below};
+      failures += below < 0;
+      omega *= below < 0 ? move_by : raised;
+    }
+    return {omega, -1};
+  }
+
+  [[nodiscard]] LeftOut left_out(const Cutoff& cutoff, double step) const {
+    if (all_) return {model, all_->squares, all_->shapes, cutoff.kept, step};
+    const ExcitedModes others =
+        excited_modes(model, modes_up_to(cutoff.omega, model.mass, model.stiffness, null_));
+    return {model, others.squares, others.shapes, 0, step};
+  }
+
+  const Model model;
+
+ private:
+  static Model built(Scene scene) {
+    scene.reduction->cutoff_omega = 1.0;  // gaps at the start are judged as those of a reduced model
+    return build_structure(scene);
+  }
+
+  Eigen::MatrixXd null_;
+  Eigen::Index heavies_;
+  std::optional<KeptModes> all_;
+};
 
 /// A run with a cutoff.
 struct Trial {
-  bool ended = false;  // it was told to
+  bool ended = false;   // it was told to
+  std::string failure;  // why there is none
   double missed = 0.0, greatest = 0.0;
   Eigen::MatrixXd at;
   CutoffTrial told = {};
@@ -101,47 +169,39 @@ Eigen::Index samples_for(double omega, double t_end) {
   return samples;
 }
 
-Trial trial(const Scene& scene, const Model& full, const Modes& modes, Eigen::Index kept,
+Trial trial(const Scene& scene, const Structure& structure, const Structure::Cutoff& cutoff,
             const std::function<bool()>& go_on) {
   Model model = build_model(scene);
   const double highest = std::max(model.reduction->highest_kept, 1.0 / scene.run.t_end);
   const Eigen::Index samples = samples_for(highest, scene.run.t_end);
   const double step = scene.run.t_end / static_cast<double>(samples);
-  LeftOut left_out(full, modes.square, modes.shapes, kept, step);
-  const std::vector<AskedPlace> asked = asked_places(full);
-  Eigen::MatrixXd places(static_cast<Eigen::Index>(asked.size()), model.reduction->shapes.cols());
-  for (std::size_t p = 0; p < asked.size(); ++p)
-    places.row(static_cast<Eigen::Index>(p)) = asked[p].form.transpose() * model.reduction->shapes;
-  model.reduction.reset();  // rows in amplitudes
-  model.columns.clear();
-  model.outputs.clear();
+  LeftOut left_out = structure.left_out(cutoff, step);
+  const std::vector<AskedPlace> asked = asked_places(structure.model);
+  see_places_alone(asked, model);
   RunSpec run = scene.run;
   run.output_times.reset();
   run.frames.clear();
   run.output_dt = step;
+  const auto places = static_cast<Eigen::Index>(asked.size());
   Eigen::Index instants = samples;
-  while (instants > fewest_compared && instants * places.rows() > most_compared) instants /= 2;
+  while (instants > fewest_compared && instants * places > most_compared) instants /= 2;
   Watcher watcher(left_out, places, samples, instants, go_on);
   const Report report = simulate(model, run, watcher);
-  if (report.outcome.kind == Outcome::Kind::interrupted) return {true, 0.0, 0.0, {}};
-  if (report.outcome.kind == Outcome::Kind::stopped)
-    refuse(scene, fmt::format("a trial with {} modes stopped at t = {:.6g}: {}", kept, report.outcome.t,
-                              report.outcome.reason));
+  Trial result;
+  result.ended = report.outcome.kind == Outcome::Kind::interrupted;
+  if (result.ended) return result;
+  if (report.outcome.kind == Outcome::Kind::stopped) {
+    result.failure = fmt::format("a trial with {} modes stopped at t = {:.6g}: {}", cutoff.kept,
+                                 report.outcome.t, report.outcome.reason);
+    return result;
+  }
   left_out.finish();
   double most = 0.0;
   for (const double missed : left_out.missed()) most = std::max(most, missed);
-  return {false, watcher.greatest > 0.0 ? most / watcher.greatest : 0.0, watcher.greatest,
-          std::move(watcher.at)};
-}
-
-/// Of all modes, those up to a frequency; a cutoff between the last one and the next.
-Eigen::Index modes_below(const Modes& modes, double omega) {
-  return std::count_if(modes.square.begin(), modes.square.end(),
-                       [&](double square) { return square <= omega * omega; });
-}
-double cutoff_after(const Modes& modes, Eigen::Index kept) {
-  const double last = std::sqrt(modes.square[kept - 1]);
-  return kept == modes.square.size() ? 2.0 * last : 0.5 * (last + std::sqrt(modes.square[kept]));
+  result.missed = watcher.greatest > 0.0 ? most / watcher.greatest : 0.0;
+  result.greatest = watcher.greatest;
+  result.at = std::move(watcher.at);
+  return result;
 }
 
 /// Greatest difference of displacements, from the instants that both have. What swings at twice the cutoff, as most of
@@ -176,30 +236,55 @@ void judge(Trial& trial, const Trial& finer, double t_end) {
 class Search {
  public:
   Search(Scene scene, const std::function<bool()>& go_on)
-      : scene_(std::move(scene)), go_on_(go_on), full_(whole(scene_)), modes_(all_modes_of(scene_, full_)) {}
+      : scene_(std::move(scene)), go_on_(go_on), structure_(scene_) {}
 
   Scene run() {
-    const Eigen::Index all = modes_.square.size();
-    for (Eigen::Index kept = std::min(all, modes_.free + fewest_modes);; kept = next(kept)) {
-      ReductionSpec& spec = *scene_.reduction;
-      spec.cutoff_omega = cutoff_after(modes_, kept);
+    const ReductionSpec& spec = *scene_.reduction;
+    const Eigen::Index all = structure_.all();
+    for (cutoff_ = first();; cutoff_ = next()) {
+      if (cutoff_.kept < 0) refuse(scene_, "the modes below the cutoff cannot be counted; give cutoff_omega");
       // Where what the last one misses is too much already, nothing is to be tried: all modes are kept.
-      const bool needed = kept < all || (!trials_.empty() && estimated() <= *spec.tolerance);
-      Trial now = needed ? trial(scene_, full_, modes_, kept, go_on_) : Trial{};
+      const bool needed = cutoff_.kept < all || (!trials_.empty() && estimated() <= *spec.tolerance);
+      Trial now = needed ? tried() : Trial{};
       if (now.ended) return scene_;
-      now.told = {spec.cutoff_omega, static_cast<int>(kept), now.missed, 0.0, now.missed};
+      if (!now.failure.empty()) {
+        if (cutoff_.kept == all || ++failures_ == most_failures) refuse(scene_, now.failure);
+        continue;
+      }
+      failures_ = 0;
+      now.told = {cutoff_.omega, static_cast<int>(cutoff_.kept), now.missed, 0.0, now.missed};
       trials_.push_back(std::move(now));
       if (trials_.size() > 1 && needed) judge(trials_[trials_.size() - 2], trials_.back(), scene_.run.t_end);
       for (std::size_t i = 0; i + 1 < trials_.size() && needed; ++i)
         if (trials_[i].told.error <= *spec.tolerance) return found(i);
-      if (kept == all) return found(trials_.size() - 1);
+      if (cutoff_.kept == all) return found(trials_.size() - 1);
     }
   }
 
  private:
-  static Model whole(Scene scene) {
-    scene.reduction.reset();
-    return build_model(scene);
+  /// Where modes are only counted, from the lowest frequency that the structure has on its contacts.
+  [[nodiscard]] Structure::Cutoff first() const {
+    const bool known = structure_.all() <= all_modes_up_to;
+    const double lowest = structure_.model.omega1 > 0.0 ? structure_.model.omega1 : 1.0 / scene_.run.t_end;
+    return structure_.cutoff_above(known ? 0.0 : lowest, structure_.free() + fewest_modes);
+  }
+
+  /// A model may be refused for where its cutoff lies among the modes; it is moved a little then.
+  Trial tried() {
+    Trial failed;
+    for (int moves = 0; moves < most_failures; ++moves) {
+      scene_.reduction->cutoff_omega = cutoff_.omega;
+      try {
+        return trial(scene_, structure_, cutoff_, go_on_);
+      } catch (const SceneError& e) {
+        failed.failure = e.what();
+      } catch (const NotReducible& e) {
+        failed.failure = e.what();
+      }
+      if (structure_.all() <= all_modes_up_to || cutoff_.kept == structure_.all()) break;
+      cutoff_ = structure_.cutoff_above(move_by * cutoff_.omega, cutoff_.kept);
+    }
+    return failed;
   }
 
   /// What the last trial is off by, as far as is known before the next one.
@@ -208,7 +293,8 @@ class Search {
     return trials_.back().missed * before;
   }
 
-  [[nodiscard]] Eigen::Index next(Eigen::Index kept) const {
+  [[nodiscard]] Structure::Cutoff next() const {
+    if (trials_.empty()) return structure_.cutoff_above(least_growth * cutoff_.omega, cutoff_.kept + 1);
     double order = usual_order;
     const Trial& last = trials_.back();
     if (trials_.size() > 1 && last.missed > 0.0) {
@@ -219,7 +305,7 @@ class Search {
     }
     const double growth = std::clamp(1.1 * std::pow(estimated() / *scene_.reduction->tolerance, 1.0 / order),
                                      least_growth, most_growth);
-    return std::clamp(modes_below(modes_, growth * last.told.cutoff_omega), kept + 1, modes_.square.size());
+    return structure_.cutoff_above(growth * cutoff_.omega, cutoff_.kept + 1);
   }
 
   /// The last one told is in force.
@@ -234,8 +320,9 @@ class Search {
 
   Scene scene_;
   const std::function<bool()>& go_on_;
-  const Model full_;
-  const Modes modes_;
+  const Structure structure_;
+  Structure::Cutoff cutoff_;
+  int failures_ = 0;  // since the last trial that ran
   std::vector<Trial> trials_;
 };
 

@@ -52,9 +52,10 @@ LeftOut::LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::
   square_ = square.tail(modes).array();
   decay_ = (phi.array() * (full.damping * phi).array()).colwise().sum().transpose();
   const std::vector<AskedPlace> places = asked_places(full);
+  const Eigen::MatrixXd seen = full.basis ? Eigen::MatrixXd(*full.basis * phi) : phi;
   places_.resize(static_cast<Eigen::Index>(places.size()), modes);
   for (std::size_t p = 0; p < places.size(); ++p)
-    places_.row(static_cast<Eigen::Index>(p)) = places[p].form.transpose() * phi;
+    places_.row(static_cast<Eigen::Index>(p)) = places[p].form.transpose() * seen;
   missed_.assign(places.size(), 0.0);
   inputs_.setZero(modes, static_cast<Eigen::Index>(2 * full.contacts.size()));
   for (std::size_t c = 0; c < full.contacts.size(); ++c) {

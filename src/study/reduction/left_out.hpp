@@ -14,16 +14,16 @@ namespace signorini {
 /// A place where displacements are asked for.
 struct AskedPlace {
   std::string name;  ///< "normal of contact 'first'", "A.ux"
-  Vector form;
+  Vector form;       ///< on displacements of the structure; the motion of supports is left aside
 };
 
-/// Contacts along normal and tangent, and named nodes; rotations left aside. The model: not reduced.
+/// Contacts along normal and tangent, and named nodes; rotations left aside. The model: build_structure's.
 [[nodiscard]] std::vector<AskedPlace> asked_places(const Model& full);
 
 class LeftOut {
  public:
-  /// full: without [reduction], must outlive it; `square`, `shapes`: its modes, ascending; `kept`: how many of
-  /// them the reduction keeps.
+  /// full: build_structure's, must outlive it; `square`, `shapes`: its modes, ascending; `kept`: how many of
+  /// them the reduction keeps. Or, with 0, what stands for those left out (excited_modes.hpp).
   LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes, Eigen::Index kept,
           double step);
 

@@ -1,0 +1,75 @@
+#include "study/reduction/excited_modes.hpp"
+
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/springs.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int terms =
+    4;  // of the series in each force; chosen: behaviour/reduction compares them with all modes
+constexpr double dependent = 1e-10;  // of its energy, that is left of a vector beside the others: rounding
+constexpr double needs_no_mass = 1e-12;  // 1/omega^2 against the greatest one: it follows at once
+
+/// Vectors that are orthonormal in K.
+class Span {
+ public:
+  explicit Span(const SparseMatrix& k) : k_(k), vectors_(k.rows(), 0), forces_(k.rows(), 0) {}
+  void add(Vector x) {
+    const double before = x.dot(k_ * x);
+    for (int round = 0; round < 2; ++round)
+      x -= vectors_.leftCols(count_) * (forces_.leftCols(count_).transpose() * x);
+    const Vector force = k_ * x;
+    const double energy = x.dot(force);
+    if (!(energy > dependent * before)) return;
+    if (count_ == vectors_.cols()) {
+      vectors_.conservativeResize(Eigen::NoChange, 2 * count_ + 16);
+      forces_.conservativeResize(Eigen::NoChange, 2 * count_ + 16);
+    }
+    vectors_.col(count_) = x / std::sqrt(energy);
+    forces_.col(count_++) = force / std::sqrt(energy);
+  }
+  [[nodiscard]] auto vectors() const { return vectors_.leftCols(count_); }
+
+ private:
+  const SparseMatrix& k_;
+  Eigen::MatrixXd vectors_, forces_;  // K times each
+  Eigen::Index count_ = 0;
+};
+
+}  // namespace
+
+ExcitedModes excited_modes(const Model& structure, const KeptModes& kept) {
+  const int n = structure.size();
+  const ResidualFlexibility flexibility(structure.mass, structure.stiffness, kept);
+  std::vector<Vector> answers;
+  for (const Contact& contact : structure.contacts) {
+    if (contact.has_gap()) answers.push_back(flexibility.answer(full(contact.normal, n)));
+    if (contact.has_friction()) answers.push_back(flexibility.answer(full(contact.tangent, n)));
+  }
+  for (const Load& load : structure.loads) answers.push_back(flexibility.answer(full(load.direction, n)));
+  for (const Vector& state : {structure.u0, structure.v0})
+    answers.push_back(state - kept.shapes * (kept.shapes.transpose() * (structure.mass * state)));
+  Span span(structure.stiffness);
+  for (int term = 0; term < terms; ++term)
+    for (Vector& answer : answers) {
+      if (term > 0) answer = flexibility.answer(structure.mass * answer);
+      span.add(answer);
+    }
+  const Eigen::MatrixXd h = span.vectors();
+  ExcitedModes result{Eigen::VectorXd(0), Eigen::MatrixXd(n, 0)};
+  if (h.cols() == 0) return result;
+  const EigenPairs ritz = symmetric_eigen(h.transpose() * (structure.mass * h));  // 1/omega^2, ascending
+  const Eigen::Index all = ritz.values.size();
+  if (all == 0 || !ritz.values.allFinite()) throw NotReducible("the modes left out cannot be estimated");
+  const Eigen::Index count = (ritz.values.array() > needs_no_mass * ritz.values[all - 1]).count();
+  const Eigen::VectorXd inverse = ritz.values.tail(count).reverse();
+  result.squares = inverse.cwiseInverse();
+  result.shapes =
+      h * ritz.vectors.rightCols(count).rowwise().reverse() * inverse.cwiseSqrt().cwiseInverse().asDiagonal();
+  return result;
+}
+
+}  // namespace signorini

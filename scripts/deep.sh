@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [tests] [sanitize] [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [wheel] [calculix] [install] [cluster];
+# What is too long to run at every change. deep.sh [tests] [sanitize] [alone] [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [wheel] [calculix] [install] [cluster];
 # without arguments all of them.
 #   tests    the suites deep/...: longer studies of claims that .ci/run tests with less, and a test that waits for a minute
 #   sanitize all tests but slow and deep ones under ASan and UBSan, their own code and what .ci/run leaves out of it included
+#   alone    compiles every file of src, include, tests and validation by itself
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
 #   threads  simulations side by side under ThreadSanitizer
@@ -33,6 +34,11 @@ sanitize() {
   configure sanitize-all
   cmake --build build/sanitize-all -j "$(nproc)"
   ctest --test-dir build/sanitize-all --output-on-failure --no-tests=error -LE '^(slow|deep)' -j 2
+}
+
+alone() {
+  scripts/setup.sh clang-16
+  scripts/alone.sh --sources
 }
 
 build_with_clang() {
@@ -118,12 +124,13 @@ cluster() {
 }
 
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- tests sanitize clang tidy threads kill names fuzz schema page python wheel calculix install cluster
+[[ $# -gt 0 ]] || set -- tests sanitize alone clang tidy threads kill names fuzz schema page python wheel calculix install cluster
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
     tests) deep_tests ;;
     sanitize) sanitize ;;
+    alone) alone ;;
     clang) build_with_clang ;;
     tidy) tidy ;;
     threads) threads ;;
@@ -136,7 +143,7 @@ for what in "$@"; do
     calculix) calculix ;;
     install) installed ;;
     cluster) cluster ;;
-    *) echo "deep.sh: no part is called '$what': tests, sanitize, clang, tidy, threads, kill, names, fuzz, schema, page, python, wheel, calculix, install, cluster" >&2; exit 2 ;;
+    *) echo "deep.sh: no part is called '$what': tests, sanitize, alone, clang, tidy, threads, kill, names, fuzz, schema, page, python, wheel, calculix, install, cluster" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <fstream>
 #include <system_error>
 
 #include "signorini/error.hpp"
@@ -30,6 +31,21 @@ void check_output_directory(const fs::path& path, const ResultsKind& kind, bool 
     throw FileError(path.string(),
                     fmt::format("is not empty and holds no {} (no {}) that --force could replace", kind.what,
                                 kind.marker));
+}
+
+void check_output_file(const fs::path& path, const std::string& what, std::string_view mark) {
+  constexpr std::size_t first_bytes = 1024;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::is_empty(path, error)) return;
+  std::string begin(first_bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), first_bytes);
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  if (begin.find(mark) == std::string::npos)
+    throw FileError(path.string(),
+                    fmt::format("exists and is no {} that could be replaced; give another name, or "
+                                "remove the file",
+                                what));
 }
 
 fs::path make_directory(const fs::path& path) {

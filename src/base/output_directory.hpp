@@ -1,4 +1,4 @@
-// output_directory.hpp: a directory that results are written to.
+// output_directory.hpp: a directory, or a single file, that results are written to.
 //
 //   check:   it is not there, is empty, or holds earlier results (its marker file) that may be replaced
 //   make:    it and those above it
@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace signorini {
 
@@ -19,6 +20,10 @@ struct ResultsKind {
 
 /// replace: earlier results give way (--force).
 void check_output_directory(const std::filesystem::path& path, const ResultsKind& kind, bool replace);
+
+/// A file that is not in such a directory: refused where it is there and has no `mark` among its first bytes, as `what` that
+/// Signorini writes has. Empty files, pipes and devices lose nothing.
+void check_output_file(const std::filesystem::path& path, const std::string& what, std::string_view mark);
 
 /// Returns the outermost that had to be made; empty where all were there.
 std::filesystem::path make_directory(const std::filesystem::path& path);

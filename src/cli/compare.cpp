@@ -152,6 +152,8 @@ Outcomes read_directories(const CompareOptions& options, const fs::path& path) {
   Outcomes outcomes;
   for (const std::string& name : names_of(options.sources))
     outcomes.report.runs.push_back(read_compared_run(name, name));
+  if (!options.quiet)
+    for (const ComparedRun& run : outcomes.report.runs) print_unchecked(run.figures.directory);
   check_units(outcomes.report);
   begin(path);
   return outcomes;

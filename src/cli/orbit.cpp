@@ -157,8 +157,8 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   RunDirectory directory(path, scene, model, {options.force, command_line, false, !options.no_plots});
   const CertifiedReport certified =
       simulate_certified(model, scene.run, directory, {{}, [] { return !Interrupt::asked(); }});
-  directory.finish(certified);
   write_orbit(path, scene, model, orbit);
+  directory.finish(certified);
   print_warnings(options, certified.report.warnings);
   if (options.json) print(orbit_json(model, orbit));
   if (options.tables()) print(text_of(scene, model, orbit, path));

@@ -31,7 +31,7 @@ ExitCode write_frames(const FrameOptions& options) {
     throw UsageError(fmt::format("--frames: found {}, expected 1 to {}", options.count, most));
   const fs::path directory = options.directory;
   if (kind_of_results(directory) != "run") throw FileError(directory.string(), "holds no run");
-  if (!complete_pictures(directory)) return ExitCode::interrupted;
+  if (!ready_to_draw(directory)) return ExitCode::interrupted;
   const Scene scene = read_scene((directory / "run.toml").string());
   const Json data = run_data(scene, directory);
   const auto count = static_cast<std::size_t>(options.count);

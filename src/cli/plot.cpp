@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 ExitCode plot(const fs::path& directory, const PlotWindow& window, const PictureLook& look) {
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
-  if (!complete_pictures(directory)) return ExitCode::interrupted;
+  if (!ready_to_draw(directory)) return ExitCode::interrupted;
   const std::vector<fs::path> scripts = first_ones(write_any_plots(directory, window, look));
   if (scripts.empty())
     throw FileError(directory.string(), "has nothing to draw: fewer than two output times, or rows");

@@ -2,10 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
+#include <string_view>
 
 #include "base/json.hpp"
+#include "base/run_files.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/settings.hpp"
 #include "cli/terminal.hpp"
 #include "report/page.hpp"
 #include "signorini/error.hpp"
@@ -45,7 +49,9 @@ std::vector<fs::path> comparison_scripts(const fs::path& directory, const Pictur
       if (run.at("outcome") == "refused") continue;
       std::error_code error;
       const bool here = fs::is_directory(directory / name, error);
-      report.runs.push_back(read_compared_run(here ? directory / name : fs::path(run.at("directory")), name));
+      const fs::path place = here ? directory / name : fs::path(run.at("directory"));
+      report.runs.push_back(read_compared_run(place, name));
+      print_unchecked(place);
     }
   } catch (const Json::exception& error) {
     throw FileError(file.string(), std::string("is no comparison: ") + error.what());
@@ -63,8 +69,18 @@ std::vector<fs::path> comparison_scripts(const fs::path& directory, const Pictur
 
 }  // namespace
 
-bool complete_pictures(const fs::path& directory) {
-  if (!lacks_picture_rows(directory)) return true;
+bool ready_to_draw(const fs::path& directory) {
+  if (kind_of_results(directory) != "run") return true;
+  print_unchecked(directory);
+  if (!lacks_picture_rows(directory)) {
+    check_run_files(directory);
+    return true;
+  }
+  std::vector<std::string_view> others(result_files.begin(), result_files.end());
+  std::erase_if(others, [](std::string_view file) {
+    return std::find(picture_rows.begin(), picture_rows.end(), file) != picture_rows.end();
+  });
+  check_run_files(directory, others);
   print_note(directory.string() + ": pictures need a new computation, because the run used --no-plots");
   return add_picture_rows(directory, [] { return !Interrupt::asked(); });
 }

@@ -8,9 +8,10 @@
 
 namespace signorini::cli {
 
-/// A run that was made with --no-plots is computed once more, as far as pictures ask; a note says so. Everything else is
-/// left alone. False: interrupted. Errors: those of add_picture_rows.
-[[nodiscard]] bool complete_pictures(const std::filesystem::path& directory);
+/// Checks the files of a run (base/run_files.hpp). One that was made with --no-plots is computed once more, as far as
+/// pictures ask; a note says so. Results of another kind are left alone. False: interrupted. Errors: FileError where there are
+/// no results; those of add_picture_rows.
+[[nodiscard]] bool ready_to_draw(const std::filesystem::path& directory);
 
 /// The scripts. Errors: FileError; UsageError for a window of what has no time.
 std::vector<std::filesystem::path> write_any_plots(const std::filesystem::path& directory,

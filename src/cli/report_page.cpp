@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/output_directory.hpp"
 #include "cli/check_text.hpp"
 #include "cli/command.hpp"
 #include "cli/plot_any.hpp"
+#include "cli/settings.hpp"
 #include "cli/terminal.hpp"
 #include "report/page.hpp"
 #include "result/csv.hpp"
@@ -27,11 +29,17 @@ std::string check_of(const Scene& scene) {
   }
 }
 
+/// Another file of that name is somebody's.
+void check_page(const fs::path& page) {
+  check_output_file(page, "page of Signorini", "<meta name=\"generator\" content=\"Signorini");
+}
+
 ExitCode report(const fs::path& directory, const fs::path& given) {
   const bool run = kind_of_results(directory) == "run";
   const fs::path page = given.empty() ? directory / "report.html" : given;
+  check_page(page);
   if (run) {
-    if (!complete_pictures(directory)) return ExitCode::interrupted;
+    if (!ready_to_draw(directory)) return ExitCode::interrupted;
     const Scene scene = read_scene((directory / "run.toml").string());
     write_file(page, run_page(directory, scene, check_of(scene)));
   } else {
@@ -46,10 +54,13 @@ ExitCode report_cases(const std::vector<std::string>& directories, const fs::pat
   const std::vector<LoadCase> cases =
       read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));
   const fs::path page = given.empty() ? "cases.html" : given;
+  for (const std::string& directory : directories) print_unchecked(directory);
   for (const std::string& doubt : load_case_doubts(cases)) print_warning(doubt);
   fs::path table = page;
   table.replace_extension(".csv");
   if (table == page) throw UsageError(page.string() + ": is the name of the table, too; expected FILE.html");
+  check_page(page);
+  check_output_file(table, "table of load cases", "item,quantity,unit");
   write_file(page, load_cases_page(cases));
   write_file(table, load_cases_csv(cases));
   print(page.string() + "\n" + table.string() + "\n");

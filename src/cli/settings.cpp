@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/run_files.hpp"
 #include "base/suggest.hpp"
 #include "cli/terminal.hpp"
 #include "scene/overrides.hpp"
@@ -37,6 +38,10 @@ void print_warnings(const OutputOptions& options, const std::vector<std::string>
                     const std::string& of) {
   if (options.quiet) return;
   for (const std::string& warning : warnings) print_warning(of + warning);
+}
+
+void print_unchecked(const std::filesystem::path& directory) {
+  if (const std::string why = why_unchecked(directory); !why.empty()) print_note(why);
 }
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings) {

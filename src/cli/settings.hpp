@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct OutputOptions {
 /// Prints them to stderr, with `of` in front; none with --quiet.
 void print_warnings(const OutputOptions& options, const std::vector<std::string>& warnings,
                     const std::string& of = "");
+
+/// A note on stderr where the files of a run cannot be checked, since it has no manifest (base/run_files.hpp).
+void print_unchecked(const std::filesystem::path& directory);
 
 /// Adds --force, --quiet, --json and --no-plots to a subcommand; `options` must outlive parsing.
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& force,

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/settings.hpp"
 #include "cli/terminal.hpp"
 #include "result/witness_json.hpp"
 #include "study/witness/directory_witness.hpp"
@@ -36,6 +37,7 @@ std::string text_of(const DirectoryTestimony& found, const std::string& director
 
 ExitCode hear_witness(const WitnessOptions& options) {
   const DirectoryTestimony found = witness_directory(options.directory);
+  print_unchecked(options.directory);
   if (!found.complete)
     print_note(options.directory + ": the run had not ended; its files are checked as far as they go");
   if (options.json) {

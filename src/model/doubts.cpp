@@ -9,6 +9,7 @@
 #include "base/history/history_internal.hpp"
 #include "base/history/resolved.hpp"
 #include "base/listed.hpp"
+#include "base/run_files.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/loads.hpp"
@@ -78,7 +79,7 @@ class Doubts {
     drag();
     friction();
     shear();
-    another_structure();
+    another_run();
     pulses();
     sudden_supports();
     sudden_heat();
@@ -252,8 +253,12 @@ class Doubts {
     }
   }
 
-  void another_structure() {
-    if (!scene_.initial.saved || scene_.initial.saved->differing.empty()) return;
+  void another_run() {
+    if (!scene_.initial.saved) return;
+    const std::string& run = scene_.initial.saved->run;
+    if (const std::string why = run.empty() ? "" : why_unchecked(run); !why.empty())
+      found_.push_back("continues from the run in " + why);
+    if (scene_.initial.saved->differing.empty()) return;
     found_.push_back(
         fmt::format("continues from a run in {} whose scene has other {}: its displacements, velocities and "
                     "shears are used unchanged",

@@ -10,6 +10,7 @@
 
 #include "base/number.hpp"
 #include "base/rounding.hpp"
+#include "base/run_files.hpp"
 #include "report/html.hpp"
 #include "result/unit_words.hpp"
 #include "signorini/error.hpp"
@@ -267,6 +268,7 @@ std::string csv_line(const std::vector<std::string>& cells) {
 
 Json read_summary(const fs::path& directory) {
   const fs::path path = directory / "summary.json";
+  check_run_files(directory, {"summary.json"});
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw FileError(directory.string(),

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/embedded.hpp"
+#include "base/input_file.hpp"
 #include "base/json.hpp"
 #include "base/version.hpp"
 #include "report/html.hpp"
@@ -248,8 +249,12 @@ std::string title_of(const Json& json, const fs::path& directory) {
 
 std::string kind_of_results(const fs::path& directory) {
   std::error_code error;
-  for (const Kind& kind : kinds)
-    if (fs::is_regular_file(directory / kind.marker, error)) return kind.name;
+  for (const Kind& kind : kinds) {
+    const fs::path marker = directory / kind.marker;
+    if (fs::is_regular_file(marker, error)) return kind.name;
+    if (const std::string why = why_no_input_file(marker); !why.empty())
+      throw FileError(marker.string(), why + ", expected a file");
+  }
   throw FileError(
       directory.string(),
       fs::is_directory(directory, error)

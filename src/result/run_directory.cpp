@@ -1,10 +1,11 @@
 #include "result/run_directory.hpp"
 
-#include <array>
+#include <algorithm>
 #include <string_view>
 #include <system_error>
 
 #include "base/output_directory.hpp"
+#include "base/run_files.hpp"
 #include "result/body_frames.hpp"
 #include "result/body_motion.hpp"
 #include "result/certificate_files.hpp"
@@ -29,17 +30,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 22> run_files = {
-    "events.csv",      "history.csv", "errors.csv", "contacts.csv",     "motion.csv",
-    "curves.csv",      "loads.csv",   "energy.csv", "frames.csv",       "frame_contacts.csv",
-    "summary.json",    "run.toml",    "states.csv", "report.html",      "response.csv",
-    "instants.csv",    "orbit.json",  "seams.csv",  "frame_bodies.csv", "frame_seams.csv",
-    "body_motion.csv", frozen_file};
+/// The manifest first: without it the others vouch for nothing.
+std::vector<std::string_view> run_files() {
+  std::vector<std::string_view> files = {manifest_file, "report.html"};
+  files.insert(files.end(), result_files.begin(), result_files.end());
+  return files;
+}
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
   std::error_code missing;
-  for (const std::string_view name : run_files) {
+  for (const std::string_view name : run_files()) {
     if (!fs::equivalent(path / name, scene, missing) || missing) continue;
     throw FileError(path.string(), "--force would replace " + (path / name).string() +
                                        ", the scene of this run; give another directory, or copy the scene");
@@ -50,7 +51,7 @@ void check_scene_is_kept(const fs::path& path, const std::string& scene) {
 
 void remove_run(const fs::path& path, bool summary) {
   std::error_code error;
-  for (const std::string_view name : run_files) {
+  for (const std::string_view name : run_files()) {
     if (!summary && name == "summary.json") continue;
     fs::remove(path / name, error);
     if (error) throw FileError((path / name).string(), "cannot be removed: " + error.message());
@@ -108,6 +109,7 @@ RunDirectory::Writers& RunDirectory::writers() {
   const fs::path created = make_directory(path_);
   if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
   try {
+    remove_manifest(path_);
     // First, and over an earlier one: a folder without it is no run, which --force would not replace.
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
     if (options_.force) remove_run(path_, false);
@@ -116,7 +118,7 @@ RunDirectory::Writers& RunDirectory::writers() {
     writers_ = std::make_unique<Writers>(path_, scene_, model_, options_.pictures);
   } catch (const FileError&) {
     std::error_code ignored;
-    for (const std::string_view name : run_files) fs::remove(path_ / name, ignored);
+    for (const std::string_view name : run_files()) fs::remove(path_ / name, ignored);
     unmake_directory(path_, created);
     throw;
   }
@@ -193,6 +195,7 @@ void RunDirectory::abandon(double t, const std::string& reason) {
   if (!started()) return;
   try {
     write_file(path_ / "summary.json", abandoned_json(scene_, model_, options_.command_line, t, reason));
+    vouch(Outcome::Kind::stopped);
   } catch (const FileError&) {  // the disk may be full: it still says "running"
   }
 }
@@ -206,7 +209,12 @@ std::string RunDirectory::finish(const CertifiedReport& run) {
     write_file(path_ / "loads.csv", loads);
   std::string text = summary_json(scene_, model_, run, options_.command_line);
   write_file(path_ / "summary.json", text);
+  vouch(run.report.outcome.kind);
   return text;
+}
+
+void RunDirectory::vouch(Outcome::Kind outcome) const {
+  write_file(path_ / manifest_file, manifest_of(path_, to_string(outcome)).text());
 }
 
 }  // namespace signorini

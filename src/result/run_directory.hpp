@@ -6,7 +6,7 @@
 // The constructor only looks; the directory is created by the first row, sign of progress or finish(), so a
 // run that never starts leaves nothing behind. What is there is never overwritten without `force`. With
 // `force` it must be a run; only files that Signorini writes are removed, and never the scene itself. Nobody
-// else can write into it before the object is gone.
+// else can write into it before the object is gone. A manifest (base/run_files.hpp) is written last, and removed first.
 #pragma once
 
 #include <filesystem>
@@ -47,7 +47,8 @@ class RunDirectory : public Recorder {
   [[nodiscard]] bool wants_instants() const override { return options_.instants; }
   void instant(const InstantRow& row) override;
   bool progress(double t) override;
-  /// Writes the final summary.json and returns its text; of a certified run what its certificate says, too.
+  /// Writes the final summary.json, then the manifest; returns the summary's text, of a certified run what its certificate
+  /// says, too.
   std::string finish(const Report& report);
   std::string finish(const CertifiedReport& run);
   /// After a FileError: summary.json says where and why the run stopped, if it can still be written.
@@ -63,6 +64,8 @@ class RunDirectory : public Recorder {
   void keep_state(const Sample& sample);
   Writers& writers();
   PictureTables& pictures();
+  /// The manifest, after all other files.
+  void vouch(Outcome::Kind outcome) const;
 
   std::filesystem::path path_;
   const Scene& scene_;

@@ -21,8 +21,6 @@
 
 namespace signorini {
 
-namespace {
-
 const char* to_string(Outcome::Kind kind) {
   switch (kind) {
     case Outcome::Kind::done:
@@ -34,6 +32,8 @@ const char* to_string(Outcome::Kind kind) {
   }
   return "?";
 }
+
+namespace {
 
 int exit_code(Outcome::Kind kind) {
   switch (kind) {

@@ -12,6 +12,9 @@
 
 namespace signorini {
 
+/// outcome.kind of a run that has ended.
+[[nodiscard]] const char* to_string(Outcome::Kind kind);
+
 /// summary.json of a run that has ended.
 [[nodiscard]] std::string summary_json(const Scene& scene, const Model& model, const CertifiedReport& run,
                                        const std::vector<std::string>& command_line);

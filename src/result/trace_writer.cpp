@@ -4,6 +4,7 @@
 
 #include "base/input_file.hpp"
 #include "base/json.hpp"
+#include "base/output_directory.hpp"
 
 #include "signorini/error.hpp"
 
@@ -22,6 +23,7 @@ Json names(const std::vector<NamedGuard>& guards, const Model& model, bool with_
 }  // namespace
 
 TraceWriter::TraceWriter(const std::filesystem::path& path, const Model& model) : model_(model), path_(path) {
+  check_output_file(path, "trace", R"(,"round":1,"fired":[)");
   errno = 0;
   file_.open(path);
   if (!file_) throw FileError(path.string(), "cannot be created" + because(errno));

@@ -240,11 +240,15 @@ bool read_line(std::istream& in, std::string& line) {
   return in || !line.empty();
 }
 
-void refuse_file(const Table& table, std::string_view key, const fs::path& path, const std::string& why) {
+void refuse_file(const Table& table, std::string_view key, const FileError& error) {
   const SourcePlace place = table.place(key);
   const std::string where =
       place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file;
-  throw FileError(where, fmt::format("{}: {}: {}", table.path(key), path.string(), why));
+  throw FileError(where, fmt::format("{}: {}", table.path(key), error.what()));
+}
+
+void refuse_file(const Table& table, std::string_view key, const fs::path& path, const std::string& why) {
+  refuse_file(table, key, FileError(path.string(), why));
 }
 
 std::ifstream open_data_file(const Table& table, std::string_view key, const fs::path& path) {

@@ -32,6 +32,8 @@ bool read_line(std::istream& in, std::string& line);
 /// A FileError with the place of the key.
 [[noreturn]] void refuse_file(const Table& table, std::string_view key, const std::filesystem::path& path,
                               const std::string& why);
+/// The same of an error that names the file.
+[[noreturn]] void refuse_file(const Table& table, std::string_view key, const FileError& error);
 /// Opens the file that `key` names. Errors: FileError with the place of the key.
 [[nodiscard]] std::ifstream open_data_file(const Table& table, std::string_view key,
                                            const std::filesystem::path& path);

@@ -46,6 +46,8 @@ std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path
     else
       fail(fmt::format("found \"{}\", expected member or rigid", excerpt(cells[0])));
   }
+  ++line;
+  if (!cells.empty()) fail("found no line break, expected the end of a row");
   return forces;
 }
 

@@ -6,6 +6,7 @@
 #include "base/json.hpp"
 #include "base/listed.hpp"
 #include "base/number.hpp"
+#include "base/run_files.hpp"
 #include "base/suggest.hpp"
 #include "scene/components.hpp"
 #include "scene/data_file.hpp"
@@ -87,14 +88,15 @@ void read_stages(Table& run, InitialSpec& initial) {
   run.record("stages", toml_array(texts));
 }
 
-/// From the summary of a run; none where it has none, as that of a run that was killed.
+/// From the summary of a run; none where it has none, as that of a run that was killed. Errors: FileError.
 Json model_of_run(const std::filesystem::path& directory) {
-  std::ifstream in(directory / "summary.json");
+  const std::filesystem::path path = directory / "summary.json";
+  std::ifstream in(path);
   if (!in) return {};
   try {
-    return parse_json(in).at("model");
-  } catch (const Json::exception&) {
-    return {};
+    return parse_json(in).value("model", Json{});
+  } catch (const Json::exception& error) {
+    throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());
   }
 }
 
@@ -136,6 +138,13 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   if (name.empty()) table.wrong("run", "the directory of a run");
   if (std::error_code ignored; !std::filesystem::is_directory(directory, ignored))
     refuse_file(table, "run", directory, "not a directory; give the directory of a run");
+  Json model;
+  try {
+    check_run_files(directory, {"states.csv", "contacts.csv", frozen_file, "summary.json", "run.toml"});
+    model = model_of_run(directory);
+  } catch (const FileError& error) {
+    refuse_file(table, "run", error);
+  }
   std::ifstream in = open_data_file(table, "run", path);
   const std::optional<double> t = table.optional_number("t");
   table.finish("has no meaning beside run");
@@ -148,7 +157,6 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   initial.saved->run = directory.string();
   initial.saved->left = read_left_contacts(directory / "contacts.csv", initial.saved->t);
   initial.saved->frozen = read_frozen_forces(directory / frozen_file, table.path("run"));
-  const Json model = model_of_run(directory);
   initial.saved->scales = scales_of_run(model);
   initial.saved->carried = carried_in_run(model);
   if (const auto alpha = alpha_of_run(model)) initial.saved->motions.emplace_back(saved_alpha, *alpha);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/json.hpp"
+#include "base/run_files.hpp"
 #include "base/version.hpp"
 #include "result/body_motion.hpp"
 #include "result/picture_tables.hpp"
@@ -23,6 +24,11 @@ namespace {
 bool is_there(const fs::path& file) {
   std::error_code none;
   return fs::exists(file, none);
+}
+
+/// A file beside the manifest that it does not list was not written to its end.
+bool was_written(const fs::path& directory, const std::optional<Manifest>& manifest, std::string_view file) {
+  return is_there(directory / file) && (!manifest || manifest->find(file) != nullptr);
 }
 
 /// Events, and what pictures need, in memory: files are written when both are known.
@@ -81,7 +87,9 @@ bool same_events(const std::string& events, const fs::path& file) {
 }  // namespace
 
 bool lacks_picture_rows(const fs::path& directory) {
-  if (is_there(directory / "motion.csv") || is_there(directory / "curves.csv")) return false;
+  const std::optional<Manifest> manifest = read_manifest(directory);
+  for (const char* table : {"motion.csv", "curves.csv"})
+    if (was_written(directory, manifest, table)) return false;
   std::ifstream stream(directory / "summary.json", std::ios::binary);
   try {
     const Json summary = parse_json(stream);
@@ -105,7 +113,19 @@ bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go
         (directory / "events.csv").string(),
         "the run was computed again for its pictures (it was made with --no-plots), and has other "
         "events now: the program, or a file that run.toml reads, is another than it was");
+  std::optional<Manifest> manifest = read_manifest(directory);
+  if (manifest) {
+    for (const std::string_view table : picture_rows) manifest->drop(table);
+    write_file(directory / manifest_file, manifest->text());
+  }
+  std::error_code ignored;
+  for (const std::string_view table : picture_rows)
+    fs::remove(directory / table, ignored);  // opening a pipe would wait
   rows.write(directory, prepared.model);
+  if (manifest) {
+    for (const std::string_view table : picture_rows) manifest->take(directory, table);
+    write_file(directory / manifest_file, manifest->text());
+  }
   return true;
 }
 

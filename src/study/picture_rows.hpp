@@ -11,11 +11,12 @@
 
 namespace signorini {
 
-/// A run of this version that ended by itself and has neither table.
+/// A run of this version that ended by itself and has neither table, or none that its manifest lists: one that was not
+/// written to its end.
 [[nodiscard]] bool lacks_picture_rows(const std::filesystem::path& directory);
 
-/// Computes them; go_on: asked often, false leaves everything as it was. Returns whether they were written. Errors: those of
-/// prepare_run; FileError for events that differ.
+/// Computes them and adds them to the manifest; go_on: asked often, false leaves everything as it was. Returns whether they
+/// were written. Errors: those of prepare_run; FileError for events that differ.
 bool add_picture_rows(const std::filesystem::path& directory, const std::function<bool()>& go_on);
 
 }  // namespace signorini

@@ -82,6 +82,8 @@ TEST_CASE("planted faults: a saved state that lacks something, by the first run'
           static_cast<void>(directory.finish(simulate(model, first.run, directory)));
         }
         if (loss.text != nullptr) {
+          std::filesystem::remove(
+              folder / "manifest.json");  // a reader would notice the alteration before the witness
           const std::string states =
               altered_column(text_of_file(folder / "states.csv"), loss.column, loss.value);
           std::ofstream(folder / "states.csv") << states;

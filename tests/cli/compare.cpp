@@ -156,6 +156,7 @@ TEST_CASE("cli compare: a limit of what is not in both runs is 5, and says what 
   CHECK(has(ending.err, "in one of the two runs only"));
   CHECK(has(ending.out, "rows compared: history.csv 101, contacts.csv 101"));
   const std::string contacts = shell.read("b/contacts.csv");
+  std::filesystem::remove(shell / "b/manifest.json");
   shell.write("b/contacts.csv", contacts.substr(0, contacts.find('\n', contacts.find('\n') + 1) + 1));
   const Ending cut = shell.run({"compare", "a", "b", "--no-plots", "--force", "--limit", "force=1e9"});
   CHECK(cut.code == 5);
@@ -169,6 +170,7 @@ TEST_CASE("cli compare: a run that stopped early is a row, and keeps no limit") 
   shell.write("belt.toml", belt(20));
   for (const char* name : {"whole", "cut"})
     REQUIRE(shell.run({"run", "belt.toml", "-o", name, "--no-plots"}).code == 0);
+  std::filesystem::remove(shell / "cut/manifest.json");
   json summary = json::parse(shell.read("cut/summary.json"));
   summary["outcome"] = {
       {"kind", "stopped"}, {"t", 12.0}, {"t_end", 20.0}, {"reason", "made up"}, {"exit_code", 4}};

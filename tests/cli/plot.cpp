@@ -88,6 +88,7 @@ TEST_CASE("cli plot: a run whose events are others by now gets no pictures of th
   const Shell shell;
   shell.write("belt.toml", belt(20));
   REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  std::filesystem::remove(shell / "belt-run/manifest.json");
   shell.write("belt-run/events.csv", shell.read("belt-run/events.csv") + "1,2,3\n");
   const Ending ending = shell.run({"plot", "belt-run"});
   CHECK(ending.code == 6);

@@ -4,6 +4,7 @@ python3 -m unittest, with the package on PYTHONPATH
 """
 import contextlib
 import io
+import json
 import os
 import pathlib
 import pickle
@@ -66,6 +67,10 @@ class Run(unittest.TestCase):
             rows = np.genfromtxt(directory / "history.csv", delimiter=",", names=True, deletechars="")
             np.testing.assert_array_equal(rows["block.ux"], result.history["block.ux"])
             self.assertTrue((directory / "motion.csv").exists() and (directory / "run.toml").exists())
+            manifest = json.loads((directory / "manifest.json").read_text())
+            self.assertEqual(manifest["outcome"], "done")
+            for entry in manifest["files"]:
+                self.assertEqual(entry["size"], (directory / entry["file"]).stat().st_size)
             with self.assertRaises(signorini.Error) as caught:
                 signorini.run(push, directory=directory)
             self.assertEqual(caught.exception.code, 6)

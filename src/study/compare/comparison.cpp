@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/number.hpp"
+#include "base/run_files.hpp"
 #include "scene/components.hpp"
 #include "study/compare/comparison_tables.hpp"
 #include "study/compare/joined_tables.hpp"
@@ -237,6 +238,7 @@ void note_contacts(const ComparedRun& a, const ComparedRun& b, Comparison& c) {
 }  // namespace
 
 ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name) {
+  check_run_files(directory);
   ComparedRun run{read_run_figures(directory), read_events(directory)};
   run.figures.name = name;
   return run;

@@ -26,7 +26,7 @@ struct ComparedRun {
   std::vector<LoggedEvent> events;
 };
 
-/// Errors: FileError.
+/// Checks all files of the run first (base/run_files.hpp). Errors: FileError.
 [[nodiscard]] ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name);
 
 struct ComparisonSettings {

@@ -8,8 +8,10 @@
 #include "base/json.hpp"
 #include "base/number.hpp"
 #include "base/output_directory.hpp"
+#include "base/run_files.hpp"
 #include "result/csv.hpp"
 #include "result/states.hpp"
+#include "result/summary.hpp"
 #include "result/units_json.hpp"
 
 namespace signorini {
@@ -130,9 +132,11 @@ void write_orbit(const fs::path& directory, const Scene& scene, const Model& mod
   write_file(directory / "orbit.json", orbit_json(model, orbit));
   const fs::path start = directory / "start";
   make_directory(start);
+  remove_manifest(start);
   write_start(start, model, orbit);
   write_file(start / "run.toml", scene.resolved);
   write_file(start / "summary.json", start_summary(model));
+  write_file(start / manifest_file, manifest_of(start, to_string(Outcome::Kind::done)).text());
 }
 
 }  // namespace signorini

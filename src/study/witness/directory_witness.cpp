@@ -9,6 +9,7 @@
 
 #include "base/number.hpp"
 #include "base/rounding.hpp"
+#include "base/run_files.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/parts.hpp"
 #include "result/instants.hpp"
@@ -33,6 +34,7 @@ PreparedRun prepared_of(const fs::path& directory) {
     throw FileError(path.string(), "not found; give a directory written by `signorini run`");
   if (!fs::exists(directory / instants_file, missing))
     throw FileError((directory / instants_file).string(), "not found; `signorini run --instants` writes it");
+  check_run_files(directory);
   return prepare_run(path.string(), {});
 }
 

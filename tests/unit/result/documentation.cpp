@@ -2,6 +2,9 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "base/run_files.hpp"
 #include "result/certificate_files.hpp"
 #include "signorini/event.hpp"
 #include "unit/result/made_up.hpp"
@@ -25,6 +28,17 @@ TEST_CASE("docs/output.md: the columns of events.csv, and the types of events") 
     INFO("docs/output.md should hold:\n", table);
     CHECK(text.find("\n\n" + table + "\n") != std::string::npos);
   }
+}
+
+TEST_CASE("docs/output.md: the files of a manifest, in their order") {
+  std::string text = made_up::slurp(SIGNORINI_MODELS "/../docs/output.md");
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::string files;
+  for (const std::string_view file : result_files) files += fmt::format("{}, ", file);
+  files.replace(files.size() - 2, 2, ".");
+  for (std::size_t at; (at = text.find(",   ")) != std::string::npos;) text.replace(at, 4, ", ");
+  INFO("docs/output.md should hold: ", files);
+  CHECK(text.find("in this order: " + files) != std::string::npos);
 }
 
 TEST_SUITE_END();

@@ -9,7 +9,7 @@
 // or a dent to what was crushed. There is N in every normal row and T in every tangent row; forms on
 // accelerations are refused.
 //
-//   auto pad = std::make_shared<OwnLaw>();         a pad that yields at -Y (src/contact/yielding_pad.cpp)
+//   auto pad = std::make_shared<OwnLaw>();         a pad that yields at -Y (src/contact/law/yielding_pad.cpp)
 //   pad->states = {{"off", State::open, {{.N = 1}}, {{.T = 1}}, {{{{.gap = 1}, -1}, 1}}},
 //                  {"on", State::closed, ...}};
 //   scene.contacts[0].own = pad;

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "signorini/contact_law.hpp"
 #include "signorini/engine.hpp"
 #include "signorini/error.hpp"
 #include "signorini/history.hpp"
@@ -348,18 +349,6 @@ struct Support {
   std::string key = "supports";         ///< in messages, "supports.3": a table may hold many nodes
 };
 
-enum class Law { compliant, rigid, slider };
-
-// What a law is made of: the rest of the program asks for these, not which law it is.
-/// It opens and closes: g >= 0, N <= 0, g N = 0.
-[[nodiscard]] constexpr bool has_gap(Law law) { return law != Law::slider; }
-/// N = kn g + cn g' while closed: forces and velocities are continuous.
-[[nodiscard]] constexpr bool has_spring(Law law) { return law == Law::compliant; }
-/// A constraint, g = 0 while closed: velocities jump where it closes with g' < 0.
-[[nodiscard]] constexpr bool takes_impulses(Law law) { return law == Law::rigid; }
-/// N is given: the normal force of the scene.
-[[nodiscard]] constexpr bool is_pressed(Law law) { return law == Law::slider; }
-
 /// Coefficients of friction, of a scene and of its contacts.
 struct Friction {
   double static_ = 0.0;  ///< |T| <= static |N| in stick
@@ -425,6 +414,13 @@ struct ContactSpec {
   /// Rows, guards and transitions in place of those of `compliant`: of law = "yielding", or made in code.
   std::shared_ptr<const OwnLaw> own = {};
 
+  /// Of the law that is named; a law made of data stands in place of a compliant one.
+  [[nodiscard]] LawCapabilities capabilities() const { return capabilities_of(law); }
+  [[nodiscard]] ContactLawPtr contact_law() const { return own ? ContactLawPtr(own) : ContactLawPtr(law); }
+  /// The direction along which N acts; nullptr where the scene gives N, or no direction.
+  [[nodiscard]] const Direction* bearing_normal() const {
+    return normal && !capabilities().normal_force_given ? &*normal : nullptr;
+  }
   /// In messages: "contacts.first.gap", "stops.guide.direction".
   [[nodiscard]] std::string key(const std::string& of) const {
     return (table.empty() ? "contacts." + name : table) + "." +

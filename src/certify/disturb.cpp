@@ -5,6 +5,7 @@
 
 #include "certify/mixed_shapes.hpp"
 #include "certify/moved_start.hpp"
+#include "contact/constants.hpp"
 
 namespace signorini {
 namespace {
@@ -22,7 +23,8 @@ std::uint64_t mixed(std::uint64_t x) {
 
 /// It has a gap at the start, and no rounding of one.
 bool is_apart(const Contact& c, const Vector& u0) {
-  return c.has_gap() && c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0));
+  return !c.normal_force_given() &&
+         c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0));
 }
 
 class Disturber {
@@ -74,13 +76,7 @@ class Disturber {
 
   void contact(Contact& c, const Vector& u0) {
     if (is_apart(c, u0)) c.gap *= next();
-    c.normal_stiffness *= next();
-    c.normal_damping *= next();
-    if (c.tangential_stiffness) *c.tangential_stiffness *= next();
-    if (c.shear) {
-      c.shear->stiffness *= next();
-      c.shear->damping *= next();
-    }
+    visit_stiffnesses(c, [this](double& x, const Unit&) { x *= next(); });
     const double friction = next();  // static and kinetic friction that are equal stay so
     c.friction.static_ *= friction;
     c.friction.kinetic *= friction;

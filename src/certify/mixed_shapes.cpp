@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "contact/constants.hpp"
+
 namespace signorini {
 namespace {
 
@@ -53,10 +55,8 @@ void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& couplin
   for (Vector* q : {&model.u0, &model.v0}) q->head(c.rows()) -= c.transpose() * q->head(c.rows()).eval();
   for (Contact& contact : model.contacts) {
     const double before = contact.normal.dot(u0);
-    mix(c, contact.normal);
-    mix(c, contact.tangent);
-    if (contact.shear) mix(c, contact.shear->body);
-    if (contact.has_gap()) contact.gap += before - contact.normal.dot(model.u0);
+    visit_forms(contact, [&](Combination& form) { mix(c, form); });
+    if (!contact.normal_force_given()) contact.gap += before - contact.normal.dot(model.u0);
   }
   for (Load& load : model.loads) mix(c, load.direction);
   model.reduction->shapes += model.reduction->shapes * c.transpose();

@@ -46,8 +46,8 @@ Vector left_over(const Model& model, const std::vector<double>& reactions,
     const Contact& c = model.contacts[k];
     if (model.statics.frictional && reactions[k] > 0.0 && c.has_friction())
       c.tangent.add_to(force, -shears[k]);
-    if (!c.has_gap() || !(reactions[k] > 0.0)) continue;
-    c.normal.add_to(force, c.has_spring() ? -c.normal_stiffness * c.gap_at(model.u0) : reactions[k]);
+    if (c.normal_force_given() || !(reactions[k] > 0.0)) continue;
+    c.normal.add_to(force, c.normal_spring() ? -c.normal_stiffness * c.gap_at(model.u0) : reactions[k]);
   }
   return force;
 }
@@ -57,14 +57,14 @@ double rounding_of_gap(const Contact& contact, const Vector& u) {
 }
 
 bool bears(const Model& model, std::size_t k) {
-  return model.contacts[k].has_gap() && model.statics.reactions[k] > 0.0;
+  return !model.contacts[k].normal_force_given() && model.statics.reactions[k] > 0.0;
 }
 
 /// No contact that bears has left, and none that is open has come.
 bool keeps_states(const Model& model, const Model& near, const Vector& u) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (!c.has_gap() || c.takes_impulses()) continue;
+    if (!c.normal_spring()) continue;
     const double before = c.gap_at(model.u0);
     if (std::abs(before) > rounding_of_gap(c, model.u0) && before * near.contacts[k].gap_at(u) <= 0.0)
       return false;
@@ -81,9 +81,9 @@ bool is_known(const Model& model) {
   if (!model.static_start || model.statics.reactions.size() != model.contacts.size()) return false;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.own != nullptr && c.has_gap()) return false;
+    if (!c.obeys_coulomb()) return false;
     if (!rubs(model, c)) continue;
-    if (c.shear || c.bowl) return false;
+    if (c.sliding_point() || c.curved_surface()) return false;
     if (model.statics.reactions[k] > 0.0 && !sticks(model, k)) return false;
   }
   return true;
@@ -101,8 +101,8 @@ std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = near.contacts[k];
     if (rubs(model, c) && reactions[k] > 0.0) rows.push_back({c.tangent, *c.tangential_stiffness, false});
-    if (!c.has_gap()) continue;
-    if (c.has_spring() && bears(model, k))
+    if (c.normal_force_given()) continue;
+    if (c.normal_spring() && bears(model, k))
       rows.push_back({c.normal, c.normal_stiffness, false});
     else if (bears(model, k) || std::abs(c.gap_at(near.u0)) <= rounding_of_gap(c, near.u0))
       rows.push_back({c.normal, own_stiffness(near.stiffness, c.normal), true});

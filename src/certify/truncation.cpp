@@ -7,9 +7,7 @@ namespace {
 
 /// Force of a contact by the displacement that it is off; 0: nobody knows.
 double stiffness_of(const Contact& contact, const ComplianceShare& share) {
-  const double own = share.normal    ? (contact.has_spring() ? contact.normal_stiffness : 0.0)
-                     : contact.shear ? contact.shear->stiffness
-                                     : contact.tangential_stiffness.value_or(0.0);
+  const double own = (share.normal ? contact.normal_spring() : contact.tangent_spring()).value_or(0.0);
   if (own > 0.0) return own;
   return share.compliance > 0.0 ? 1.0 / share.compliance : 0.0;
 }

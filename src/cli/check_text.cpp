@@ -115,8 +115,8 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
   for (std::size_t k = 0; k < report.contacts.size() && k < most_rows; ++k) {
     const Contact& c = model.contacts[k];
     const ContactSample& s = report.contacts[k];
-    const bool slider = c.is_pressed();
-    table.row({c.name, law_name(c), to_string(s.state), slider ? "" : number(s.gap),
+    const std::optional<double> gap = c.gap_if_any(s.gap);
+    table.row({c.name, c.law->name(), to_string(s.state), gap ? number(*gap) : "",
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
                above(s.T, model.scales.force), c.has_friction() ? number(sticking_limit(c, s.N)) : ""});
   }

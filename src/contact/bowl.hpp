@@ -10,14 +10,18 @@
 
 namespace signorini {
 
-/// F along the tangent; the force on the body is -F. Contacts with a bowl. Unit: force.
+/// F along the tangent; the force on the body is -F. 0 where the surface is not curved. Unit: force.
 [[nodiscard]] inline double bowl_force(const Contact& contact, double N, double ut) {
-  return (-N - contact.bowl->carried) / contact.bowl->radius * ut;
+  return contact.bowl ? (-N - contact.bowl->carried) / contact.bowl->radius * ut : 0.0;
+}
+/// A term of its series: |N_i| ut_j / R; the constant N_K stands in that of i = 0, of which bowl_force is.
+[[nodiscard]] inline double bowl_product(const Contact& contact, double N, double ut) {
+  return -N / contact.bowl->radius * ut;
 }
 
-/// ( N_K - N_0 ) / R: what K holds beside the spring N_0 / R of the scene, which says N_0.
-[[nodiscard]] inline double beyond_spring(const Bowl& said, const Bowl& bowl) {
-  return (bowl.carried - said.carried) / bowl.radius;
+/// ( N_K - N_0 ) / R: what K holds beside the spring N_0 / R of the scene, which says N_0; 0 where the surface is not curved.
+[[nodiscard]] inline double beyond_spring(const ContactSpec& said, const Contact& contact) {
+  return contact.bowl ? (contact.bowl->carried - said.bowl->carried) / contact.bowl->radius : 0.0;
 }
 
 }  // namespace signorini

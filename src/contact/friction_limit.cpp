@@ -21,7 +21,7 @@ void set_limit(const Contact& contact, ContactMotion& m) {
   if (!f.by_force()) return;
   m.limit = friction_limit(f, -m.N);
   m.limit_rate = friction_limit_slope(f, -m.N) *
-                 (contact.is_pressed() ? m.pressing_rate : -contact.normal_stiffness * m.vn);
+                 (contact.normal_force_given() ? m.pressing_rate : -contact.normal_stiffness * m.vn);
 }
 
 LimitSeries::LimitSeries(const Friction& friction, double x0)

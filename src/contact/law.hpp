@@ -21,14 +21,14 @@
 //              p' = ut' - s F'/kt               friction that depends on N
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
-// A law of one's own has the rows and guards that it names (signorini/own_law.hpp).
+// These are the built-in laws, contact/law/coulomb_law.hpp and the laws along the normal beside it. A law made of data has the
+// rows and guards that it names (signorini/own_law.hpp, contact/law/user_law.hpp). The interface of all: signorini/contact_law.hpp.
 // A guard is positive while its state is valid; the event is the first one to fall to zero. All are
 // smooth past their zero, so that a root finder may look a little beyond the event.
 // Source: Lukashevich et al. 2021, (6), (7) and (11), generalised to slip in both directions.
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "contact/slots.hpp"
 #include "signorini/contact.hpp"
@@ -55,8 +55,9 @@ enum class Guard : unsigned char {
 }
 /// "compliant", "slider": as in a scene file.
 [[nodiscard]] const char* to_string(Law law);
-/// The same of a contact: "rigid" where its springs are borrowed, the name of a law of its own where that has one.
-[[nodiscard]] std::string law_name(const Contact& contact);
+
+/// The unit of a form's value: that of its first term.
+[[nodiscard]] Unit unit_of(const Form& form);
 
 struct GuardForm {
   Guard kind = Guard::none;

@@ -40,15 +40,16 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
 
 /// p: where the anchor of a contact lies that sticks from now on. Of increments: that of p.
 [[nodiscard]] inline double slip_of(const Contact& contact, double ut, double T) {
-  return contact.tangential_stiffness && !contact.own ? ut - T / *contact.tangential_stiffness : ut;
+  const std::optional<double> kt = contact.anchor_spring();
+  return kt ? ut - T / *kt : ut;
 }
 [[nodiscard]] inline double slip_of(const Contact& contact, const ContactMotion& m) {
   return slip_of(contact, m.ut, m.T);
 }
 
-/// Of a contact that borrows springs: the motion of the surfaces that touch, without what its springs give.
+/// Of a compliance split: the motion of the surfaces that touch, without that of its springs.
 inline void leave_out_borrowed(const Contact& contact, State state, ContactMotion& m) {
-  if (!contact.borrows || is_open(state)) return;
+  if (!contact.compliance_split() || is_open(state)) return;
   if (contact.tangential_stiffness) {
     const int s = slip_sign(state);
     const double ratio = contact.normal_stiffness / *contact.tangential_stiffness;

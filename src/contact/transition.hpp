@@ -33,9 +33,6 @@ struct MotionJet {
 /// What a contact that carries nothing is: a dashpot may let go before the gap has opened.
 [[nodiscard]] State let_go(const Contact& contact, double gap);
 
-/// State i of a law of one's own.
-[[nodiscard]] ContactState state_in(const OwnLaw& law, std::size_t i, double memory);
-
 /// The next state of one contact; `failed` is a guard of `now`, `jet` holds in state `now`.
 [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                       const MotionJet& jet);

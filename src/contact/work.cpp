@@ -3,18 +3,11 @@
 namespace signorini {
 
 ContactWork work_on(const Contact& contact, State state, double N, double T, const ContactPath& path) {
-  ContactWork work;
-  if (contact.own) {
-    work.friction = N * path.gap + T * path.slip;
-    work.surface = -T * path.surface;
-    work.pressing = -N * path.time;
-    return work;
-  }
-  if (slip_sign(state) != 0) work.friction = T * path.slip;
-  work.surface = -T * path.surface;
-  if (!is_open(state)) work.damping = contact.normal_damping * path.gap_rate * path.gap;
-  work.pressing = -N * path.time;
-  return work;
+  return contact.law->work(contact, state, N, T, path);
+}
+
+double working_slip_rate(const Contact& contact, State state, const ContactMotion& m) {
+  return contact.law->working_slip_rate(contact, state, m);
 }
 
 double inside_loss(const Contact& contact, State state, double gap_from, double gap_to) {
@@ -29,19 +22,12 @@ bool slides_at_once(const Contact& contact) {
 }
 
 double shear_energy(const Contact& contact, double T) {
-  return contact.tangential_stiffness && !contact.own ? T * T / (2.0 * *contact.tangential_stiffness) : 0.0;
+  const std::optional<double> kt = contact.anchor_spring();
+  return kt ? T * T / (2.0 * *kt) : 0.0;
 }
 
 double stored_energy(const Contact& contact, State state, const ContactMotion& m) {
-  double energy = shear_energy(contact, m.T);
-  if (!contact.has_spring() || contact.own) return energy;
-  if (state == State::inside) {  // N = 0: the spring is as long as the gap is deep
-    energy += 0.5 * contact.normal_stiffness * m.gap * m.gap;
-  } else if (!is_open(state)) {
-    const double spring = m.N - contact.normal_damping * m.vn;
-    energy += spring * spring / (2.0 * contact.normal_stiffness);
-  }
-  return energy;
+  return contact.law->stored_energy(contact, state, m);
 }
 
 }  // namespace signorini

@@ -28,6 +28,9 @@ struct ContactWork {
 [[nodiscard]] ContactWork work_on(const Contact& contact, State state, double N, double T,
                                   const ContactPath& path);
 
+/// The slip rate of ContactPath::slip by time: p' of a state that slips, ut' of a law that is not Coulomb's; else 0.
+[[nodiscard]] double working_slip_rate(const Contact& contact, State state, const ContactMotion& m);
+
 /// What the dashpot of a contact that is inside takes between two gaps; 0 in any other state.
 [[nodiscard]] double inside_loss(const Contact& contact, State state, double gap_from, double gap_to);
 

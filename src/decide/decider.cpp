@@ -80,9 +80,9 @@ Refusal no_system(const Model& model, const Mode& mode) {
 /// What makes forces unique. Only sliders may have a tangential_stiffness without a normal one.
 std::string what_makes_unique(const Model& model, const std::vector<std::size_t>& contacts) {
   const bool sliders = std::any_of(contacts.begin(), contacts.end(),
-                                   [&](std::size_t k) { return !model.contacts[k].has_gap(); });
+                                   [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
   const bool others = std::any_of(contacts.begin(), contacts.end(),
-                                  [&](std::size_t k) { return model.contacts[k].has_gap(); });
+                                  [&](std::size_t k) { return !model.contacts[k].normal_force_given(); });
   return sliders && others ? "law = \"compliant\", for sliders a tangential_stiffness,"
          : sliders         ? "a tangential_stiffness"
                            : "law = \"compliant\"";

@@ -30,7 +30,7 @@ std::vector<Fired> fell_at_start(const Model& model, const Vector& u, const Vect
   std::vector<Fired> result;
   for (std::size_t c = 0; c < model.continues.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (contact.own || contact.borrows || !contact.has_spring()) continue;
+    if (!contact.is_elastic_along_normal() || contact.compliance_split()) continue;
     const bool was_open = model.continues[c].state == to_string(State::open), is_now = mode[c].is_open();
     if (was_open == is_now) continue;
     const double kn = contact.normal_stiffness, cn = contact.normal_damping, gap = contact.gap_at(u);
@@ -51,8 +51,8 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
   Mode mode;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (contact.own) {
-      mode.push_back(state_in(*contact.own, contact.own_state, contact.own_memory));
+    if (const std::vector<State> own = contact.law->own_states(); !own.empty()) {
+      mode.push_back({own[contact.own_state], contact.own_memory});
       continue;
     }
     ContactState s;
@@ -60,9 +60,8 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
     set_place(contact, u, forcing.surface(c, t, 0), m);
     set_velocity(contact, v, forcing.surface(c, t, 1), m);
     // A rigid contact that touches is decided together with the others.
-    const bool carries = contact.is_pressed()   ? !forcing.lifted(c)
-                         : contact.has_spring() ? m.gap < 0.0
-                                                : false;
+    const bool carries =
+        contact.normal_force_given() ? !forcing.lifted(c) : contact.normal_spring() && m.gap < 0.0;
     if (carries) {
       s.state = state_at_rest(contact);
       if (contact.tangential_stiffness) {
@@ -86,7 +85,7 @@ bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
     const int sign = slip_sign(mode[c].state);
-    if (contact.own || sign == 0 || !contact.tangential_stiffness) continue;
+    if (sign == 0 || !contact.anchor_spring()) continue;
     const bool massless = std::any_of(
         contact.tangent.terms.begin(), contact.tangent.terms.end(),
         [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
@@ -105,9 +104,8 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
   const double t = instant.t;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (contact.own) continue;
     ContactState& s = mode[c];
-    if (contact.has_spring() || (contact.takes_impulses() && s.is_open())) continue;
+    if (contact.normal_spring() || (contact.takes_impulses() && s.is_open())) continue;
     ContactMotion m;
     set_place(contact, instant.u, after.surface(c, t, 0), m);
     set_velocity(contact, instant.v, after.surface(c, t, 1), m);

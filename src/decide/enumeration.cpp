@@ -67,7 +67,7 @@ Enumeration::Choice Enumeration::choice(const Participant& who) const {
   const Contact& contact = model_.contacts[who.contact];
   const ContactState open{State::open, 0.0}, closed{State::closed, 0.0}, stick{State::stick, 0.0},
       plus{State::slip_plus, 0.0}, minus{State::slip_minus, 0.0};
-  if (!contact.has_gap()) return {who.contact, {stick, plus, minus}};
+  if (contact.normal_force_given()) return {who.contact, {stick, plus, minus}};
   if (!contact.has_friction()) return {who.contact, {open, closed}};
   if (who.slipping) return {who.contact, {open, who.sign > 0 ? plus : minus}};
   return {who.contact, {open, stick, plus, minus}};
@@ -76,23 +76,7 @@ Enumeration::Choice Enumeration::choice(const Participant& who) const {
 Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state,
                                         const ContactMotion& before) const {
   const Contact& contact = model_.contacts[c];
-  if (contact.own) {
-    Choice own{c, {}};
-    for (std::size_t i = 0; i < contact.own->states.size(); ++i)
-      own.states.push_back(state_in(*contact.own, i, state.anchor));
-    return own;
-  }
-  // What stuck keeps its anchor, what slipped sticks where it is.
-  const double anchor = state.state == State::stick ? state.anchor : slip_of(contact, before);
-  Choice result{c, {}};
-  if (contact.has_gap()) result.states.push_back({let_go(contact, before.gap), 0.0});
-  if (!contact.has_friction()) {
-    result.states.push_back({State::closed, 0.0});
-    return result;
-  }
-  for (const State s : {State::stick, State::slip_plus, State::slip_minus})
-    result.states.push_back({s, anchor});
-  return result;
+  return {c, contact.law->candidates(contact, state, before)};
 }
 
 /// Nothing: the rows of the mode are dependent.

@@ -73,7 +73,7 @@ const MotionJet* rested(const Contact& contact, std::size_t c, const ContactStat
     return is_zero && instant.has_rested(c, limit.kind);
   };
   bool any = rests(guard);
-  if (guard.kind == Guard::sliding && !contact.own && contact.tangential_stiffness)
+  if (guard.kind == Guard::sliding && contact.anchor_spring())
     for (const GuardForm& limit : guards(contact, ContactState{State::stick, state.anchor}))
       any = any || (limit.kind == (slip_sign(state.state) > 0 ? Guard::slip_plus : Guard::slip_minus) &&
                     rests(limit));

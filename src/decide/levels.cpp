@@ -119,7 +119,7 @@ Refusal dependent_rows(std::vector<std::size_t> contacts) {
 }
 
 std::string holds_no_mass(const Model& model, const Contact& contact) {
-  if (contact.has_gap() || !contact.sticks_rigidly()) return {};
+  if (!contact.holds_tangent_only()) return {};
   const auto moves_mass = [&](const auto& term) {
     return term.second != 0.0 && !model.dofs[static_cast<std::size_t>(term.first)].massless;
   };
@@ -137,7 +137,7 @@ CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t
   item.static_friction = entry.who.kinetic ? item.kinetic_friction : static_friction(contact);
   if (entry.standing == Standing::limit) {
     item.kind = Kind::limit;
-  } else if (contact.is_pressed()) {
+  } else if (contact.normal_force_given()) {
     item.kind = Kind::pressed;
     item.pressing = forcing.pressing(c, t, 0);
   } else if (!contact.has_friction()) {

@@ -19,7 +19,7 @@ std::optional<Vector> released(ModeSystems& systems, JetMaker& jets, const Forci
                                const Instant& instant, Mode mode, std::size_t c) {
   const Model& model = systems.model();
   const Contact& contact = model.contacts[c];
-  if (contact.own || !contact.has_spring() || !carries_massless(model, contact)) return std::nullopt;
+  if (!contact.is_elastic_along_normal() || !carries_massless(model, contact)) return std::nullopt;
   mode[c] = {State::open, 0.0};
   const ModeSystemPtr system = systems.of(mode);
   if (!system) return std::nullopt;

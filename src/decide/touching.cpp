@@ -141,7 +141,7 @@ void Touching::follow_velocity(const Instant& instant, const Vector& before, con
     const Contact& contact = model_.contacts[c];
     if (contact.tangential_stiffness && slip_sign(mode[c].state) != 0 && presses_harder(c, before, instant.v))
       mode[c] = {State::stick, slip_of(contact, motion[c])};
-    if (contact.has_gap() || !contact.sticks_rigidly() || mode[c].is_open()) continue;
+    if (!contact.holds_tangent_only() || mode[c].is_open()) continue;
     const double vt = along_surface(contact, instant.v, after.surface(c, instant.t, 1));
     // As in presses_harder: what stuck is at rest but for what the solve has left of all that jumps.
     const double of_jump =
@@ -405,9 +405,10 @@ std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing
     };
     for (int round = 0; round < 2; ++round)  // what has stopped holds others
       for (const std::size_t c : group)
-        if (!model_.contacts[c].has_gap() && !mode[c].is_open() && stops(c)) held[c].state = State::stick;
+        if (model_.contacts[c].normal_force_given() && !mode[c].is_open() && stops(c))
+          held[c].state = State::stick;
     std::copy_if(group.begin(), group.end(), std::back_inserter(at_rest), [&](std::size_t c) {
-      return !model_.contacts[c].has_gap() && held[c].state == State::stick;
+      return model_.contacts[c].normal_force_given() && held[c].state == State::stick;
     });
   }
   return at_rest;
@@ -419,7 +420,7 @@ void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const
   const std::vector<std::size_t> together = sharing(instant, forcing, mode, decision);
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
-    if (contact.has_gap() || !contact.sticks_rigidly()) continue;
+    if (!contact.holds_tangent_only()) continue;
     const bool shares = std::find(together.begin(), together.end(), c) != together.end();
     const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     const bool stopped =
@@ -446,8 +447,7 @@ bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, 
       const Contact& contact = model_.contacts[c];
       const bool takes_part =
           std::any_of(all.begin(), all.end(), [&](const Participant& who) { return who.contact == c; });
-      if (contact.has_gap() || !contact.sticks_rigidly() || mode[c].state != State::stick || takes_part)
-        continue;
+      if (!contact.holds_tangent_only() || mode[c].state != State::stick || takes_part) continue;
       Participant who{c};
       who.sliding_friction = sliding_friction(contact, 0.0);
       who.kinetic = found.kinetic[c];
@@ -475,7 +475,8 @@ Refusal Touching::solve_levels(const Instant& instant, const Forcing& forcing,
   mode = held;
   found.known = known;
   for (const Participant& who : found.participants)
-    if (!model_.contacts[who.contact].has_gap()) found.known[who.contact] = known[who.contact].of_motion();
+    if (model_.contacts[who.contact].normal_force_given())
+      found.known[who.contact] = known[who.contact].of_motion();
   const Refusal together = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
   return together ? refusal : Refusal{};
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "contact/constants.hpp"
+
 namespace signorini {
 namespace {
 
@@ -60,9 +62,7 @@ Model restricted(const Model& whole, const std::vector<int>& dofs, const std::ve
   };
   for (const std::size_t k : contacts) {
     Contact contact = whole.contacts[k];
-    renumber(contact.normal);
-    renumber(contact.tangent);
-    if (contact.shear) renumber(contact.shear->body);
+    visit_forms(contact, renumber);
     model.contacts.push_back(std::move(contact));
     if (!whole.continues.empty()) model.continues.push_back(whole.continues[k]);
   }

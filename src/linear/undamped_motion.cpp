@@ -70,14 +70,14 @@ class Elimination {
 
 /// Terms of the velocities that rows of the contact may ask for, each in one of its states.
 std::vector<Combination> velocities_of(const Contact& contact) {
-  if (contact.own) {
+  if (!contact.obeys_coulomb()) {
     Combination both = contact.normal;
     both.terms.insert(both.terms.end(), contact.tangent.terms.begin(), contact.tangent.terms.end());
     return {both};
   }
   std::vector<Combination> result;
   if (contact.normal_damping != 0.0) result.push_back(contact.normal);
-  if (contact.shear) result.push_back(contact.tangent);
+  if (contact.sliding_point()) result.push_back(contact.tangent);
   return result;
 }
 

@@ -171,7 +171,7 @@ Compliance compliance_of(const Model& model) {
   Compliance f;
   bool any = false;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    if (!model.contacts[k].borrows) continue;
+    if (!model.contacts[k].compliance_split()) continue;
     f.contacts.push_back(k);
     any = any || model.contacts[k].has_friction();
   }
@@ -218,8 +218,7 @@ std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMa
           scene, rows[j].contact, "law",
           fmt::format("{} has neither mass nor stiffness; give it a mass, or the contact law = \"compliant\"",
                       rows[j].dof->displacement));
-    c.law = Law::compliant;
-    c.borrows = true;
+    c.law = compliance_split_law();
     if (rows[j].normal)
       c.normal_stiffness = stiffness;
     else

@@ -106,7 +106,7 @@ std::vector<bool> closed_at_start(const Model& model) {
   std::vector<bool> closed;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.is_pressed())
+    if (c.normal_force_given())
       closed.push_back(true);
     else if (model.static_start)
       closed.push_back(model.statics.reactions[k] > 0.0);
@@ -208,7 +208,7 @@ void take_out_rounding(const SavedState& saved, Model& model) {
     return std::abs(model.v0[term.first]) <= rate * u[turns];
   };
   const auto touches = [&](const Contact& c) {
-    return c.is_pressed() ||
+    return c.normal_force_given() ||
            c.gap_at(model.u0) <= rounding::of_many * (std::abs(c.gap) + c.normal.magnitude(model.u0));
   };
   for (const auto& [name, sign] : saved.slips)
@@ -321,7 +321,8 @@ Model built(const Scene& scene, Extent extent) {
     Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine, extent), machine);
     model.machine = machine;
     // The same to the last bit; one object for all models of a scene.
-    for (std::size_t k = 0; k < scene.contacts.size(); ++k) model.contacts[k].own = scene.contacts[k].own;
+    for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+      if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
     return model;
   } catch (const SceneError&) {
     static_cast<void>(assembled(scene, {}));  // refuses it with numbers in the scene's units

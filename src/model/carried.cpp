@@ -16,7 +16,9 @@ namespace {
 constexpr double settled = rounding::of_many;
 constexpr int rounds = 50;
 
-bool is_pressed_pendulum(const ContactSpec& contact) { return contact.bowl && contact.law == Law::compliant; }
+bool is_pressed_pendulum(const ContactSpec& contact) {
+  return contact.bowl && contact.capabilities().normal_spring;
+}
 
 /// To begin with: what is given, or all that loads push, shared out. Its size decides nothing but the number of rounds;
 /// it is not zero, lest a structure that stands on pendulums alone is one that nothing holds.
@@ -63,7 +65,7 @@ void carry(const Scene& scene, const std::vector<double>& forces, Model& model) 
     if (!scene.contacts[k].bowl) continue;
     Contact& contact = model.contacts[k];
     contact.bowl->carried = forces[k];
-    if (const double more = beyond_spring(*scene.contacts[k].bowl, *contact.bowl); more != 0.0)
+    if (const double more = beyond_spring(scene.contacts[k], contact); more != 0.0)
       springs.push_back({contact.tangent, more});
   }
   if (!springs.empty()) model.stiffness = with_springs(model.stiffness, springs);

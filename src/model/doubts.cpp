@@ -116,8 +116,8 @@ class Doubts {
       const Contact& c = model_.contacts[k];
       for (const auto& term : c.normal.terms.empty() ? c.tangent.terms : c.normal.terms) {
         const std::size_t part = parts.part_of(term.first);
-        if (!c.has_gap()) gripped[part] = true;
-        if (c.has_gap() && (supports[part].empty() || supports[part].back() != k))
+        if (c.normal_force_given()) gripped[part] = true;
+        if (!c.normal_force_given() && (supports[part].empty() || supports[part].back() != k))
           supports[part].push_back(k);
       }
     }
@@ -158,7 +158,7 @@ class Doubts {
     std::vector<std::size_t> touching;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
-      if (!c.has_gap() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
+      if (c.normal_force_given() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
       // A rigid body on rigid ground has its reaction at once.
       const bool gives = !c.takes_impulses() ||
                          std::any_of(c.normal.terms.begin(), c.normal.terms.end(), [&](const auto& term) {

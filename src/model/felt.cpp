@@ -65,7 +65,7 @@ Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, d
   }
   for (const Contact& contact : model.contacts) {
     double& share = felt.compressions.emplace_back(1.0);
-    const double amplitude = contact.is_pressed() ? magnitude(contact.normal_force, t_end) : 0.0;
+    const double amplitude = contact.normal_force_given() ? magnitude(contact.normal_force, t_end) : 0.0;
     if (!lasts(contact.normal_force, amplitude))
       share = share_at(contact.normal_force, amplitude, t_end, own(omega));
   }

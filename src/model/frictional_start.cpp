@@ -152,8 +152,7 @@ void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
     Contact& c = model.contacts[k];
     if (!c.tangential_stiffness || !c.has_friction()) continue;
     // The run computes N anew: the shear stays within its limit to the last digit.
-    const double N =
-        c.has_spring() ? c.normal_stiffness * std::min(0.0, c.gap_at(model.u0)) : -model.statics.reactions[k];
+    const double N = c.resting_force(model.u0).value_or(-model.statics.reactions[k]);
     const double limit = sticking_limit(c, N);
     c.initial_shear = std::clamp(found.shears[k], -limit, limit);
   }

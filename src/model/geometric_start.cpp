@@ -20,8 +20,7 @@ Holding held_at(const std::vector<Contact>& contacts, const std::vector<State>& 
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     if (is_open(states[k])) continue;
-    if (c.has_spring()) holding.springs.push_back({c.normal, c.normal_stiffness});
-    if (c.takes_impulses()) holding.fixed.push_back(c.normal);
+    holding.hold_normal(c);
     if (states[k] != State::stick || c.tangent.terms.empty()) continue;
     if (c.tangential_stiffness)
       holding.springs.push_back({c.tangent, *c.tangential_stiffness});
@@ -35,9 +34,9 @@ Holding held_at(const std::vector<Contact>& contacts, const std::vector<State>& 
 std::vector<State> sticking(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
   std::vector<State> states;
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    states.push_back(!closed[k] && !contacts[k].is_pressed() ? State::open
-                     : contacts[k].has_friction()            ? State::stick
-                                                             : State::closed);
+    states.push_back(!closed[k] && !contacts[k].normal_force_given() ? State::open
+                     : contacts[k].has_friction()                    ? State::stick
+                                                                     : State::closed);
   return states;
 }
 

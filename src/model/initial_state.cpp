@@ -48,7 +48,7 @@ void check_saved_contacts(const Scene& scene) {
   for (const SavedState::Own& own : scene.initial.saved->own) {
     const auto same = std::find_if(scene.contacts.begin(), scene.contacts.end(),
                                    [&](const ContactSpec& contact) { return contact.name == own.contact; });
-    if (same == scene.contacts.end() || !same->own || own.state >= same->own->states.size())
+    if (same == scene.contacts.end() || own.state >= same->contact_law()->own_states().size())
       refuse_saved(scene.initial,
                    fmt::format("the saved state has contact '{}' in state {} of a law of its own, "
                                "which the scene has not",
@@ -138,9 +138,9 @@ std::vector<bool> begins_from(const Model& model) {
     for (SparseMatrix::InnerIterator it(model.damping, k); it; ++it)
       if (it.value() != 0.0) result[static_cast<std::size_t>(it.row())] = true;
   for (const Contact& contact : model.contacts) {
-    if (contact.normal_damping != 0.0 || contact.own)
+    if (contact.normal_damping != 0.0 || !contact.obeys_coulomb())
       for (const auto& term : contact.normal.terms) result[static_cast<std::size_t>(term.first)] = true;
-    if (contact.has_friction() || contact.own)
+    if (contact.has_friction() || !contact.obeys_coulomb())
       for (const auto& term : contact.tangent.terms) result[static_cast<std::size_t>(term.first)] = true;
   }
   return result;

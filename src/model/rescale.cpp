@@ -1,5 +1,7 @@
 #include "model/rescale.hpp"
 
+#include "contact/constants.hpp"
+
 namespace signorini {
 namespace {
 
@@ -84,37 +86,11 @@ class Rescaling {
     (*this)(o.constant, of);
   }
 
-  void operator()(std::shared_ptr<const OwnLaw>& law) const {
-    if (!law) return;
-    OwnLaw other = *law;
-    visit_numbers(other, [this](double& x, const Unit& of) { (*this)(x, of); });
-    law = std::make_shared<const OwnLaw>(std::move(other));
-  }
-
   void operator()(Contact& c) const {
-    (*this)(c.normal);
-    (*this)(c.tangent);
-    (*this)(c.gap, unit::length);
-    (*this)(c.normal_stiffness, unit::stiffness);
-    (*this)(c.tangential_stiffness, unit::stiffness);
-    if (c.shear) {
-      (*this)(c.shear->body);
-      (*this)(c.shear->stiffness, unit::stiffness);
-      (*this)(c.shear->damping, unit::damping);
-    }
-    if (c.bowl) {
-      (*this)(c.bowl->radius, unit::length);
-      (*this)(c.bowl->carried, unit::force);
-    }
-    (*this)(c.normal_damping, unit::damping);
-    for (const FrictionConstant& constant : friction_constants)
-      (*this)(c.friction.*constant.value, constant.unit);
-    (*this)(c.capture_velocity, unit::velocity);
+    visit_forms(c, [this](Combination& form) { (*this)(form); });
+    visit_constants(c, [this](double& x, const Unit& of) { (*this)(x, of); });
     (*this)(c.normal_force, unit::force);
     (*this)(c.surface_motion, unit::length);
-    (*this)(c.initial_shear, unit::force);
-    (*this)(c.own);
-    (*this)(c.own_memory, unit::length);
   }
 
   void operator()(FrozenForces& forces) const {

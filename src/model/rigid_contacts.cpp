@@ -28,10 +28,11 @@ constexpr double dependent = 1e-12;       // what is left of a unit normal when 
 /// Friction that depends on the slip rate or on N, and a curved surface, need motions that are data of an instant.
 void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
-  const bool varies = friction_varies(contact), beside_spring = contact.tangential_stiffness.has_value();
-  if (!varies && !contact.bowl) return;
+  const bool varies = friction_varies(contact), curved = contact.curved_surface() != nullptr;
+  const bool beside_spring = contact.tangential_stiffness.has_value();
+  if (contact.is_linear()) return;
   for (const Combination* form : {&contact.tangent, &contact.normal}) {
-    if (form == &contact.normal && !contact.bowl && !beside_spring) continue;
+    if (form == &contact.normal && !curved && !beside_spring) continue;
     for (const auto& [dof, factor] : form->terms)
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
         refuse(scene, k, varies ? "friction" : "radius",

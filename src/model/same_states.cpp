@@ -16,8 +16,7 @@ bool same(const Contact& a, const Contact& b) {
   };
   return a.law == b.law && a.normal.terms == b.normal.terms && a.tangent.terms == b.tangent.terms &&
          a.normal_stiffness == b.normal_stiffness && a.normal_damping == b.normal_damping &&
-         a.tangential_stiffness == b.tangential_stiffness && friction(a.friction) == friction(b.friction) &&
-         a.own == b.own;
+         a.tangential_stiffness == b.tangential_stiffness && friction(a.friction) == friction(b.friction);
 }
 
 }  // namespace

@@ -113,8 +113,9 @@ double force_of(const Model& model, const DofMap& map, const Felt& felt, double 
   for (double reaction : model.statics.reactions) force = std::max(force, reaction);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.is_pressed()) force = std::max(force, felt.compressions[k] * magnitude(c.normal_force, t_end));
-    if (c.has_spring()) force = std::max(force, c.normal_stiffness * -std::min(0.0, c.gap_at(model.u0)));
+    if (c.normal_force_given())
+      force = std::max(force, felt.compressions[k] * magnitude(c.normal_force, t_end));
+    if (const auto N = c.resting_force(model.u0)) force = std::max(force, -*N);
   }
   double held = 0.0;  // by what does not follow; what does takes none of it
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
@@ -193,7 +194,7 @@ std::vector<Vector> limits_of_friction(const Model& model, const Felt& felt, dou
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     if (const double limit = static_friction(c) * (felt.compressions[k] * magnitude(c.normal_force, t_end));
-        c.is_pressed() && limit > 0.0)
+        c.normal_force_given() && limit > 0.0)
       forces.emplace_back(full(c.tangent, model.size()) * limit);
   }
   return forces;

@@ -42,9 +42,8 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
     if (is_open(states[k])) continue;
     const int s = slip_sign(states[k]);
     if (s == 0 && c.has_friction()) springs.push_back(spring(c.tangent, c.tangential_stiffness));
-    if (!c.has_gap()) continue;
-    const LineSpring normal =
-        spring(c.normal, c.has_spring() ? std::optional(c.normal_stiffness) : std::nullopt);
+    if (c.normal_force_given()) continue;
+    const LineSpring normal = spring(c.normal, c.normal_spring());
     if (s == 0) {
       springs.push_back(normal);
       continue;

@@ -10,11 +10,11 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   degree_ = degree;
   rates_ = unbounded();
   scale_ = series.scale;
-  slide_row_ = contact.shear ? slide : ut;
+  slide_row_ = contact.sliding_point() ? slide : ut;
   values_.resize(fields * stride());
   there_.fill(false);
   for (const Field field : {N, T, gap, ut, slide}) there_[field] = true;
-  there_[pressing_rate] = contact.is_pressed();
+  there_[pressing_rate] = contact.normal_force_given();
   double *const g = place(gap), *const slip = place(ut), *const normal = place(N), *const tangent = place(T);
   for (std::size_t k = 0; k < stride(); ++k) {
     g[k] = gap_coefficient(contact, series, k);
@@ -26,11 +26,11 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
     normal[k] = forces[normal_slot(index)];
     tangent[k] = forces[tangent_slot(index)];
   }
-  if (contact.shear) {
+  if (contact.sliding_point()) {
     const double* surface = series.forcing.surface.data() + index * series.forcing.count;
     for (std::size_t k = 0; k <= degree; ++k)
       place(slide)[k] =
-          contact.shear->body.dot(series.u.col(static_cast<Eigen::Index>(k)).data()) - surface[k];
+          contact.body_tangent().dot(series.u.col(static_cast<Eigen::Index>(k)).data()) - surface[k];
   }
   if (there_[pressing_rate]) {
     const double* pressing = series.forcing.pressing.data() + index * series.forcing.count;

@@ -12,7 +12,7 @@ double imbalance(const Model& model, const Structure& structure, const Forcing& 
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     model.contacts[k].normal.add_to(r, point.N(k));
     model.contacts[k].tangent.add_to(r, point.T(k));
-    if (const Contact& contact = model.contacts[k]; contact.bowl)
+    if (const Contact& contact = model.contacts[k]; contact.curved_surface())
       contact.body_tangent().add_to(
           r, bowl_force(contact, point.N(k), slide_of(contact, k, forcing, t, point.u, point.v).ut));
   }

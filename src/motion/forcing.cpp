@@ -46,7 +46,7 @@ Forcing::Forcing(const Model& model, double t, Side side) : Forcing(model) {
     varies_ = varies_ || drives_.back();
     if (!vanishes(*pressing_.back())) pressed_.push_back(pressing_.size() - 1);
     if (!vanishes(*surface_.back())) carried_.push_back(surface_.size() - 1);
-    lifted_.push_back(contact.is_pressed() && vanishes(*pressing_.back()));
+    lifted_.push_back(contact.normal_force_given() && vanishes(*pressing_.back()));
   }
   varies_ = varies_ || !varying_.empty();
   loaded_ = !varying_.empty() || !constant_.isZero(0.0);

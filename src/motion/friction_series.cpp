@@ -16,7 +16,7 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
     begin_by_force(normal, series);
     return;
   }
-  if (contact.shear) {
+  if (contact.sliding_point()) {
     begin_massless(s, normal, series);
     return;
   }
@@ -36,7 +36,7 @@ void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
 /// The rate of a point without mass, from the spring that holds it.
 void FrictionSeries::begin_massless(int s, const Form& normal, const Series& series) {
   const Contact& c = *contact_;
-  const ShearElement& element = *c.shear;
+  const ShearElement& element = *c.sliding_point();
   const double *u = series.u.data(), *u1 = u + series.u.rows(), per_time = 1.0 / series.scale;
   const ForcingSeries& f = series.forcing;
   const double length = element.body.dot(u) - c.tangent.dot(u);
@@ -107,7 +107,7 @@ double FrictionSeries::known(int k, const Series& series) {
   const auto pressing = [&](std::size_t i) {
     return series.forces(static_cast<Eigen::Index>(normal_slot(index_)), static_cast<Eigen::Index>(i));
   };
-  if (!contact_->shear) return friction_.next(slip_rate(level, series), pressing);
+  if (!contact_->sliding_point()) return friction_.next(slip_rate(level, series), pressing);
   if (k > 1) friction_.take_rate(slip_rate(level - 1, series));
   return friction_.without_rate(pressing);
 }

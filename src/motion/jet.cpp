@@ -28,8 +28,8 @@ void fill_limit(const Contact& contact, std::size_t c, const Series& series, std
                 Derivatives& d) {
   const double* pressing = series.forcing.pressing.data() + c * series.forcing.count;
   const auto load = [&](std::size_t k) {
-    return contact.is_pressed() ? pressing[k]
-                                : -contact.normal_stiffness * gap_coefficient(contact, series, k);
+    return contact.normal_force_given() ? pressing[k]
+                                        : -contact.normal_stiffness * gap_coefficient(contact, series, k);
   };
   LimitSeries limit(contact.friction, load(0));
   d.limit[0] = friction_limit(contact.friction, load(0));

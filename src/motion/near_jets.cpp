@@ -55,7 +55,7 @@ NearJets::NearJets(ModeSystems& systems, int least)
       }
       return terms_.size();
     };
-    soft.is = !c.is_pressed() && c.normal_damping == 0.0;
+    soft.is = !c.normal_force_given() && c.normal_damping == 0.0;
     soft.gap = c.gap;
     soft.first = terms_.size();
     soft.middle = take(c.normal, soft.normal_squared);

@@ -16,7 +16,7 @@ constexpr double of_nothing = rounding::eps / 16.0;
 constexpr int sharing = 4, least_gain = 4;
 
 bool is_plain(const Contact& c) {
-  return !c.own && !c.bowl && !c.shear && !c.takes_impulses() && !c.sticks_rigidly() && !friction_varies(c);
+  return c.forces_follow_motion() && c.is_linear() && !c.takes_impulses() && !c.sticks_rigidly();
 }
 
 std::vector<int> dofs_of(const Contact& contact) {

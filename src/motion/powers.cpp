@@ -10,11 +10,8 @@ void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point&
   out[1] = structure_.damping_power(point.v.data());
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
-    const int s = slip_sign(mode[k].state);
-    const double slip = model_.contacts[k].own ? m.vt
-                        : s == 0               ? 0.0
-                                               : slip_rate(model_.contacts[k], s).value(m);
-    if (const Contact& contact = model_.contacts[k]; contact.bowl) {
+    const double slip = working_slip_rate(model_.contacts[k], mode[k].state, m);
+    if (const Contact& contact = model_.contacts[k]; contact.curved_surface()) {
       const BodySlide slide = slide_of(contact, k, forcing, t, point.u, point.v);
       out[0] -= bowl_force(contact, point.N(k), slide.ut) * slide.vt;
     }

@@ -36,7 +36,7 @@ Taylor::Taylor(ModeSystems& systems)
     mobility_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
   }
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-    if (model_.contacts[c].bowl) bowls_.push_back(c);
+    if (model_.contacts[c].curved_surface()) bowls_.push_back(c);
 }
 
 /// Friction at the beginning of a series is a coefficient of its matrix.
@@ -95,7 +95,7 @@ void Taylor::add_bowls(int order, const Series& series) {
       const double ut =
           contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
       // The constant that K holds counts once.
-      force += j == 0 ? bowl_force(contact, N, ut) : -N / contact.bowl->radius * ut;
+      force += j == 0 ? bowl_force(contact, N, ut) : bowl_product(contact, N, ut);
     }
     contact.body_tangent().add_to(x_, -force);
   }

@@ -151,14 +151,14 @@ Vector InstantReader::vector(std::size_t column) const {
 
 ContactState InstantReader::state(std::size_t contact, std::size_t column) const {
   const std::string& text = reader_.cell(column);
-  const auto& own = model_.contacts[contact].own;
+  const std::vector<State> own = model_.contacts[contact].law->own_states();
   ContactState result;
   result.anchor = number(column + of_p);
-  if (own) {
+  if (!own.empty()) {
     const std::optional<double> found = parse_number(text);
-    for (std::size_t i = 0; i < own->states.size(); ++i)
+    for (std::size_t i = 0; i < own.size(); ++i)
       if (found && *found == static_cast<double>(i)) {
-        result.state = own_state(i, own->states[i].kind);
+        result.state = own[i];
         return result;
       }
     fail(column, "the number of a state of its law");

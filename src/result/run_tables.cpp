@@ -46,7 +46,7 @@ const CsvTable<ContactRow>& contact_table() {
       {"t", &R::t},
       {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
       {"state", [](const R& r) { return to_string(r.sample.state); }},
-      {"gap", [](const R& r) { return r.contact.has_gap() ? std::optional(r.sample.gap) : std::nullopt; }},
+      {"gap", [](const R& r) { return r.contact.gap_if_any(r.sample.gap); }},
       {"ut", [](const R& r) { return r.sample.ut; }},
       {"vt", [](const R& r) { return r.sample.vt; }},
       {"slip", [](const R& r) { return r.sample.slip; }},

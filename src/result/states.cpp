@@ -8,10 +8,10 @@ StateWriter::StateWriter(const std::filesystem::path& directory, const Model& mo
     : model_(model), file_(directory / "states.csv") {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.shear) sliding_.push_back(k);
+    if (c.sliding_point()) sliding_.push_back(k);
     if (!c.surface_motion.is_constant()) surfaces_.push_back(k);
     if (c.has_friction()) rubbing_.push_back(k);
-    if (c.own) own_.push_back(k);
+    if (!c.obeys_coulomb()) own_.push_back(k);
   }
   // The points that slide come last, and have columns of their own, which reduced models need, too.
   structural_ = model.physical_dofs().size() - (model.reduction ? 0 : sliding_.size());

@@ -94,7 +94,7 @@ Json model_json(const Model& model) {
   if (model.static_start) json["free_motions"] = model.statics.free_motions;
   if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
   for (const Contact& contact : model.contacts)
-    if (contact.bowl) json["pendulums"][contact.name] = contact.bowl->carried;
+    if (const Bowl* surface = contact.curved_surface()) json["pendulums"][contact.name] = surface->carried;
   if (model.geometric) json["load_factors"] = model.geometric->load_factors;
   if (model.statics.frictional) json["frictional_start"] = frictional_json(model);
   json["scales"] = {{"displacement", model.scales.displacement},
@@ -118,25 +118,25 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
   const Report* report = run != nullptr ? &run->report : nullptr;
   const Contact& contact = model.contacts[k];
   Json json = {{"name", contact.name},
-               {"law", law_name(contact)},
+               {"law", contact.law->name()},
                {"static_friction", contact.friction.static_},
                {"kinetic_friction", contact.friction.kinetic}};
-  if (contact.has_gap()) {
-    json["gap"] = contact.gap;
+  if (const auto gap = contact.gap_if_any(contact.gap)) {
+    json["gap"] = *gap;
     if (contact.takes_impulses())
       json["restitution"] = contact.restitution;
-    else if (!contact.borrows)
+    else if (!contact.compliance_split())
       json["normal_stiffness"] = contact.normal_stiffness;
   }
   for (const FrictionConstant& constant : friction_constants)
     if (const auto& value = contact.friction.*constant.value) json[std::string(constant.key)] = *value;
   if (contact.takes_impulses() && report != nullptr)
     json["capture_velocity"] = contact.capture_velocity.value_or(capture_velocity);
-  if (contact.shear) {
-    json["tangential_stiffness"] = contact.shear->stiffness;
-    json["tangential_damping"] = contact.shear->damping;
+  if (const ShearElement* element = contact.sliding_point()) {
+    json["tangential_stiffness"] = element->stiffness;
+    json["tangential_damping"] = element->damping;
   }
-  if (contact.tangential_stiffness && !contact.borrows)
+  if (contact.tangential_stiffness && !contact.compliance_split())
     json["tangential_stiffness"] = *contact.tangential_stiffness;
   if (const auto reaction = static_reaction(model, k)) json["static_reaction"] = *reaction;
   if (report == nullptr) return json;
@@ -147,7 +147,7 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     json["peaks"] = {{"tangential", peak.tangential}, {"normal", peak.normal}, {"N", peak.N}, {"T", peak.T}};
     if (run->certificate) json["peaks"]["errors"] = peak_errors_json(*run, k);
   }
-  if (k < report->landings.size() && contact.has_gap()) {
+  if (k < report->landings.size() && !contact.normal_force_given()) {
     json["landings"] = Json::array();
     for (std::size_t i = 0; i < report->landings[k].size(); ++i) {
       const Landing& l = report->landings[k][i];

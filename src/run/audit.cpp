@@ -109,7 +109,7 @@ double Auditor::slip(std::size_t contact, const ContactState& state, const Conta
 Auditor::Place Auditor::place_of(std::size_t k, const Forcing& forcing, double t, State state,
                                  const Point& point) const {
   const Contact& contact = model_.contacts[k];
-  if (!contact.borrows)
+  if (!contact.compliance_split())
     return {contact.normal.dot(point.u), slide_of(contact, k, forcing, t, point.u, point.v).ut};
   ContactMotion m = motion(k, forcing, t, point);
   leave_out_borrowed(contact, state, m);
@@ -125,8 +125,9 @@ void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mod
   const ContactMotion m = motion(k, forcing, t, point);
   const int index = static_cast<int>(k);
   Peak& peak = peaks_[k];
-  const Place place = contact.borrows || contact.shear ? place_of(k, forcing, t, mode[k].state, point)
-                                                       : Place{contact.normal.dot(point.u), m.ut};
+  const Place place = contact.compliance_split() || contact.sliding_point()
+                          ? place_of(k, forcing, t, mode[k].state, point)
+                          : Place{contact.normal.dot(point.u), m.ut};
   peak.tangential = std::max(peak.tangential, std::abs(place.ut - at_start_[k].ut));
   peak.normal = std::max(peak.normal, std::abs(place.normal - at_start_[k].normal));
   bears(k, t, m.N, m.T);
@@ -210,10 +211,11 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
     m.gap = contact.gap_at(point.u);
     m.vn = gap_rate(contact, point.v);
     const double springs = stored_energy(contact, mode[k].state, m);
-    (contact.borrows ? e.elastic : e.contact) += springs;
-    if (contact.shear) {  // a spring of the contact, though it stands among those of the structure
-      const double strain = contact.shear->body.dot(point.u) - contact.tangent.dot(point.u);
-      const double energy = 0.5 * contact.shear->stiffness * strain * strain;
+    (contact.compliance_split() ? e.elastic : e.contact) += springs;
+    if (const ShearElement* element =
+            contact.sliding_point()) {  // it stands among the springs of the structure
+      const double strain = element->body.dot(point.u) - contact.tangent.dot(point.u);
+      const double energy = 0.5 * element->stiffness * strain * strain;
       e.contact += energy;
       e.elastic -= energy;
     }
@@ -268,14 +270,14 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   s.N = m.N;
   s.T = m.T;
   s.slip = slip(k, state, m);
-  if (model_.contacts[k].borrows) {
+  if (model_.contacts[k].compliance_split()) {
     ContactMotion touching = m;
     leave_out_borrowed(model_.contacts[k], state.state, touching);
     s.gap = touching.gap;
     s.ut = touching.ut;
     s.vt = touching.vt;
   }
-  if (model_.contacts[k].own) s.memory = state.anchor;
+  if (!model_.contacts[k].obeys_coulomb()) s.memory = state.anchor;
   return s;
 }
 

@@ -30,10 +30,12 @@ void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
 
 void refuse_own_laws(const Model& model, const RunSpec& run) {
   for (const Contact& contact : model.contacts)
-    if (contact.own && !contact.own->name.empty())
-      refuse(run, fmt::format("does not know law \"{}\" of contact '{}'", contact.own->name, contact.name),
+    if (contact.obeys_coulomb())
+      continue;
+    else if (contact.law->is_named())
+      refuse(run, fmt::format("does not know law \"{}\" of contact '{}'", contact.law->name(), contact.name),
              ida_instead);
-    else if (contact.own)
+    else
       refuse(run, fmt::format("knows the built-in laws, and contact '{}' has a law of its own", contact.name),
              ida_instead);
 }
@@ -41,7 +43,7 @@ void refuse_own_laws(const Model& model, const RunSpec& run) {
 void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
   refuse_own_laws(model, run);
   for (const Contact& contact : model.contacts) {
-    if (contact.bowl)
+    if (contact.curved_surface())
       refuse(
           run,
           fmt::format(

@@ -38,7 +38,7 @@ std::optional<double> departure_of(const Decision& decision, std::size_t k) {
 /// What is zero by what the event is, where it was found no further from it than the error of its condition: the gap
 /// of a contact that closes; N of one that opens, with it |T| <= f |N|, and the gap -N / k of a spring.
 void settle(const Contact& contact, double error, Event& event) {
-  if (contact.own) return;
+  if (!contact.obeys_coulomb()) return;
   const auto vanishes = [&](double value) { return std::abs(value) <= error; };
   if (event.type == EventType::contact && event.gap && vanishes(*event.gap)) event.gap = 0.0;
   if (event.type != EventType::separation || !vanishes(event.N)) return;
@@ -59,7 +59,7 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
   const Decision& decision = *now.decision;
   ContactMotion before = decision.before[k], after = decision.after[k];
   double vt = decision.slides_before[k].vt, vt_after = decision.slides_after[k].vt;
-  if (contact.borrows) {
+  if (contact.compliance_split()) {
     leave_out_borrowed(contact, (*now.before)[k].state, before);
     leave_out_borrowed(contact, decision.mode[k].state, after);
     vt = before.vt;
@@ -75,7 +75,7 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
     event.impulse_n = decision.impulses[k].normal;
     event.impulse_t = decision.impulses[k].tangent;
   }
-  if (contact.has_gap()) event.gap = after.gap;
+  event.gap = contact.gap_if_any(after.gap);
   event.N = before.N;
   event.T = before.T;
   event.N_after = after.N;

@@ -8,7 +8,7 @@ namespace signorini {
 void Landings::begin(double t, const Mode& mode) {
   lasts_.assign(mode.size(), false);
   for (std::size_t k = 0; k < mode.size(); ++k)
-    if (model_.contacts[k].has_gap() && !mode[k].is_open()) {
+    if (!model_.contacts[k].normal_force_given() && !mode[k].is_open()) {
       now_[k] = {t, t, 0.0, 0.0};
       lasts_[k] = true;
     }
@@ -25,7 +25,7 @@ void Landings::observe(std::size_t k, double N) {
 
 void Landings::instant(double t, const Decision& decision, const Mode& old_mode) {
   for (std::size_t k = 0; k < lasts_.size(); ++k) {
-    if (model_.contacts[k].is_pressed()) continue;
+    if (model_.contacts[k].normal_force_given()) continue;
     const bool was = !old_mode[k].is_open(), is = !decision.mode[k].is_open();
     const double pushed = decision.impulses.empty() ? 0.0 : decision.impulses[k].normal;
     if (was) observe(k, decision.before[k].N);

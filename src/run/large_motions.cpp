@@ -18,7 +18,7 @@ LargeMotions::LargeMotions(const Model& model) : model_(model) {
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
     if (model.dofs[i].rotation) rotations_.push_back(i);
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
-    if (model.contacts[k].bowl) pendulums_.push_back(k);
+    if (model.contacts[k].curved_surface()) pendulums_.push_back(k);
 }
 
 void LargeMotions::note(double t, double angle, const std::string& what) {
@@ -34,7 +34,7 @@ void LargeMotions::see(double t, const Forcing& forcing, const Point& now) {
     note(t, std::abs(now.u[static_cast<Eigen::Index>(i)]), model_.dofs[i].displacement);
   for (const std::size_t k : pendulums_) {
     const Contact& contact = model_.contacts[k];
-    note(t, std::abs(slide_of(contact, k, forcing, t, now.u, now.v).ut) / contact.bowl->radius,
+    note(t, std::abs(slide_of(contact, k, forcing, t, now.u, now.v).ut) / contact.curved_surface()->radius,
          "ut / R of contact '" + contact.name + "'");
   }
 }

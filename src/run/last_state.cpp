@@ -14,7 +14,7 @@ SavedState last_state(const Model& model, const Result& result) {
   const std::vector<Dof>& dofs = model.physical_dofs();
   // Points that slide come last; "c.slip" stands for them.
   const auto sliding = std::count_if(model.contacts.begin(), model.contacts.end(),
-                                     [](const Contact& c) { return c.shear.has_value(); });
+                                     [](const Contact& c) { return c.sliding_point() != nullptr; });
   const std::size_t structural = dofs.size() - (model.reduction ? 0 : static_cast<std::size_t>(sliding));
   for (std::size_t i = 0; i < structural; ++i) {
     state.motions.emplace_back(dofs[i].displacement, last.u[static_cast<Eigen::Index>(i)]);
@@ -29,11 +29,11 @@ SavedState last_state(const Model& model, const Result& result) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const ContactSample& contact = last.contacts[k];
     const History& surface = model.contacts[k].surface_motion;
-    if (model.contacts[k].shear)
+    if (model.contacts[k].sliding_point())
       state.motions.emplace_back(model.contacts[k].name + ".slip", contact.slip + surface.value(last.t));
     if (!surface.is_constant())
       state.motions.emplace_back(model.contacts[k].name + ".surface", surface.value(last.t));
-    if (model.contacts[k].own)
+    if (!model.contacts[k].obeys_coulomb())
       state.own.push_back({model.contacts[k].name, number_of(contact.state), contact.memory});
     if (!model.contacts[k].has_friction()) continue;
     state.shears.emplace_back(model.contacts[k].name, last.contacts[k].T);
@@ -43,7 +43,8 @@ SavedState last_state(const Model& model, const Result& result) {
   state.scales = {s.displacement, s.rotation, s.velocity, s.angular_velocity, s.force};
   state.motions.emplace_back(saved_alpha, model.alpha);
   for (const Contact& contact : model.contacts)
-    if (contact.bowl) state.carried.emplace_back(contact.name, contact.bowl->carried);
+    if (const Bowl* surface = contact.curved_surface())
+      state.carried.emplace_back(contact.name, surface->carried);
   if (model.geometric) state.frozen = model.geometric->forces;
   return state;
 }

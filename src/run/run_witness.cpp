@@ -44,7 +44,7 @@ RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Record
       witness_(model, engine.limits),
       motion_(model, engine),
       holds_(std::any_of(model.contacts.begin(), model.contacts.end(),
-                         [](const Contact& c) { return !c.has_spring(); })) {}
+                         [](const Contact& c) { return !c.normal_spring(); })) {}
 
 namespace {
 
@@ -145,7 +145,7 @@ namespace {
 
 /// What springs that a contact borrows give along n and t, beside the motion of its surfaces.
 std::pair<double, double> borrowed(const Contact& c, std::size_t k, const Vector& forces) {
-  if (!c.borrows) return {0.0, 0.0};
+  if (!c.compliance_split()) return {0.0, 0.0};
   const auto at = static_cast<Eigen::Index>(2 * k);
   return {forces[at] / c.normal_stiffness,
           c.tangential_stiffness ? forces[at + 1] / *c.tangential_stiffness : 0.0};
@@ -206,7 +206,7 @@ void RunWitness::peaks(double t, const std::vector<Peak>& told) {
                           of_tolerance * (tol.rtol * place + tol.displacement);
     const double force = (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
                          (rounding::of_elimination + of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
-                         (c.has_spring() ? 0.0 : rounding::of_elimination * held_forces_) +
+                         (c.normal_spring() ? 0.0 : rounding::of_elimination * held_forces_) +
                          of_tolerance * tol.force;
     const auto check = [&](double farthest, double said, double limit, const Unit& unit) {
       if (farthest - said > limit)

@@ -28,9 +28,9 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
     const Contact& c = model.contacts[k];
     const double asked = c.initial_shear, found = start.after[k].T;
     // The limit fs |N|, N = kn g, is known to the rounding of the terms of g: a start with friction ends at it.
-    const double limit = c.has_spring() ? static_friction(c) * c.normal_stiffness *
-                                              (std::abs(c.gap) + c.normal.magnitude(model.u0))
-                                        : std::abs(asked);
+    const double limit = c.normal_spring() ? static_friction(c) * c.normal_stiffness *
+                                                 (std::abs(c.gap) + c.normal.magnitude(model.u0))
+                                           : std::abs(asked);
     const bool cut = std::abs(asked) - std::abs(found) > rounding::of_many * std::max(std::abs(asked), limit);
     if (!start.visited[k] || !start.jumped[k] || !cut) continue;
     sentences.push_back(fmt::format(

@@ -61,7 +61,7 @@ std::vector<ContactState> left_states(const Model& model, const std::vector<Cont
   std::vector<ContactState> states = guessed;
   for (std::size_t k = 0; k < model.continues.size(); ++k) {
     const SavedState::Left& left = model.continues[k];
-    if (model.contacts[k].own) continue;
+    if (!model.contacts[k].obeys_coulomb()) continue;
     for (const State state : {State::open, State::closed, State::stick, State::slip_plus, State::slip_minus})
       if (left.state == to_string(state)) states[k] = {state, state == State::stick ? left.slip : 0.0};
     if (states[k].state == State::open && left.gap && *left.gap < 0.0) states[k].state = State::inside;

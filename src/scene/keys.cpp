@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <iterator>
 #include <unordered_map>
 
+#include "contact/law/data_laws.hpp"
 #include "signorini/engine.hpp"
 
 namespace signorini {
@@ -15,6 +17,8 @@ using enum KeyType;
 
 /// Choices that stand in a table of their own (signorini/engine.hpp).
 constexpr std::string_view engines_and_auto = "engines";
+/// Besides these a scene may name the laws made of data (contact/law/data_laws.hpp).
+constexpr std::string_view built_in_laws = "compliant rigid slider";
 
 // clang-format off
 constexpr Key table_of_keys[] = {
@@ -264,12 +268,11 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "node", name, "", "", "", "Node that touches. With [nodes], either `node` or `nodes` is required."},
     {"contacts[]", "nodes", texts, "", "", "", "Nodes with identical contacts; each gets its own contact NAME-NODE; \"P0..P9\" as in members."},
     {"contacts[]", "against", KeyType::against, "", "", "", "What is touched instead of the ground: a node, or two nodes [B, C] with a straight segment between them. The contact point on the segment is the projection of the undeformed node; its displacement is interpolated linearly between B and C."},
-    {"contacts[]", "law", choice, "", "required", "compliant rigid slider yielding", "\"compliant\": springs that open and slip; \"rigid\": g >= 0 exactly, with impacts; \"slider\": friction under a given compression; \"yielding\": a spring that yields and keeps a dent, without friction, engine \"ida\"."},
+    {"contacts[]", "law", choice, "", "required", built_in_laws, "\"compliant\": springs that open and slip; \"rigid\": g >= 0 exactly, with impacts; \"slider\": friction under a given compression"},
     {"contacts[]", "normal", direction, "", "", "", "Direction in which the contact opens. With [nodes] it is normalised; with [matrices] it is used as given. The tangent is (ny, -nx)."},
     {"contacts[]", "tangent", direction, "", "", "", "Direction of sliding of a slider; with [matrices] of any contact with friction."},
     {"contacts[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state."},
-    {"contacts[]", "normal_stiffness", positive, "force/length", "", "", "Stiffness normal to the contact; required for \"compliant\" without a seam and for \"yielding\"."},
-    {"contacts[]", "yield_force", positive, "force", "", "", "Compression at which a contact with law = \"yielding\" is crushed; required there."},
+    {"contacts[]", "normal_stiffness", positive, "force/length", "", "", "Stiffness normal to the contact; required for \"compliant\" without a seam"},
     {"contacts[]", "tangential_stiffness", positive, "force/length", "", "", "Stiffness along the contact; required for \"compliant\" with friction and without a seam; a slider without it is rigid in stick."},
     {"contacts[]", "seam", table, "", "", "", "Material between the surfaces of a compliant contact, from which its stiffnesses follow: kn = E area / thickness, kt = G area / thickness; instead of normal_stiffness and tangential_stiffness."},
     {"contacts[]", "normal_force", standing_history, "force", "", "", "Compression of a slider, positive; a number or a history."},
@@ -377,11 +380,46 @@ constexpr bool tables_stand_together() {
 }
 static_assert(tables_stand_together());
 
+/// The table with the laws made of data: their names and meanings, and the keys of their constants behind the stiffness.
+class Keys {
+ public:
+  Keys() {
+    std::string names(built_in_laws), meanings, needing;
+    for (const DataLaw* law : data_laws()) {
+      names += " " + std::string(law->name);
+      meanings += "; \"" + std::string(law->name) + "\": " + std::string(law->meaning);
+      needing += " and for \"" + std::string(law->name) + '"';
+    }
+    for (Key key : table_of_keys) {
+      const bool of_contact = key.table == "contacts[]",
+                 stiffness = of_contact && key.name == "normal_stiffness";
+      if (key.choices == built_in_laws) {
+        key.choices = kept(names);
+        key.meaning = kept(std::string(key.meaning) + meanings + ".");
+      }
+      if (stiffness) key.meaning = kept(std::string(key.meaning) + needing + ".");
+      rows_.push_back(key);
+      if (!stiffness) continue;
+      for (const DataLaw* law : data_laws())
+        for (const DataLawConstant& c : law->constants)
+          rows_.push_back({"contacts[]", c.key, positive, c.unit, "", "", c.meaning});
+    }
+  }
+  [[nodiscard]] std::span<const Key> rows() const { return rows_; }
+
+ private:
+  /// Keys hold views: texts stay where they are.
+  std::string_view kept(std::string made) { return texts_.emplace_back(std::move(made)); }
+
+  std::deque<std::string> texts_;
+  std::vector<Key> rows_;
+};
+
 /// The rows of one table.
 std::span<const Key> rows_of(std::string_view table) {
   static const std::unordered_map<std::string_view, std::span<const Key>> tables = [] {
     std::unordered_map<std::string_view, std::span<const Key>> all;
-    for (const Key& key : table_of_keys) {
+    for (const Key& key : all_keys()) {
       std::span<const Key>& rows = all.try_emplace(key.table, &key, 0).first->second;
       rows = {rows.data(), static_cast<std::size_t>(&key - rows.data()) + 1};
     }
@@ -393,7 +431,10 @@ std::span<const Key> rows_of(std::string_view table) {
 
 }  // namespace
 
-std::span<const Key> all_keys() { return table_of_keys; }
+std::span<const Key> all_keys() {
+  static const Keys keys;
+  return keys.rows();
+}
 
 namespace {
 
@@ -420,7 +461,7 @@ const Key* find_key(std::string_view table, std::string_view name) {
     return find_key("contacts[]" + std::string(table.substr(seams.size())), name);
   constexpr std::string_view stops = "stops[]";
   if (table.starts_with(stops) && !(table == stops && (name == "normal" || name == "tangent"))) {
-    for (const Key& key : table_of_keys)
+    for (const Key& key : all_keys())
       if (key.table == stops && table == stops && key.name == name) return &key;
     return find_key("contacts[]" + std::string(table.substr(stops.size())), name);
   }
@@ -434,7 +475,7 @@ const Key* find_key(std::string_view table, std::string_view name) {
 
 std::vector<std::string> key_names(std::string_view table) {
   std::vector<std::string> names;
-  for (const Key& key : table_of_keys) {
+  for (const Key& key : all_keys()) {
     if (key.table == table && key.name != "*") names.emplace_back(key.name);
   }
   if (table == of_pendulums)

@@ -1,5 +1,6 @@
 #include "scene/quantities.hpp"
 
+#include "contact/law/user_law.hpp"
 #include "scene/components.hpp"
 #include "scene/saved_state.hpp"
 
@@ -131,26 +132,6 @@ void visit_structure(Scene& scene, const Visit& visit) {
   for (MatrixSpec::Entry& e : scene.matrices->stiffness.entries) visit(e.value, stiffness);
 }
 
-/// A form whose value has the unit `of`.
-void visit_form(Form& form, const Unit& of, const Visit& visit) {
-  const auto per = [&](double& coefficient, const Unit& unit) {
-    visit(coefficient, Unit{of.force - unit.force, of.length - unit.length, of.time - unit.time});
-  };
-  per(form.N, force);
-  per(form.T, force);
-  per(form.gap, length);
-  per(form.ut, length);
-  per(form.vn, velocity);
-  per(form.vt, velocity);
-  visit(form.constant, of);
-}
-
-void visit_form(OwnForm& own, const Visit& visit) {
-  const Unit of = unit_of(own.form);
-  visit_form(own.form, of, visit);
-  visit(own.memory, Unit{of.force, of.length - 1, of.time});
-}
-
 void visit_contact(ContactSpec& c, const Visit& visit) {
   visit(c.gap, length);
   visit(c.normal_stiffness, stiffness);
@@ -167,10 +148,7 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit_history(c.surface_velocity, velocity, visit);
   visit(c.initial_shear, force);
   visit_optional(c.capture_velocity, velocity, visit);
-  if (!c.own) return;
-  OwnLaw law = *c.own;  // that of other scenes, too
-  visit_numbers(law, visit);
-  c.own = std::make_shared<const OwnLaw>(std::move(law));
+  if (c.own) c.own = visited(*c.own, visit);
 }
 
 /// Of a load's amplitude: force times length to this power.
@@ -221,24 +199,6 @@ void visit_numbers(History& history, const Unit& of, const Visit& visit) {
     for (double& b : piece.rates) visit(b, of);
   }
   history = History(std::move(starts), std::move(pieces));
-}
-
-Unit unit_of(const Form& form) {
-  if (form.N != 0.0 || form.T != 0.0 || form.pressing != 0.0) return force;
-  if (form.gap != 0.0 || form.ut != 0.0) return length;
-  if (form.vn != 0.0 || form.vt != 0.0) return velocity;
-  return acceleration;
-}
-
-void visit_numbers(OwnLaw& law, const Visit& visit) {
-  for (OwnState& state : law.states) {
-    visit_form(state.normal, visit);
-    visit_form(state.tangent, visit);
-    for (OwnGuard& guard : state.guards) {
-      visit_form(guard.positive, visit);
-      if (guard.memory) visit_form(*guard.memory, length, visit);
-    }
-  }
 }
 
 void visit_quantities(Scene& scene, const Visit& visit) {

@@ -10,16 +10,10 @@
 
 #include <functional>
 
+#include "base/unit.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
-
-namespace unit {
-inline constexpr Unit plain{}, force{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, rate{0, 0, -1};
-inline constexpr Unit velocity{0, 1, -1}, acceleration{0, 1, -2}, mass{1, -1, 2}, inertia{1, 1, 2};
-inline constexpr Unit stiffness{1, -1, 0}, damping{1, -1, 1}, impulse{1, 0, 1}, energy{1, 1, 0},
-    power{1, 1, -1};
-}  // namespace unit
 
 /// What a quantity of this unit is multiplied by.
 [[nodiscard]] double factor_of(const Unit& unit, const Factors& factors);
@@ -33,12 +27,6 @@ void visit_quantities(Scene& scene, const std::function<void(double&, const Unit
 
 /// The same of a history whose values have the unit `of`.
 void visit_numbers(History& history, const Unit& of, const std::function<void(double&, const Unit&)>& visit);
-
-/// The unit of a form's value: that of its first term.
-[[nodiscard]] Unit unit_of(const Form& form);
-
-/// The same of a contact law of one's own.
-void visit_numbers(OwnLaw& law, const std::function<void(double&, const Unit&)>& visit);
 
 /// All quantities times the factors of their units; `resolved` stays as it is. Exact where the factors are
 /// powers of two and nothing leaves the range of a double.

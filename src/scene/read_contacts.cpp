@@ -8,7 +8,7 @@
 
 #include "base/history/history_internal.hpp"
 #include "base/number.hpp"
-#include "contact/yielding_pad.hpp"
+#include "contact/law/data_laws.hpp"
 #include "scene/contact_tables.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/readers.hpp"
@@ -181,19 +181,18 @@ void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
     table.require("tangential_stiffness", " (required for law = \"compliant\" with friction)");
 }
 
-/// Keys that are not read here have no meaning: T = 0.
-void read_yielding(Table& table, ContactSpec& contact, const Space& space) {
-  read_gap(table, contact, space, "yielding");
-  for (const char* key : {"normal_stiffness", "yield_force"})
-    table.require(key, " (required for law = \"yielding\")");
+/// Keys that are not read here have no meaning: such a law has all it needs in its constants.
+void read_data_law(Table& table, ContactSpec& contact, const Space& space, const DataLaw& law) {
+  const std::string required = fmt::format(" (required for law = \"{}\")", law.name);
+  read_gap(table, contact, space, std::string(law.name));
+  table.require("normal_stiffness", required);
+  for (const DataLawConstant& constant : law.constants) table.require(constant.key, required);
   contact.normal_stiffness = table.number("normal_stiffness");
-  const double yield_force = table.number("yield_force");
-  if (!std::isnormal(yield_force / contact.normal_stiffness))
-    table.fail(
-        "yield_force",
-        fmt::format("found {}, with normal_stiffness a deflection of {} at yield, expected a number > 0",
-                    shortest(yield_force), shortest(yield_force / contact.normal_stiffness)));
-  contact.own = std::make_shared<const OwnLaw>(yielding_pad(contact.normal_stiffness, yield_force));
+  std::vector<double> constants;
+  for (const DataLawConstant& constant : law.constants) constants.push_back(table.number(constant.key));
+  if (const auto objection = law.objection(contact.normal_stiffness, constants))
+    table.fail(objection->first, objection->second);
+  contact.own = std::make_shared<const OwnLaw>(law.make(contact.normal_stiffness, constants));
 }
 
 /// What lies between the contact's node and the ground, or takes the ground's place.
@@ -245,8 +244,8 @@ ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, cons
   contact.of_stop = table.is("stops[]");
   contact.law = law == "slider" ? Law::slider : law == "rigid" ? Law::rigid : Law::compliant;
   contact.normal_force = constant_history(0.0);
-  if (law == "yielding") {
-    read_yielding(table, contact, space);
+  if (const DataLaw* data = find_data_law(law)) {
+    read_data_law(table, contact, space, *data);
     return contact;
   }
   contact.friction = read_friction(table);
@@ -261,7 +260,7 @@ ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, cons
       read_slider(table, contact, space, scene);
       break;
   }
-  if (!takes_impulses(contact.law)) read_elements(table, contact);
+  if (!contact.capabilities().takes_impulses) read_elements(table, contact);
   contact.surface_velocity = read_standing_history(table, "surface_velocity", scene);
   return contact;
 }

@@ -82,7 +82,7 @@ void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {
   const ContactSpec& contact =
       scene.contacts[check_known(output.at[0], names, "contact", table.place("at"), table.path("at"))];
   read_quantity(table, output, "\"N\", \"T\", \"gap\", \"slip\", \"loss\"");
-  if (output.quantity == OutputQuantity::gap && !has_gap(contact.law))
+  if (output.quantity == OutputQuantity::gap && contact.capabilities().normal_force_given)
     table.fail("quantity",
                fmt::format("found \"gap\" of contact \"{}\", a slider, which has none", contact.name));
 }

@@ -267,7 +267,7 @@ void DiscreteRun::fill(std::size_t p, const ObservedInstant& now, const Node& be
     const ContactMotion to = along(p, c, now.forcing_after, node_, is, series);
     EventRates& rates = state.rates[c];
     rates.t = is.t;
-    if (contact.has_gap()) rates.gap = to.gap;
+    rates.gap = contact.gap_if_any(to.gap).value_or(rates.gap);
     rates.N = from.N;
     rates.T = from.T;
     rates.vn = from.vn;

@@ -6,37 +6,25 @@
 #include "signorini/error.hpp"
 
 namespace signorini {
-namespace {
-
-/// Does the law have a p that events move? Its derivative is not followed.
-bool has_memory(const OwnLaw& law) {
-  for (const OwnState& state : law.states)
-    for (const OwnGuard& guard : state.guards)
-      if (guard.memory) return true;
-  return false;
-}
-
-}  // namespace
-
 void check_tangent_laws(const Scene& scene, const Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     const bool rises = c.friction.rises();
-    const bool remembers = c.own && has_memory(*c.own);
-    const char* what = remembers               ? "a law of contact with a memory"
-                       : c.bowl                ? "a pendulum whose normal force varies"
-                       : rises && c.shear      ? "friction that rises with the slip rate beside a "
-                                                 "tangential_stiffness"
-                       : c.friction.by_force() ? named_friction(c)
-                       : c.borrows             ? "a rigid contact on parts without mass"
+    const bool remembers = c.law->has_memory();
+    const char* what = remembers                    ? "a law of contact with a memory"
+                       : c.curved_surface()         ? "a pendulum whose normal force varies"
+                       : rises && c.sliding_point() ? "friction that rises with the slip rate beside a "
+                                                      "tangential_stiffness"
+                       : c.friction.by_force()      ? named_friction(c)
+                       : c.compliance_split()       ? "a rigid contact on parts without mass"
                        : rises && c.takes_impulses()
                            ? "friction that rises with the slip rate at a rigid contact"
                            : nullptr;
     if (what != nullptr)
       throw SceneError(scene.contacts[k].place,
-                       scene.contacts[k].key(remembers || c.borrows ? "law"
-                                             : c.bowl               ? "radius"
-                                                                    : "friction"),
+                       scene.contacts[k].key(remembers || c.compliance_split() ? "law"
+                                             : c.curved_surface()              ? "radius"
+                                                                               : "friction"),
                        fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));
   }
 }

@@ -40,7 +40,7 @@ void LandingRecord::turn(const TangentSample& s) {
 void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentState>& states) {
   const Decision& decision = m.instant.after;
   for (std::size_t c = 0; c < all_.size(); ++c) {
-    if (!model_.contacts[c].has_gap()) continue;
+    if (model_.contacts[c].normal_force_given()) continue;
     const bool was = !m.instant.mode_before[c].is_open(), is = !decision.mode[c].is_open();
     if (!begun_ && was) begin(c, std::vector<double>(parameters_, 0.0), states);
     const double pushed = decision.impulses.empty() ? 0.0 : decision.impulses[c].normal;

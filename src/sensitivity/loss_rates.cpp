@@ -37,7 +37,7 @@ void LossRates::add_impact(const Sides& s, WorkRates& works) const {
 std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &b = s.motion.motion_before[c], &a = s.motion.motion_after[c];
-  const double kt = contact.own ? 0.0 : contact.tangential_stiffness.value_or(0.0);
+  const double kt = contact.anchor_spring().value_or(0.0);
   const Decision& now = s.motion.instant.after;
   if (!now.jumped[c] || !(std::abs(a.T) < std::abs(b.T))) return std::nullopt;
   if (slides_at_once(contact) && (now.mode[c].state != State::stick || now.visited[c])) return 0.0;

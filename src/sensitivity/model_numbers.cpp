@@ -29,7 +29,7 @@ ContactRates numbers_of(const Contact& contact) {
   c.initial_shear = contact.initial_shear;
   c.restitution = contact.restitution;
   c.friction = contact.friction;
-  if (contact.shear) c.shear_stiffness = contact.shear->stiffness;
+  if (const ShearElement* element = contact.sliding_point()) c.shear_stiffness = element->stiffness;
   c.normal_force = numbers_of(contact.normal_force);
   c.surface_motion = numbers_of(contact.surface_motion);
   for (const State state : all_states) {
@@ -87,12 +87,11 @@ std::vector<long> shape_of(const Model& model) {
   for (const Contact& c : model.contacts) {
     history(c.normal_force);
     history(c.surface_motion);
-    for (const bool has :
-         {c.tangential_stiffness.has_value(), c.shear.has_value(), c.has_friction(), c.normal_damping > 0.0})
+    for (const bool has : {c.tangential_stiffness.has_value(), c.sliding_point() != nullptr, c.has_friction(),
+                           c.normal_damping > 0.0, c.normal_force_given(), c.takes_impulses()})
       shape.push_back(has);
     for (const FrictionConstant& constant : friction_constants)
       shape.push_back((c.friction.*constant.value).has_value());
-    shape.push_back(static_cast<long>(c.law));
   }
   for (const double reaction : model.statics.reactions) shape.push_back(reaction > 0.0);
   return shape;

@@ -262,7 +262,7 @@ void RateRecord::finish() {
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     for (std::size_t which = 0; which < peak_kinds.size(); ++which) {
       Peak& peak = peaks_[c][which];
-      if (peak.size == 0.0 || (which == 2 && !model_.contacts[c].has_gap())) continue;
+      if (peak.size == 0.0 || (which == 2 && model_.contacts[c].normal_force_given())) continue;
       const double f = factor(peak_kinds[which].of);
       Response r{peak_kinds[which].name,    static_cast<int>(c),   peak.value * f,
                  peak.t * model_.unit.time, std::move(peak.rates), std::move(peak.t_rates)};

@@ -32,7 +32,7 @@ std::vector<double> pressing_turns(const Model& model, const ObservedStep& step)
   const Expansion& e = step.expansion;
   std::vector<double> turns;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    if (!model.contacts[c].has_gap() || step.decision.mode[c].is_open()) continue;
+    if (model.contacts[c].normal_force_given() || step.decision.mode[c].is_open()) continue;
     const auto row = static_cast<Eigen::Index>(normal_slot(c));
     const auto slope = [&](double x) {
       double sum = 0.0;

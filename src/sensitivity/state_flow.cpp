@@ -66,7 +66,7 @@ ModalBundle moved_modes(const Oscillators& oscillators, const Amplitudes& zero, 
 }  // namespace
 
 bool modes_uncouple(const Model& model) {
-  const auto bows = [](const Contact& contact) { return contact.bowl.has_value() || contact.own; };
+  const auto bows = [](const Contact& contact) { return !contact.has_constant_stiffness(); };
   return coupling_refusal(model).empty() && std::none_of(model.contacts.begin(), model.contacts.end(), bows);
 }
 

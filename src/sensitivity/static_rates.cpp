@@ -35,7 +35,7 @@ std::optional<Vector> static_rate(const Model& model, const ModelDerivative& der
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
     const double N = -model.statics.reactions[c];
-    if (!contact.has_gap() || !(N < 0.0)) continue;
+    if (contact.normal_force_given() || !(N < 0.0)) continue;
     const ContactRates& rates = derivative.contacts[c];
     const double moved = rates.gap + rates.normal.dot(model.u0);
     rates.normal.add_to(p, -N);

@@ -286,7 +286,7 @@ void TangentEvents::fill_rates(Course& course) const {
     const double t = m.instant.t;
     EventRates row;
     row.t = dt;
-    if (contact.has_gap()) row.gap = after.gap;
+    row.gap = contact.gap_if_any(after.gap).value_or(row.gap);
     row.N = before.N;
     row.T = before.T;
     row.vn = before.vn;

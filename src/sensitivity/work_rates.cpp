@@ -39,8 +39,8 @@ double damping_rate(const ContactRates& rates) { return -rates.rows[index_of(Sta
 
 double slip_by(const Contact& contact, const ContactRates& rates, const ContactMotion& m,
                const ContactMotion& D) {
-  const double kt = contact.tangential_stiffness.value_or(0.0);
-  return kt > 0.0 && !contact.own ? D.ut - D.T / kt + m.T * rates.tangential_stiffness / (kt * kt) : D.ut;
+  const double kt = contact.anchor_spring().value_or(0.0);
+  return kt > 0.0 ? D.ut - D.T / kt + m.T * rates.tangential_stiffness / (kt * kt) : D.ut;
 }
 
 void WorkTangent::add(const TangentPlace& at, double factor) {
@@ -55,7 +55,7 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     const ContactMotion m = motion_of(contact, c, at.forcing, at.t, at.motion);
     const ContactMotion p = parameter_rate(contact, rates, c, at.motion, at.tangent, at.driven[c]);
     double friction = 0.0;
-    if (contact.own) {
+    if (!contact.obeys_coulomb()) {
       friction = p.N * m.vn + m.N * p.vn + p.T * m.vt + m.T * p.vt;
     } else if (const int s = slip_sign(state.state); s != 0) {
       const Form form = slip_rate(contact, s);
@@ -65,7 +65,7 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     now_.works.friction[c] += factor * friction;
     now_.works.surface[c] -= factor * (p.T * at.forcing.surface(c, at.t, 1) + m.T * at.driven[c].surface[1]);
     now_.works.pressing[c] -= factor * p.N;
-    if (contact.own) continue;
+    if (!contact.obeys_coulomb()) continue;
     if (!is_open(state.state))
       damped += damping_rate(rates) * m.vn * m.vn + 2.0 * contact.normal_damping * m.vn * p.vn;
     else if (state.state == State::inside)  // its dashpot takes what its spring gives, kn g^2/2
@@ -81,8 +81,7 @@ void WorkTangent::shift(const Forcing& forcing, double t, const Mode& mode, cons
   now_.works.damping += dt * motion.v.dot(model_.damping * motion.v);
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const int s = slip_sign(mode[c].state);
-    const double slip = contact.own ? m[c].vt : s == 0 ? 0.0 : slip_rate(contact, s).value(m[c]);
+    const double slip = working_slip_rate(contact, mode[c].state, m[c]);
     now_.works.add(c,
                    work_on(contact, mode[c].state, m[c].N, m[c].T,
                            {slip, forcing.surface(c, t, 1), m[c].vn, m[c].vn, 1.0}),
@@ -105,15 +104,15 @@ double WorkTangent::contact_energy(std::size_t c, const StoredMotion& at, double
   const ContactMotion &m = at.m[c], &D = at.D[c];
   double energy = 0.0;
   shear = 0.0;
-  if (const double kt = contact.tangential_stiffness.value_or(0.0); kt > 0.0 && !contact.own)
+  if (const double kt = contact.anchor_spring().value_or(0.0); kt > 0.0)
     energy += m.T * D.T / kt - 0.5 * m.T * m.T * rates.tangential_stiffness / (kt * kt);
-  if (contact.shear) {
-    const double strain = contact.shear->body.dot(at.u) - contact.tangent.dot(at.u);
-    const double moved = contact.shear->body.dot(at.Du) - contact.tangent.dot(at.Du) +
+  if (const ShearElement* element = contact.sliding_point()) {
+    const double strain = element->body.dot(at.u) - contact.tangent.dot(at.u);
+    const double moved = element->body.dot(at.Du) - contact.tangent.dot(at.Du) +
                          rates.body_tangent.dot(at.u) - rates.tangent.dot(at.u);
-    shear = contact.shear->stiffness * strain * moved + 0.5 * rates.shear_stiffness * strain * strain;
+    shear = element->stiffness * strain * moved + 0.5 * rates.shear_stiffness * strain * strain;
   }
-  if (!contact.has_spring() || contact.own) return energy;
+  if (!contact.is_elastic_along_normal()) return energy;
   const double kn = contact.normal_stiffness, kn_p = stiffness_rate(rates);
   const State state = at.mode[c].state;
   if (state == State::inside) return energy + kn * m.gap * D.gap + 0.5 * kn_p * m.gap * m.gap;

@@ -72,7 +72,7 @@ void Finder::continuity() {
   }
   if ((record_.start && !record_.continues) || !record_.located) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (!model_.contacts[k].own) friction_continuity(k);
+    if (model_.contacts[k].obeys_coulomb()) friction_continuity(k);
 }
 
 /// Where there is no mass u follows from forces, and springs of contacts make forces of its rounding: those of stiff ones
@@ -142,7 +142,9 @@ bool Finder::body_follows(std::size_t k) const {
 bool Finder::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (c.own || (c.shear && !body_follows(k)) || c.friction.varies() || !c.friction.drops()) return false;
+  if (!c.obeys_coulomb() || (c.sliding_point() && !body_follows(k)) || c.friction.varies() ||
+      !c.friction.drops())
+    return false;
   const RecordedEvent* event = event_of(k);
   if (event == nullptr || event->t_uncertainty < 0.0) return false;
   const bool stopped = kind_of(now.state) == State::stick && event->type == "slip";

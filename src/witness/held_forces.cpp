@@ -17,10 +17,6 @@ double terms_of(const Vector& w, const SparseMatrix& matrix, const Vector& x) {
   return sum;
 }
 
-bool holds_along(const Contact& c, State state) {
-  return kind_of(state) == State::stick && !c.tangential_stiffness && !c.shear;
-}
-
 }  // namespace
 
 /// Of all that is held just before, rows R of accelerations, and columns F of forces l, of what slides with its friction:
@@ -36,10 +32,10 @@ HeldForce Bench::held_force(const InstantRecord& record, std::size_t k) const {
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
     const Contact& c = model.contacts[j];
     const ContactState& state = (*record.before.mode)[j];
-    const OwnResponse* own = is_open(state.state) || c.own ? nullptr : own_response(j);
+    const OwnResponse* own = is_open(state.state) || !c.obeys_coulomb() ? nullptr : own_response(j);
     if (own == nullptr) continue;
     const Sight m = see(c, j, record.before);
-    const bool sticks = holds_along(c, state.state);
+    const bool sticks = c.holds_tangent(state.state);
     if (c.takes_impulses()) {
       const double friction = sticks || c.tangential_stiffness
                                   ? 0.0

@@ -32,13 +32,12 @@ struct Push {
 /// Of order 1 or 2.
 Push push_of(const Contact& c, const ContactState& state, const Sight& m, int order) {
   Push push;
-  if (is_open(state.state) && !c.is_pressed()) return push;
+  if (is_open(state.state) && !c.normal_force_given()) return push;
   const bool first = order == 1;
   const double g = first ? m.dg : m.ddg, ut = first ? m.dut : m.ddut, size = first ? m.speed : m.push;
-  push.known =
-      !c.own && !c.shear && !c.friction.varies() && !c.takes_impulses() && (first || c.normal_damping == 0.0);
+  push.known = c.forces_follow_motion() && !c.takes_impulses() && (first || c.normal_damping == 0.0);
   if (!push.known) return push;
-  if (c.is_pressed()) {
+  if (c.normal_force_given()) {
     push.N = first ? -m.dq : -m.ddq;
     push.size = std::abs(push.N);
   } else {

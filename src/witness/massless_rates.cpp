@@ -71,7 +71,7 @@ class RateRows {
   [[nodiscard]] int at(int dof) const { return place_[static_cast<std::size_t>(dof)]; }
   [[nodiscard]] bool exists(int dof) const { return at(dof) >= 0; }
   [[nodiscard]] static bool closed(const Contact& c, const ContactState& state) {
-    return !is_open(state.state) && !c.is_pressed();
+    return !is_open(state.state) && !c.normal_force_given();
   }
   [[nodiscard]] SparseMatrix matrix_of(const Terms& terms) const {
     SparseMatrix matrix(size_, size_);
@@ -81,9 +81,7 @@ class RateRows {
   void check_known(std::size_t k, const WitnessedSide& side) {
     const Contact& c = bench_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
-    if (c.own || c.shear || c.friction.varies() || c.takes_impulses() ||
-        (kind_of(state.state) == State::stick && !c.tangential_stiffness))
-      told_ = false;
+    if (!c.forces_follow_motion() || c.takes_impulses() || c.holds_tangent(state.state)) told_ = false;
   }
   void add(int row, int column, double value, Terms& terms) const {
     if (exists(column) && value != 0.0) terms.emplace_back(at(row), at(column), value);

@@ -22,7 +22,7 @@ bool slides_on(const Contact& c, std::size_t k, int s, const WitnessedSide& side
   double rate = s * (c.tangent.dot(*side.v) - d.ds);
   if (const double kt = c.tangential_stiffness.value_or(0.0); kt > 0.0) {
     double dN = -d.dq;
-    if (!c.is_pressed()) {
+    if (!c.normal_force_given()) {
       dN = c.normal_stiffness * c.normal.dot(*side.v);
       if (c.normal_damping > 0.0) dN += c.normal_damping * c.normal.dot(*side.a);
     }
@@ -48,9 +48,9 @@ bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& sta
 
 bool guards_stand(const Contact& c, std::size_t k, const ContactState& state, const WitnessedSide& side) {
   if (is_open(state.state))
-    return c.is_pressed() || (state.state != State::inside && c.gap_at(*side.u) >= 0.0);
+    return c.normal_force_given() || (state.state != State::inside && c.gap_at(*side.u) >= 0.0);
   const double N = N_of(side, k);
-  if (!c.is_pressed() && N > 0.0) return false;
+  if (!c.normal_force_given() && N > 0.0) return false;
   if (!c.has_friction() || kind_of(state.state) == State::closed) return true;
   if (c.friction.force || c.friction.varies() || is_held(state.state)) return false;
   if (const int s = sign_of_slip(state.state); s != 0) return slides_on(c, k, s, side);
@@ -59,14 +59,14 @@ bool guards_stand(const Contact& c, std::size_t k, const ContactState& state, co
 
 bool rows_stand(const Contact& c, std::size_t k, const ContactState& state, const WitnessedSide& side,
                 double rest) {
-  if (c.friction.force || c.friction.varies() || c.shear) return false;
+  if (c.friction.force || !c.forces_follow_motion()) return false;
   const double N = N_of(side, k);
   double off = 0.0;
-  if (c.is_pressed())
+  if (c.normal_force_given())
     off = N + side.driven[k].q;
   else if (is_open(state.state))
     off = N;
-  else if (c.has_spring())
+  else if (c.normal_spring())
     off = N - c.normal_stiffness * c.gap_at(*side.u) -
           (c.normal_damping > 0.0 ? c.normal_damping * c.normal.dot(*side.v) : 0.0);
   return std::abs(off) <= rounding::of_elimination * std::abs(N) &&

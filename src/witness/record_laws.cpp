@@ -15,7 +15,7 @@ bool Finder::is_released(std::size_t k) const {
 void Finder::releases() {
   for (const std::size_t k : record_.released) {
     const Contact& c = model_.contacts[k];
-    if (c.own || c.friction.varies() || c.shear) continue;
+    if (!c.forces_follow_motion()) continue;
     const int contact = static_cast<int>(k);
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
     const Sight after = see(c, k, record_.after), before = see(c, k, record_.before);
@@ -66,7 +66,7 @@ void Finder::continuation() {
         add(static_cast<int>(k), "continuation", off, limit, seen::length, true);
     };
     if (left.gap) check(*left.gap, m.g);
-    if (c.surface_motion.is_constant()) check(c.shear ? left.slip : left.ut, m.ut);
+    if (c.surface_motion.is_constant()) check(c.sliding_point() ? left.slip : left.ut, m.ut);
   }
 }
 
@@ -87,7 +87,7 @@ Sight Finder::touching(std::size_t k, const WitnessedSide& side) const {
   const Contact& c = model_.contacts[k];
   const State state = (*side.mode)[k].state;
   Sight m = see(c, k, side);
-  if (!c.borrows || is_open(state)) return m;
+  if (!c.compliance_split() || is_open(state)) return m;
   if (c.tangential_stiffness) {
     const int s = sign_of_slip(state);
     const double ratio = c.normal_stiffness / *c.tangential_stiffness;
@@ -166,11 +166,11 @@ void Finder::row_before(const RecordedEvent& event, const Sight& before, const S
 void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
   const Contact& c = model_.contacts[event.contact];
   if (!event.gap) return;
-  const bool touches = c.borrows && !is_open((*record_.after.mode)[event.contact].state);
+  const bool touches = c.compliance_split() && !is_open((*record_.after.mode)[event.contact].state);
   const double g = touches ? 0.0 : after.g;
   double limit = rounding::of_elimination * after.place;
   if (*event.gap == 0.0) {
-    const bool by_force = event.type == "separation" && c.has_spring();
+    const bool by_force = event.type == "separation" && c.normal_spring();
     const double dashpot = by_force ? c.normal_damping / c.normal_stiffness : 0.0;
     limit += of_tolerance * (bench_.limits.rtol * after.place + bench_.limits.displacement) +
              settled(event) / (by_force ? c.normal_stiffness : 1.0) + step_error(event.contact, 1.0, dashpot);
@@ -198,11 +198,11 @@ void Finder::row_of(const RecordedEvent& event) {
   check(event.T_after, a.T, force, seen::force, true);
   const double speed = rounding::of_elimination * (a.speed + b.speed);
   check(event.vn_after, a.dg, speed, seen::velocity);
-  if (!c.shear) check(event.vt_after, a.dut, speed, seen::velocity);
+  if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
   const double loose = speed + bench_.moved_by(record_.captures, k);
   if (!moves_at_once(k)) {  // those of parts without mass are decided anew
     check(event.vn, b.dg, loose, seen::velocity);
-    if (!c.shear) check(event.vt, b.dut, loose, seen::velocity);
+    if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
   }
   row_before(event, b, a);
   row_gap(event, a);

@@ -106,11 +106,12 @@ SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m
   SeenGuards guards;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = shear_stiffness(c);
   const double of_u = tol.rtol * m.place + tol.displacement, of_v = tol.rtol * m.speed + tol.velocity;
-  const double of_N = c.has_spring() ? kn * of_u + cn * of_v : tol.rtol * std::abs(m.N) + tol.force;
-  const double size_N = c.has_spring() ? size_of_normal(c, m) : std::abs(m.N);
-  const double dN = c.has_spring() ? kn * m.dg + cn * m.ddg : c.is_pressed() ? -m.dq : 0.0;
+  const bool elastic = c.normal_spring().has_value(), given = c.normal_force_given();
+  const double of_N = elastic ? kn * of_u + cn * of_v : tol.rtol * std::abs(m.N) + tol.force;
+  const double size_N = elastic ? size_of_normal(c, m) : std::abs(m.N);
+  const double dN = elastic ? kn * m.dg + cn * m.ddg : given ? -m.dq : 0.0;
   if (is_open(state.state)) {
-    if (c.is_pressed()) return guards;
+    if (given) return guards;
     if (state.state == State::inside) {
       guards.add(
           {"penetration", m.g + cn / kn * m.dg, m.place + cn / kn * m.speed, m.dg, of_u + cn / kn * of_v});
@@ -120,7 +121,7 @@ SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m
     guards.add({"penetration", m.g, m.place, m.dg, of_u});
     return guards;
   }
-  if (!c.is_pressed()) guards.add({"tension", -m.N, size_N, -dN, of_N});
+  if (!given) guards.add({"tension", -m.N, size_N, -dN, of_N});
   if (!c.has_friction() || kind_of(state.state) == State::closed) return guards;
   const bool by_force = c.friction.force.has_value();
   const double fs = by_force ? friction_at(c, 0.0, m.N) : c.friction.static_;
@@ -137,7 +138,7 @@ SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m
     double rate = s * m.dut, size = m.speed, off = of_v;
     if (kt > 0.0) {
       const double f = fk / kt;
-      rate += c.is_pressed() ? -f * m.dq : f * (kn * m.dg + cn * m.ddg);
+      rate += given ? -f * m.dq : f * (kn * m.dg + cn * m.ddg);
       size += f * (kn * m.speed + cn * m.push + std::abs(m.dq));
       off += f * (kn * of_v + cn * (tol.rtol * m.push + tol.force));
     }

@@ -36,9 +36,6 @@ struct HeldRows {
     asked.push_back(hold ? -m.ddut : 0.0);
     noise.push_back(of_row);
   }
-  static bool holds_tangent(const Contact& c, State state) {
-    return kind_of(state) == State::stick && !c.tangential_stiffness && !c.shear;
-  }
   /// Row k holds what the others hold already: its force is not unique.
   [[nodiscard]] bool is_shared(Eigen::Index k) const {
     const auto size = static_cast<Eigen::Index>(columns.size());
@@ -91,7 +88,7 @@ double Finder::zero_of(const SeenGuard& guard, const Contact& c) const {
 void Finder::states() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
-    if (c.own) continue;
+    if (!c.obeys_coulomb()) continue;
     const double rest = c.capture_velocity.value_or(bench_.limits.capture_velocity);
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
     if (!guards_stand(c, k, now, record_.after) || !rows_stand(c, k, now, record_.after, rest)) state_of(k);
@@ -119,15 +116,15 @@ void Finder::old_rows(std::size_t k) {
     if (std::abs(off) > limit) add(static_cast<int>(k), law, std::abs(off), limit, seen::force, false);
   };
   const int s = sign_of_slip(state.state);
-  if (c.is_pressed())
+  if (c.normal_force_given())
     check("normal force", m.N + m.q);
   else if (is_open(state.state))
     check("normal force", m.N);
-  else if (c.has_spring())
+  else if (c.normal_spring())
     check("normal force", m.N - kn * m.g - cn * m.dg);
-  if (is_open(state.state) && !c.is_pressed())
+  if (is_open(state.state) && !c.normal_force_given())
     check("friction force", m.T);
-  else if (s != 0 && !c.shear)
+  else if (s != 0 && !c.sliding_point())
     check("friction force", m.T + s * friction_in(c, state.state, m.dut, m.N) * m.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", m.T - kt * (m.ut - state.anchor));
@@ -141,7 +138,7 @@ void Finder::state_of(std::size_t k) {
   const int contact = static_cast<int>(k);
   for (const SeenGuard& guard : guards_of(c, state, m, bench_.limits)) {
     // What finds states at ends of steps asks for the slip of a whole step.
-    if (std::string_view(guard.law) == "slip direction" && (c.shear || !record_.located)) continue;
+    if (std::string_view(guard.law) == "slip direction" && (c.sliding_point() || !record_.located)) continue;
     // And it stops for a step what goes on sliding the other way.
     if (std::string_view(guard.law) == "friction" && !c.tangential_stiffness && !record_.located) continue;
     double zero = zero_of(guard, c);
@@ -155,11 +152,11 @@ void Finder::state_of(std::size_t k) {
       add(contact, guard.law, -guard.value, zero, guard.unit(), -guard.value > gross * guard.size);
   }
   double asked = 0.0, size = std::abs(m.N);
-  if (c.is_pressed()) {
+  if (c.normal_force_given()) {
     asked = -m.q;
     size += std::abs(m.q);
   } else if (!is_open(state.state)) {
-    if (!c.has_spring()) {
+    if (!c.normal_spring()) {
       friction_of(k, m);
       return;
     }
@@ -179,12 +176,12 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
   const int s = sign_of_slip(state.state);
   double asked = 0.0, size = std::abs(m.T);
   if (s != 0) {
-    if (c.friction.varies() && c.shear) return;  // its rate follows from T, it is no datum
+    if (c.friction.varies() && c.sliding_point()) return;  // its rate follows from T, it is no datum
     const double f = friction_in(c, state.state, m.dut, m.N);
     asked = -s * f * m.N;
     size += std::abs(asked) + f * size_of_normal(c, m);
   } else if (kind_of(state.state) == State::stick) {
-    if (c.shear || !c.tangential_stiffness) {
+    if (c.holds_tangent(state.state) || c.sliding_point()) {
       const double zero = bench_.slowest(record_, k);
       if (std::abs(m.dut) > zero)
         add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
@@ -215,12 +212,13 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   const auto sliding = [&] { return -sign_of_slip(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N; };
   // What its old rows say of its forces directly, and what that does to accelerations.
   if (!solved_N)
-    m.N = c.is_pressed()       ? -m.q
-          : is_open(old.state) ? 0.0
-                               : c.normal_stiffness * m.g + c.normal_damping * m.dg;
+    m.N = c.normal_force_given() ? -m.q
+          : is_open(old.state)   ? 0.0
+                                 : c.normal_stiffness * m.g + c.normal_damping * m.dg;
   if (!solved_T)
-    m.T = kind_of(old.state) == State::stick && !c.shear ? *c.tangential_stiffness * (m.ut - old.anchor)
-                                                         : sliding();
+    m.T = kind_of(old.state) == State::stick && !c.sliding_point()
+              ? *c.tangential_stiffness * (m.ut - old.anchor)
+              : sliding();
   Vector push = -(m.N - N) * own->by_n;
   if (!solved_T) push -= (m.T - T) * own->by_t;
   HeldRows held;
@@ -229,8 +227,8 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   for (std::size_t j = 0; j < model_.contacts.size(); ++j) {
     const Contact& other = model_.contacts[j];
     const ContactState& state = (*record_.after.mode)[j];
-    const bool rigid = other.takes_impulses() || HeldRows::holds_tangent(other, state.state);
-    if (j == k || other.own || is_open(state.state) || !rigid) continue;
+    const bool rigid = other.takes_impulses() || other.holds_tangent(state.state);
+    if (j == k || !other.obeys_coulomb() || is_open(state.state) || !rigid) continue;
     const OwnResponse* response = bench_.own_response(j);
     if (response == nullptr) return std::nullopt;
     held.add(other, state, *response, see(other, j, record_.after), swung, false);
@@ -258,7 +256,7 @@ bool Finder::jumps(std::size_t k) const {
   const double speed = rounding::of_elimination * a.speed + of_tolerance * bench_.limits.velocity;
   const double force = rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
                        of_tolerance * (bench_.limits.force + c.normal_stiffness * bench_.limits.displacement);
-  const bool may_jump = !c.has_spring() || c.normal_damping > 0.0;  // N = kn g goes with u
+  const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;  // N = kn g goes with u
   return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
          (may_jump && std::abs(a.N - b.N) > force);
 }
@@ -272,7 +270,8 @@ void Finder::transitions() {
     if (plain(old.state) != plain(now.state) && !record_.start &&
         (event == nullptr || event->from != plain(old.state) || event->to != plain(now.state)))
       add(static_cast<int>(k), "record", 1.0, 0.0, {}, true);
-    if (model_.contacts[k].own || (record_.start && !record_.continues) || !record_.located) continue;
+    if (!model_.contacts[k].obeys_coulomb() || (record_.start && !record_.continues) || !record_.located)
+      continue;
     if (old.state != now.state) necessity(k);
     if (event != nullptr && event->t_uncertainty >= 0.0 && !record_.breakpoint && !record_.start && !jumps(k))
       guard_of(*event);
@@ -312,9 +311,10 @@ bool force_jumps(const Contact& c, const Sight& before, const Sight& after) {
 void Finder::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (c.shear || c.friction.varies() || (moves_at_once(k) && record_.breakpoint)) return;
+  if (!c.forces_follow_motion() || (moves_at_once(k) && record_.breakpoint)) return;
   const Sight before = see(c, k, record_.before), after = see(c, k, record_.after);
-  if (c.is_pressed() && (is_open(old.state) || is_open(now.state))) return;  // as the compression asks
+  if (c.normal_force_given() && (is_open(old.state) || is_open(now.state)))
+    return;  // as the compression asks
   const double rest = rounding::of_elimination * after.speed;
   if (is_pushed_off(k, old, after)) return;
   // Thrown off: beside a hit, however slowly.
@@ -363,7 +363,7 @@ bool Finder::its_own_falls(std::size_t k, const ContactState& old, const Sight& 
 void Finder::guard_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
-  if (c.friction.varies() || c.shear) return;
+  if (!c.forces_follow_motion()) return;
   const ContactState& old = (*record_.before.mode)[k];
   if (sign_of_slip(old.state) != 0 && c.normal_damping > 0.0 && record_.before.a == nullptr) return;
   const Sight m = see(c, k, record_.before);

@@ -72,7 +72,7 @@ std::vector<Violation> stretch_laws(const Bench& bench, double t, const Witnesse
       add("unbroken state", 1.0, 0.0, {});
       continue;
     }
-    if (c.own || c.shear) continue;
+    if (!c.obeys_coulomb() || c.sliding_point()) continue;
     const StretchEnds ends{see(c, k, from), see(c, k, to)};
     const double noise = slid_noise(c, ends, bench.limits, model.scales.displacement);
     const int s = is_held(now.state) || held_beside(model, k) ? 0 : sign_of_slip(now.state);
@@ -100,11 +100,12 @@ std::vector<Violation> equilibrium_law(const Bench& bench, double t, const Witne
         std::abs(m.N) + std::abs(m.T) + size_of_normal(c, m) + c.tangential_stiffness.value_or(0.0) * m.place;
     rows.add(c.normal, m.N, size);
     rows.add(c.tangent, m.T, size);
-    if (!c.bowl) continue;
+    const Bowl* bowl = c.curved_surface();
+    if (bowl == nullptr) continue;
     // A pendulum's bowl drives it back by what it carries beside the weight that stands in K.
-    const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / c.bowl->radius;
-    rows.add(c.body_tangent(), (-m.N - c.bowl->carried) * slope,
-             (size + c.bowl->carried) * m.place / c.bowl->radius);
+    const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
+    rows.add(c.body_tangent(), (-m.N - bowl->carried) * slope,
+             (size + bowl->carried) * m.place / bowl->radius);
   }
   rows.sum -= load;
   rows.terms += load.cwiseAbs();

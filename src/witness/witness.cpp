@@ -61,11 +61,11 @@ double Witness::lightness(std::size_t k) const {
 void Witness::contact(double t, std::size_t k, const ContactState& state, const Sight& m, bool accelerates,
                       double of_held, std::vector<Violation>& found) const {
   const Contact& c = parts_->bench.model.contacts[k];
-  if (c.own || c.friction.varies()) return;
+  if (!c.obeys_coulomb() || c.friction.varies()) return;
   for (const SeenGuard& guard : guards_of(c, state, m, parts_->bench.limits)) {
     const std::string_view law = guard.law;
     // The slip rate with a dashpot needs an acceleration.
-    if (law == "slip direction" && (c.shear || (c.normal_damping > 0.0 && !accelerates))) continue;
+    if (law == "slip direction" && (c.sliding_point() || (c.normal_damping > 0.0 && !accelerates))) continue;
     const bool held = law == "tension" ? c.takes_impulses() : law == "friction" && !c.tangential_stiffness;
     double limit =
         rounding::of_elimination * (guard.size + (held ? of_held : 0.0)) + of_tolerance * guard.tolerance;
@@ -92,7 +92,8 @@ std::vector<Violation> Witness::between(double t, const WitnessedSide& now) cons
       found.back().limit += noise_of_slip_rate(parts_->bench, now, k);
       if (found.back().value <= found.back().limit) found.pop_back();
     }
-    if (found.size() == before || (model.contacts[k].has_spring() && model.contacts[k].tangential_stiffness))
+    if (found.size() == before ||
+        (model.contacts[k].normal_spring() && model.contacts[k].tangential_stiffness))
       continue;
     found.resize(before);  // rarely: what its forces are known to takes a sum over the structure
     contact(t, k, (*now.mode)[k], m, now.a != nullptr, parts_->bench.balance(now), found);

@@ -53,7 +53,7 @@ Model neighbour(const Model& model, const Weights& weights, double delta, double
       const double change = contact.restitution < 1.0 ? of_rebound : -std::abs(of_rebound);
       contact.restitution = std::min(1.0, contact.restitution * (1.0 + delta * change));
     }
-    if (contact.is_pressed() || contact.gap_at(model.u0) <= 0.0) continue;
+    if (contact.normal_force_given() || contact.gap_at(model.u0) <= 0.0) continue;
     double reach = 0.0;
     for (const auto& [dof, factor] : contact.normal.terms)
       reach += std::abs(factor) * weights.u[static_cast<std::size_t>(dof)];

@@ -115,7 +115,7 @@ bool has_free_start(const Scene& scene) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
     const double size = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
-    const bool touches = contact.has_gap() && std::abs(contact.gap_at(model.u0)) <= 1e-12 * size;
+    const bool touches = !contact.normal_force_given() && std::abs(contact.gap_at(model.u0)) <= 1e-12 * size;
     if (touches && contact.gap != 0.0 && model.statics.reactions[k] <= 1e-9 * model.scales.force) return true;
   }
   return false;

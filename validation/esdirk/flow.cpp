@@ -43,7 +43,7 @@ void ModeFlow::start(const Mode& mode, double t) {
   linear_ = true;
   for (std::size_t k = 0; k < mode.size(); ++k)
     if (slips_nonlinearly(model_.contacts[k], mode[k].state)) {
-      if (model_.contacts[k].has_gap())
+      if (!model_.contacts[k].normal_force_given())
         throw std::runtime_error("Stribeck's friction is treated on sliders only");
       linear_ = false;
     }

@@ -64,8 +64,8 @@ std::optional<double> FlowGrowth::beside(const ModeSystem& system) {
     if (system.mode()[c].state == near_[c]) continue;
     const Contact& contact = model_.contacts[c];
     // Rows on accelerations, dashpots and forces that are no product of these stiffnesses change the growth otherwise.
-    if (contact.normal_damping > 0.0 || contact.own || contact.takes_impulses() || contact.sticks_rigidly() ||
-        contact.friction.varies() || contact.bowl)
+    if (contact.normal_damping > 0.0 || !contact.has_constant_stiffness() || contact.takes_impulses() ||
+        contact.sticks_rigidly() || contact.friction.varies())
       return std::nullopt;
     more += margin * margin * stiffening(system, c);
     if (!(more <= most_beside * square)) return std::nullopt;

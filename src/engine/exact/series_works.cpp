@@ -102,8 +102,8 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const PiecedSeri
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactState& state = mode[c];
-    if (contact.bowl) add_bowl(c, forcing, series, contacts[c], degree, from, to, works);
-    if (contact.own) {
+    if (contact.curved_surface()) add_bowl(c, forcing, series, contacts[c], degree, from, to, works);
+    if (!contact.obeys_coulomb()) {
       add_own(c, forcing, series, contacts[c], from, to, works);
       continue;
     }
@@ -114,7 +114,7 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const PiecedSeri
       works.damping += inside_loss(contact, state.state, gap(from), gap(to));
     }
     if (state.is_open()) continue;
-    if (contact.has_gap()) {
+    if (!contact.normal_force_given()) {
       const auto pressed = [&](double time) {
         return contacts[c].integral(ContactSeries::N, (time - series.t) / series.scale);
       };

@@ -91,7 +91,7 @@ struct BdfIntegrator::Memory {
     IDASetDeltaCjLSetup(ida, 0.0);
     // Rows of friction that depends on the slip rate hold as well as Newton's method has converged; so do products.
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                    [](const Contact& c) { return friction_varies(c) || c.bowl; }))
+                    [](const Contact& c) { return !c.is_linear(); }))
       IDASetNonlinConvCoef(ida, sharp_newton);
     IDASetNoInactiveRootWarn(ida);
     const bool is_hit = std::any_of(model.contacts.begin(), model.contacts.end(),

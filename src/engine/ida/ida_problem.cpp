@@ -157,7 +157,7 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
     const auto acceleration = by_dof([&](std::size_t, int v) { return v >= 0 ? yp[v] : 0.0; });
     set_acceleration(contact, acceleration, forcing.surface(k, t, 2), m);
   }
-  if (contact.is_pressed()) {
+  if (contact.normal_force_given()) {
     m.pressing = forcing.pressing(k, t, 0);
     m.pressing_rate = forcing.pressing(k, t, 1);
   }
@@ -216,7 +216,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     model_.contacts[k].normal.add_to(forces, y[f]);
     model_.contacts[k].tangent.add_to(forces, y[f + 1]);
     const ContactMotion m = motion(k, t, y, yp, step);
-    if (const Contact& contact = model_.contacts[k]; contact.bowl)
+    if (const Contact& contact = model_.contacts[k]; contact.curved_surface())
       contact.body_tangent().add_to(
           forces,
           bowl_force(contact, y[f], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
@@ -250,8 +250,8 @@ void IdaProblem::weights(const double* y, double rate, double* w) const {
     };
     limit(layout_.force(k), contact.normal_stiffness * gap);
     limit(layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0) * ut);
-    if (contact.shear && contact.friction.rises()) {
-      const ShearElement& element = *contact.shear;
+    if (contact.sliding_point() && contact.friction.rises()) {
+      const ShearElement& element = *contact.sliding_point();
       limit(layout_.force(k) + 1, above_sharp_newton * (element.stiffness + element.damping * rate) *
                                       (element.body.magnitude(y) + contact.tangent.magnitude(y)));
     }

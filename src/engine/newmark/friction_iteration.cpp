@@ -106,7 +106,7 @@ State FrictionIteration::state_of(std::size_t k) const {
   const Side& side = sides_[k];
   const ContactMotion m = motion_of(contact, k, *segment_.forcing, t1_, end_);
   // A dashpot presses where it closes, not on the way there.
-  if (contact.is_pressed()
+  if (contact.normal_force_given()
           ? is_open(side.state)
           : m.gap > 0.0 || contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
     return State::open;

@@ -6,27 +6,12 @@
 
 #include "base/history/history_internal.hpp"
 #include "contact/law.hpp"
-#include "contact/slots.hpp"
+#include "contact/law/user_law.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/saved_state.hpp"
 
 namespace signorini {
 namespace {
-
-/// Does it take part along the tangent? Else its tangent rows say T = 0, and nothing depends on ut.
-bool acts_along(const OwnLaw& law) {
-  const auto looks = [](const Form& f) { return f.ut != 0.0 || f.vt != 0.0; };
-  const auto depends = [&](const Form& f) { return f.T != 0.0 || looks(f); };
-  for (const OwnState& state : law.states) {
-    const Form& tangent = state.tangent.form;
-    if (looks(tangent) || tangent.N != 0.0 || tangent.gap != 0.0 || tangent.vn != 0.0 ||
-        tangent.constant != 0.0 || state.tangent.memory != 0.0 || depends(state.normal.form))
-      return true;
-    for (const OwnGuard& guard : state.guards)
-      if (depends(guard.positive.form) || (guard.memory && depends(*guard.memory))) return true;
-  }
-  return false;
-}
 
 Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   Direction direction;
@@ -37,8 +22,8 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   else
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
-  const bool measures_only =
-      has_gap(spec.law) && !spec.friction.any() && !(spec.own && acts_along(*spec.own));
+  const bool measures_only = !spec.capabilities().normal_force_given && !spec.friction.any() &&
+                             !(spec.own && acts_along_tangent(*spec.own));
   return combination(map, direction, spec.key("tangent"), true, measures_only);
 }
 
@@ -69,7 +54,7 @@ void check_friction_by_force(const ContactSpec& spec) {
   const auto refuse = [&](const std::string& what) {
     throw SceneError(spec.place, spec.key("friction"), "friction that depends on the normal force " + what);
   };
-  if (takes_impulses(spec.law)) refuse("is not known to rigid contacts; use law = \"compliant\"");
+  if (spec.capabilities().takes_impulses) refuse("is not known to rigid contacts; use law = \"compliant\"");
   if (!spec.tangential_stiffness) refuse("needs a tangential_stiffness");
   if (spec.normal_damping != 0.0) refuse("cannot be combined with normal_damping");
   if (spec.tangential_damping != 0.0) refuse("cannot be combined with tangential_damping");
@@ -79,7 +64,8 @@ void check_friction_by_force(const ContactSpec& spec) {
 void check_own(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
   const OwnLaw& law = *spec.own;
-  if (!has_spring(spec.law)) refuse("a law of one's own stands in place of that of a compliant contact");
+  if (!spec.capabilities().normal_spring)
+    refuse("a law of one's own stands in place of that of a compliant contact");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
     refuse("found friction or dampers beside a law of one's own, which has them in its rows");
   if (scene.initial.is_static || scene.initial.is_frictional) {
@@ -89,29 +75,7 @@ void check_own(const ContactSpec& spec, const Scene& scene) {
                                  "displacements and velocities, or use law = \"compliant\"",
                                  law.name));
   }
-  if (law.states.empty() || law.states.size() > most_own_states)
-    refuse(fmt::format("found {} states, expected 1 to {}", law.states.size(), most_own_states));
-  for (const OwnState& state : law.states) {
-    if (state.guards.size() > guards_per_contact)
-      refuse(fmt::format("state '{}': found {} guards, expected at most {}", state.name, state.guards.size(),
-                         guards_per_contact));
-    if (is_own(state.kind) || state.kind == State::inside)
-      refuse(fmt::format("state '{}': expected a kind: open, closed, stick or slip", state.name));
-    std::vector<Form> forms = {state.normal.form, state.tangent.form};
-    if (forms[0].N == 0.0 || forms[1].T == 0.0)
-      refuse(fmt::format("state '{}': expected N in its normal row and T in its tangent row", state.name));
-    for (const OwnGuard& guard : state.guards) {
-      forms.push_back(guard.positive.form);
-      if (guard.memory) forms.push_back(*guard.memory);
-      if (guard.next >= law.states.size())
-        refuse(fmt::format("state '{}': found next state {}, expected 0 to {}", state.name, guard.next,
-                           law.states.size() - 1));
-    }
-    for (const Form& f : forms)
-      if (f.an != 0.0 || f.at != 0.0 || f.pressing != 0.0 || f.pressing_rate != 0.0 || f.limit != 0.0 ||
-          f.limit_rate != 0.0)
-        refuse(fmt::format("state '{}': forms are on N, T, g, ut and their rates", state.name));
-  }
+  if (const std::string refusal = refusal_of(law); !refusal.empty()) refuse(refusal);
 }
 
 void check_slider(const ContactSpec& spec, const Contact& contact, double t_end) {
@@ -142,7 +106,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
   for (const ContactSpec& spec : scene.contacts) {
     Contact c;
     c.name = spec.name;
-    c.law = spec.law;
+    c.law = spec.contact_law();
     c.gap = spec.gap;
     c.normal_stiffness = spec.normal_stiffness;
     c.tangential_stiffness = spec.tangential_stiffness;
@@ -155,12 +119,11 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.tangent = tangent_form(spec, map);
     leave_out_held_friction(scene, contacts.size(), c);
     check_friction_by_force(spec);
-    if (has_gap(spec.law)) {
+    if (!c.normal_force_given()) {
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);
       if (spec.own) check_own(spec, scene);
-      if (has_spring(spec.law)) check_compliant(spec, c);
-      c.own = spec.own;
+      if (c.normal_spring()) check_compliant(spec, c);
     } else {
       c.normal_force = make_history(spec.normal_force, spec.key("normal_force"));
       check_slider(spec, c, scene.run.t_end);

@@ -59,9 +59,9 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
       for (const auto& [node, weight] : at.against)
         if (weight != 0.0) need(numbers, find_node(mesh, node, c.place, c.key("against")), direction);
     };
-    if (c.normal && has_gap(c.law)) need_all(*c.normal, clean_direction(c.normal->vector));
+    if (const Direction* n = c.bearing_normal()) need_all(*n, clean_direction(n->vector));
     // A contact without friction takes no tangential force, so it needs no tangential motion either.
-    if (is_pressed(c.law) || c.friction.any()) {
+    if (c.capabilities().normal_force_given || c.friction.any()) {
       const Direction* at = c.tangent ? &*c.tangent : c.normal ? &*c.normal : nullptr;
       if (at != nullptr && !at->node.empty()) need_all(*at, sliding_direction(c));
     }

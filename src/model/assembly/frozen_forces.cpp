@@ -51,9 +51,7 @@ class Gathering {
     }
     for (std::size_t k = 0; k < model.contacts.size(); ++k) {
       const Contact& contact = model.contacts[k];
-      bowls_.push_back(contact.bowl ? beyond_spring(*scene.contacts[k].bowl, *contact.bowl) *
-                                          contact.tangent.dot(standing.u)
-                                    : 0.0);
+      bowls_.push_back(beyond_spring(scene.contacts[k], contact) * contact.tangent.dot(standing.u));
     }
   }
 
@@ -179,7 +177,7 @@ class Gathering {
       const Plane d = unit_of(direction);
       for (std::size_t c = 0; c < 2; ++c) force[c] -= size * d[c];
     };
-    if (spec.normal && has_gap(spec.law)) take(spec.normal->vector, standing_.N[k]);
+    if (const Direction* normal = spec.bearing_normal()) take(normal->vector, standing_.N[k]);
     take(sliding_direction(spec), standing_.T[k] + bowls_[k]);
     add(at->node, force, 1.0);
     for (const auto& [name, weight] : at->against) add(name, force, -weight);

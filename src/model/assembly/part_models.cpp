@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact/constants.hpp"
 #include "linear/restricted.hpp"
 #include "model/assembly/parts.hpp"
 
@@ -15,10 +16,9 @@ constexpr std::size_t most_pieces = 2000000;  // of histories in all copies: som
 std::vector<Combination> reaches(const Model& model) {
   std::vector<Combination> forms;
   for (const Contact& contact : model.contacts) {
-    auto& terms = forms.emplace_back(contact.normal).terms;
-    terms.insert(terms.end(), contact.tangent.terms.begin(), contact.tangent.terms.end());
-    if (contact.shear)
-      terms.insert(terms.end(), contact.shear->body.terms.begin(), contact.shear->body.terms.end());
+    auto& terms = forms.emplace_back().terms;
+    visit_forms(contact,
+                [&](const Combination& f) { terms.insert(terms.end(), f.terms.begin(), f.terms.end()); });
   }
   return forms;
 }

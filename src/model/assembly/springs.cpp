@@ -19,7 +19,7 @@ SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& 
 std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts) {
   std::vector<LineSpring> springs;
   for (const Contact& c : contacts) {
-    if (c.has_spring()) springs.push_back({c.normal, c.normal_stiffness});
+    if (const auto kn = c.normal_spring()) springs.push_back({c.normal, *kn});
     if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
   }
   return springs;

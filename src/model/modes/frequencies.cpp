@@ -251,10 +251,7 @@ Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& dam
 
 Holding close_contacts(const std::vector<Contact>& contacts) {
   Holding holding;
-  for (const Contact& c : contacts) {
-    if (c.has_spring()) holding.springs.push_back({c.normal, c.normal_stiffness});
-    if (c.takes_impulses()) holding.fixed.push_back(c.normal);
-  }
+  for (const Contact& c : contacts) holding.hold_normal(c);
   return holding;
 }
 

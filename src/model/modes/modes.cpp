@@ -88,16 +88,20 @@ double highest(const SparseMatrix& mass, const SparseMatrix& k) {
 
 }  // namespace
 
+void Holding::hold_normal(const Contact& contact) {
+  if (const auto kn = contact.normal_spring()) springs.push_back({contact.normal, *kn});
+  if (contact.takes_impulses()) fixed.push_back(contact.normal);
+}
+
 Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
   Holding holding;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     if (!closed[k]) continue;
-    if (c.has_spring()) holding.springs.push_back({c.normal, c.normal_stiffness});
-    if (c.takes_impulses()) holding.fixed.push_back(c.normal);
+    holding.hold_normal(c);
     if (c.tangential_stiffness && !c.tangent.terms.empty())
       holding.springs.push_back({c.tangent, *c.tangential_stiffness});
-    else if ((!c.has_spring() || c.shear) && !c.tangent.terms.empty())
+    else if ((!c.normal_spring() || c.sliding_point()) && !c.tangent.terms.empty())
       holding.fixed.push_back(c.tangent);
   }
   return holding;

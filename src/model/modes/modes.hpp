@@ -23,6 +23,9 @@ inline constexpr int dense_up_to = 200;
 struct Holding {
   std::vector<LineSpring> springs;
   std::vector<Combination> fixed;
+
+  /// Along its normal a closed contact holds by its spring, or as a constraint; not where N is a datum.
+  void hold_normal(const Contact& contact);
 };
 
 /// Contacts with closed[k] held in both directions: compliant ones by kn and kt, sliders by kt, or fixed

@@ -139,7 +139,8 @@ class Maker {
     output.restoring.push_back(
         {bowl.contact, contact.body_tangent(), bowl.factor / said.radius, said.carried});
     if (model_.beta != 0.0)
-      add(output.v, contact.body_tangent(), bowl.factor * model_.beta * beyond_spring(said, *contact.bowl));
+      add(output.v, contact.body_tangent(),
+          bowl.factor * model_.beta * beyond_spring(scene_.contacts[bowl.contact], contact));
   }
 
   void fill(const OutputSpec& spec, PhysicalRow& row, Output& output) {
@@ -337,7 +338,7 @@ class Maker {
     if (spec.quantity == OutputQuantity::gap) {
       output.u = contact.normal;
       output.constant = contact.gap;
-      if (contact.borrows) output.forces.push_back({k, -1.0 / contact.normal_stiffness, 0.0});
+      if (contact.compliance_split()) output.forces.push_back({k, -1.0 / contact.normal_stiffness, 0.0});
     }
     if (spec.quantity == OutputQuantity::slip) {
       output.u = contact.tangent;

@@ -220,7 +220,7 @@ void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::
   for (const auto& [name, weight] : at->against) touches(name, -weight);
   if (share == 0.0) return;
   Output::ContactForces forces{k};
-  if (spec.normal && has_gap(spec.law)) forces.N = factor * share * unit_vector(spec.normal->vector)[c];
+  if (const Direction* n = spec.bearing_normal()) forces.N = factor * share * unit_vector(n->vector)[c];
   if (const auto t = sliding_direction(spec); t[0] != 0.0 || t[1] != 0.0)
     forces.T = factor * share * unit_vector(t)[c];
   if (forces.N != 0.0 || forces.T != 0.0) row.forces.push_back(forces);

@@ -66,9 +66,8 @@ class ReducedStart {
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
       if (bears(k))
-        rows.push_back({c.normal,
-                        c.has_spring() ? c.normal_stiffness : own_stiffness(model_.stiffness, c.normal),
-                        !c.has_spring()});
+        rows.push_back({c.normal, c.normal_spring().value_or(own_stiffness(model_.stiffness, c.normal)),
+                        !c.normal_spring()});
       if (!sticks(k)) continue;
       rows.push_back({c.tangent, *c.tangential_stiffness, false});
       stuck.push_back(k);
@@ -97,7 +96,7 @@ class ReducedStart {
 
  private:
   [[nodiscard]] bool bears(std::size_t k) const {
-    return model_.contacts[k].has_gap() && model_.statics.reactions[k] > 0.0;
+    return !model_.contacts[k].normal_force_given() && model_.statics.reactions[k] > 0.0;
   }
   [[nodiscard]] bool rubs(std::size_t k) const {
     const Contact& c = model_.contacts[k];
@@ -110,13 +109,12 @@ class ReducedStart {
   [[nodiscard]] double normal_force(std::size_t k) const {
     const Contact& c = model_.contacts[k];
     if (!bears(k)) return 0.0;
-    return c.has_spring() ? c.normal_stiffness * std::min(0.0, c.gap_at(model_.u0))
-                          : -model_.statics.reactions[k];
+    return c.resting_force(model_.u0).value_or(-model_.statics.reactions[k]);
   }
   [[nodiscard]] double limit_of(std::size_t k) const {
     const Contact& c = model_.contacts[k];
     if (!rubs(k)) return 0.0;
-    return sticking_limit(c, c.has_gap() ? normal_force(k) : -model_.statics.reactions[k]);
+    return sticking_limit(c, c.normal_force_given() ? -model_.statics.reactions[k] : normal_force(k));
   }
   Model& model_;
   std::vector<double> shares_;  // |T| over its limit where the start was found
@@ -125,7 +123,7 @@ class ReducedStart {
 bool is_known(const Model& model) {
   return model.static_start && model.statics.reactions.size() == model.contacts.size() &&
          std::none_of(model.contacts.begin(), model.contacts.end(), [&](const Contact& c) {
-           return c.own != nullptr || c.bowl || (model.statics.frictional && c.sticks_rigidly());
+           return !c.has_constant_stiffness() || (model.statics.frictional && c.sticks_rigidly());
          });
 }
 

@@ -67,11 +67,12 @@ void check_frozen(const Scene& scene, const Model& model) {
 
 bool normal_needs_mass(const Contact& c) {
   const bool tells_rate = friction_varies(c) && c.tangential_stiffness;
-  return c.has_gap() && (c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.bowl);
+  return !c.normal_force_given() &&
+         (c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.curved_surface());
 }
 
 bool tangent_needs_mass(const Contact& c, double tangential_damping) {
-  return c.sticks_rigidly() || friction_varies(c) || tangential_damping > 0.0 || c.bowl;
+  return c.sticks_rigidly() || !c.is_linear() || tangential_damping > 0.0;
 }
 
 std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
@@ -87,7 +88,7 @@ std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
   };
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.has_gap())
+    if (!c.normal_force_given())
       add(fmt::format("normal of contact '{}'", c.name), static_cast<int>(k), true, c.normal,
           normal_needs_mass(c));
     if (c.has_friction())
@@ -220,7 +221,7 @@ void reduce_contacts(const Scene& scene, const Basis& b, Model& model) {
     c.tangent = reduced_form(c.tangent, b, tangent_mass);
     if ((normal_mass && !has_mass(c.normal, b)) || (slides && tangent_mass && !has_mass(c.tangent, b)))
       refuse(scene, fmt::format("contact '{}' has no effective mass under the cutoff; raise it", c.name));
-    if ((c.has_gap() && c.normal.terms.empty()) || (c.has_friction() && c.tangent.terms.empty()))
+    if ((!c.normal_force_given() && c.normal.terms.empty()) || (c.has_friction() && c.tangent.terms.empty()))
       refuse(scene, fmt::format("under the cutoff nothing moves along contact '{}'; raise it", c.name));
   }
 }

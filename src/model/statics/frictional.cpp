@@ -71,7 +71,7 @@ class Path {
     bool any = false;
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       const Contact& c = contacts_[k];
-      if (!c.has_gap() || c.gap >= 0.0) continue;
+      if (c.normal_force_given() || c.gap >= 0.0) continue;
       standing_[k].given_gap_rate = c.gap;
       any = true;
     }
@@ -206,11 +206,9 @@ class Path {
       Standing& s = standing_[k];
       s.normal = s.tangent = -1;
       if (is_open(s.state) && !touches(k, zero)) continue;
-      if (c.has_gap())
-        s.normal = add(c.normal, c.has_spring() ? std::optional(c.normal_stiffness) : std::nullopt);
-      if (rubs(k) && !(c.is_pressed() && s.N == 0.0))
-        s.tangent =
-            add(c.body_tangent(), c.shear ? std::optional(c.shear->stiffness) : c.tangential_stiffness);
+      const bool given = c.normal_force_given();
+      if (!given) s.normal = add(c.normal, c.normal_spring());
+      if (rubs(k) && !(given && s.N == 0.0)) s.tangent = add(c.body_tangent(), c.tangent_spring());
     }
     return rows;
   }
@@ -367,7 +365,7 @@ class Path {
       const Contact& c = contacts_[k];
       Standing& s = standing_[k];
       const bool open = is_open(s.state);
-      s.gap_rate = c.has_gap() ? c.normal.dot(u_rate_) + s.given_gap_rate : 0.0;
+      s.gap_rate = c.normal_force_given() ? 0.0 : c.normal.dot(u_rate_) + s.given_gap_rate;
       s.N_rate = s.normal >= 0 && !open ? forces[s.normal] : 0.0;
       s.T_rate = s.tangent >= 0 && !open ? forces[s.tangent] : 0.0;
       // Along its limit, to the last digit.
@@ -385,7 +383,7 @@ class Path {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       const Standing& s = standing_[k];
       const bool touching = touches(k, zero);
-      if (!contacts_[k].is_pressed()) {
+      if (!contacts_[k].normal_force_given()) {
         if (is_open(s.state)) fall(s.gap, s.gap_rate, touching);
         if (!is_open(s.state)) fall(-s.N, -s.N_rate, touching);
       }

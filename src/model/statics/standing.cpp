@@ -18,7 +18,7 @@ constexpr double same_force = 1e-11;
 Standing undeformed(const Contact& contact) {
   Standing s;
   const State pressed = contact.has_friction() ? State::stick : State::closed;
-  if (contact.is_pressed()) {
+  if (contact.normal_force_given()) {
     s.N = -contact.normal_force.value(0.0);
     s.state = s.N == 0.0 ? State::open : pressed;
   } else {
@@ -39,7 +39,7 @@ double margin_of(const Contact& contact, const Standing& standing, int s) {
 double zero_force(double greatest) { return same_force * greatest; }
 
 bool touching(const Contact& contact, const Standing& standing, double zero, double travelled) {
-  if (!contact.has_gap() || std::abs(standing.N) > zero) return false;
+  if (contact.normal_force_given() || std::abs(standing.N) > zero) return false;
   if (!is_open(standing.state)) return true;
   const double rounded = rounding::of_many * (contact.gap + travelled);
   return standing.gap <=

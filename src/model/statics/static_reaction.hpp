@@ -14,7 +14,7 @@ namespace signorini {
 /// Unit: force. Nothing where the run begins with given motions and the contact is no slider.
 [[nodiscard]] inline std::optional<double> static_reaction(const Model& model, std::size_t contact) {
   const Contact& c = model.contacts[contact];
-  if (c.is_pressed()) return c.normal_force.value(0.0);
+  if (c.normal_force_given()) return c.normal_force.value(0.0);
   if (model.static_start && contact < model.statics.reactions.size()) return model.statics.reactions[contact];
   return std::nullopt;
 }

@@ -211,7 +211,7 @@ struct StiffContacts {
   StiffContacts(const StaticProblem& of, const std::vector<bool>& closed) : problem(of), soft(closed) {
     for (std::size_t c = 0; c < closed.size(); ++c) {
       const Contact& contact = of.contacts[c];
-      if (!closed[c] || !contact.has_spring()) continue;
+      if (!closed[c] || !contact.normal_spring()) continue;
       if (!(contact.normal_stiffness > own_stiffness(of.stiffness, contact.normal))) continue;
       soft[c] = false;
       list.push_back(c);
@@ -284,7 +284,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     for (Eigen::Index i = 0; i < m; ++i) state.reactions[rigid[static_cast<std::size_t>(i)]] = r[i];
   }
   for (std::size_t c = 0; c < problem.contacts.size(); ++c)
-    if (closed[c] && problem.contacts[c].has_spring())
+    if (closed[c] && problem.contacts[c].normal_spring())
       state.reactions[c] = std::max(0.0, -problem.normal_stiffness(c) * problem.gap(c, state.u));
   return state;
 }

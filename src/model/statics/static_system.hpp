@@ -24,7 +24,7 @@ struct StaticProblem {
   bool forces = false;    ///< asked for: what holds loose motions must bear nothing of other forces
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
-  [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].has_gap(); }
+  [[nodiscard]] bool is_support(std::size_t k) const { return !contacts[k].normal_force_given(); }
   [[nodiscard]] double normal_stiffness(std::size_t k) const {
     return contacts[k].takes_impulses() ? firmness * own_stiffness(stiffness, contacts[k].normal)
                                         : contacts[k].normal_stiffness;

@@ -21,8 +21,8 @@ Json frequency_json(const Frequencies& frequencies) {
 }
 
 Json contact_json(const Contact& contact, const ContactSample& sample) {
-  Json json = {{"name", contact.name}, {"law", law_name(contact)}, {"state", to_string(sample.state)}};
-  if (contact.has_gap()) json["gap"] = sample.gap;
+  Json json = {{"name", contact.name}, {"law", contact.law->name()}, {"state", to_string(sample.state)}};
+  if (const auto gap = contact.gap_if_any(sample.gap)) json["gap"] = *gap;
   json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;

@@ -86,7 +86,7 @@ std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
   std::vector<Combination> tangents;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.has_gap() || !c.sticks_rigidly()) continue;
+    if (!c.holds_tangent_only()) continue;
     contacts.push_back(k);
     tangents.push_back(c.tangent);
   }

@@ -139,8 +139,8 @@ struct WithoutSlipPoints {
     Vector all = Vector::Zero(model.size());
     all.head(size) = motion;
     for (const Contact& contact : model.contacts)
-      if (contact.shear && contact.tangent.terms.size() == 1)
-        all[contact.tangent.terms.front().first] = contact.shear->body.dot(motion);
+      if (contact.sliding_point() && contact.tangent.terms.size() == 1)
+        all[contact.tangent.terms.front().first] = contact.body_tangent().dot(motion);
     return all;
   }
 
@@ -192,9 +192,9 @@ std::vector<StiffnessRatio> stiffness_ratios(const Model& model) {
   };
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const Contact& c = model.contacts[i];
-    if (c.has_spring()) add(i, true, c.normal, c.normal_stiffness);
-    if (c.tangential_stiffness && !c.tangent.terms.empty()) add(i, false, c.tangent, *c.tangential_stiffness);
-    if (c.shear) add(i, false, c.shear->body, c.shear->stiffness);
+    if (const auto kn = c.normal_spring()) add(i, true, c.normal, *kn);
+    if (const auto kt = c.tangent_spring(); kt && !c.body_tangent().terms.empty())
+      add(i, false, c.body_tangent(), *kt);
   }
   return result;
 }

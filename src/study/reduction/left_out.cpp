@@ -33,7 +33,7 @@ std::vector<AskedPlace> asked_places(const Model& full) {
   std::vector<AskedPlace> places;
   const Eigen::Index n = full.size();
   for (const Contact& contact : full.contacts) {
-    if (contact.has_gap())
+    if (!contact.normal_force_given())
       places.push_back({fmt::format("normal of contact '{}'", contact.name), vector_of(contact.normal, n)});
     if (contact.has_friction())
       places.push_back({fmt::format("tangent of contact '{}'", contact.name), vector_of(contact.tangent, n)});

@@ -192,7 +192,7 @@ class DirectoryWitness {
     for (const Event& event : events_of(row)) {
       if (event.contact < 0) continue;
       record.events.push_back(recorded(event, row));
-      if (model_.contacts[record.events.back().contact].has_gap() != event.gap.has_value())
+      if (model_.contacts[record.events.back().contact].normal_force_given() == event.gap.has_value())
         add({row.t, to_string(event.type), event.contact, "row", 1.0, 0.0, {}, true});
     }
     for (Violation& v : witness_.instant(record)) add(std::move(v));

@@ -34,7 +34,7 @@ void TableRows::instant(const InstantRow& row, const InstantRecord& record) {
     Size& size = sizes_[k];
     const Sight m = see(model_.contacts[k], k, record.after);
     if (row.start) {
-      const bool touches = model_.contacts[k].borrows && !is_open(row.after.states[k].state);
+      const bool touches = model_.contacts[k].compliance_split() && !is_open(row.after.states[k].state);
       size.gap_at_start = touches ? 0.0 : m.g;
       size.ut_at_start = touches ? slip_of(model_.contacts[k], m.ut, m.T) : m.ut;
     }
@@ -87,7 +87,7 @@ void TableRows::check(const ToldRow& row, const ToldRowReader& reader, const cha
   for (const ContactState& state : states_at(row.contact, row.t)) {
     if (row.state != to_string(state.state)) continue;
     std::vector<Violation> broken;
-    if (!c.own && engine_.follows) broken = broken_by(row, state, file);
+    if (c.obeys_coulomb() && engine_.follows) broken = broken_by(row, state, file);
     if (!least || broken.size() < least->size()) least = std::move(broken);
   }
   if (!least) {
@@ -111,7 +111,7 @@ std::vector<Violation> TableRows::broken_by(const ToldRow& row, const ContactSta
   m.dut = row.vt;
   m.place = size.place + model_.scales.displacement;
   m.speed = size.speed;
-  if (c.borrows && !is_open(state.state)) {  // of its springs, whatever they are
+  if (c.compliance_split() && !is_open(state.state)) {  // of its springs, whatever they are
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }
@@ -139,24 +139,24 @@ void TableRows::check_forces(const ToldRow& row, const ContactState& state, cons
     if (const double off = std::abs(force - asked); off > limit)
       found(violation(file, row.t, row.contact, law, off, limit, seen::force));
   };
-  if (!c.own && !c.shear) check_slip(row, file, limit, found);
-  if (is_open(state.state) && !c.is_pressed()) {
+  if (c.obeys_coulomb() && !c.sliding_point()) check_slip(row, file, limit, found);
+  if (is_open(state.state) && !c.normal_force_given()) {
     check("normal force", row.N, 0.0);
     check("friction force", row.T, 0.0);
     return;
   }
-  if (c.has_spring() && !c.borrows && c.normal_damping == 0.0 && row.gap)
+  if (c.normal_spring() && !c.compliance_split() && c.normal_damping == 0.0 && row.gap)
     check("normal force", row.N, kn * *row.gap);
   if (const int s = sign_of_slip(state.state); s != 0 && !c.friction.varies())
     check("friction force", row.T, -s * friction_in(c, state.state, 0.0, row.N) * row.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
-    check("friction force", c.borrows ? 0.0 : row.T, kt * (row.ut - state.anchor));
+    check("friction force", c.compliance_split() ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
 /// slip = ut - T/kt; of borrowed springs ut is the surfaces'. of_force: what T is known to.
 void TableRows::check_slip(const ToldRow& row, const char* file, double of_force, const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
-  const double kt = c.borrows ? 0.0 : c.tangential_stiffness.value_or(0.0);
+  const double kt = c.compliance_split() ? 0.0 : c.tangential_stiffness.value_or(0.0);
   const double by_force = kt > 0.0 ? row.T / kt : 0.0;
   // Of a surface that moves, place knows where it was at instants.
   const double surface = c.surface_motion.is_constant()
@@ -185,7 +185,7 @@ void TableRows::reach(const ToldRow& row) {
   Peak& peak = peaks_[row.contact];
   const Size& size = sizes_[row.contact];
   const Contact& c = model_.contacts[row.contact];
-  if (c.surface_motion.is_constant() && !c.shear)
+  if (c.surface_motion.is_constant() && !c.sliding_point())
     peak.tangential = std::max(peak.tangential, std::abs(row.ut - size.ut_at_start));
   if (row.gap) peak.normal = std::max(peak.normal, std::abs(*row.gap - size.gap_at_start));
   peak.N = std::max(peak.N, std::abs(row.N));
@@ -216,7 +216,7 @@ void TableRows::check_loads(const std::vector<std::optional<ToldSummary::Load>>&
                             const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
   for (std::size_t k = 0; k < told.size(); ++k) {
     if (!told[k]) continue;
-    const bool held = !model_.contacts[k].has_spring();
+    const bool held = !model_.contacts[k].normal_spring();
     const double noise = noise_of_force(k) + (held ? rounding::of_elimination * sizes_[k].force : 0.0);
     const auto check = [&](double off, double limit) {
       if (off > limit) found(violation("summary.json", 0.0, k, "load", off, limit, seen::force));

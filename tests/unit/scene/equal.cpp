@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "contact/law/user_law.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini::testing {
@@ -59,8 +60,7 @@ class Dump {
 std::vector<double> numbers_of(const std::shared_ptr<const OwnLaw>& own) {
   std::vector<double> numbers;
   if (!own) return numbers;
-  OwnLaw law = *own;
-  visit_numbers(law, [&](double& x, const Unit&) { numbers.push_back(x); });
+  static_cast<void>(visited(*own, [&](double& x, const Unit&) { numbers.push_back(x); }));
   return numbers;
 }
 

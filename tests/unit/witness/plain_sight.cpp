@@ -17,12 +17,12 @@ class Drawn {
  public:
   explicit Drawn(unsigned seed) : draw_(seed) {
     c.law = std::array{Law::compliant, Law::rigid, Law::slider}[seed % 3];
-    if (c.has_gap()) c.normal.terms = {{0, real()}, {2, real()}, {4, real()}};
+    if (!c.normal_force_given()) c.normal.terms = {{0, real()}, {2, real()}, {4, real()}};
     c.tangent.terms = {{1, real()}, {3, real()}};
     c.gap = real();
-    if (c.has_spring()) c.normal_stiffness = 40.0;
-    if (c.has_spring() && seed % 2 == 0) c.normal_damping = 3.0;
-    if (c.has_spring() || seed % 4 == 0) c.tangential_stiffness = 25.0;
+    if (c.normal_spring()) c.normal_stiffness = 40.0;
+    if (c.normal_spring() && seed % 2 == 0) c.normal_damping = 3.0;
+    if (c.normal_spring() || seed % 4 == 0) c.tangential_stiffness = 25.0;
     c.friction.kinetic = 0.35;
     c.friction.static_ = seed % 5 == 0 ? 0.5 : 0.35;
     if (seed % 7 == 0) c.friction.static_ = c.friction.kinetic = 0.0;
@@ -38,11 +38,11 @@ class Drawn {
     const State state = mode[0].state;
     const Driven& d = driven[0];
     double& N = forces[0];
-    if (c.is_pressed())
+    if (c.normal_force_given())
       N = -d.q;
     else if (is_open(state))
       N = 0.0;
-    else if (c.has_spring())
+    else if (c.normal_spring())
       N = 40.0 * (c.gap + c.normal.dot(u)) + c.normal_damping * c.normal.dot(v);
     const int s = state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0;
     forces[1] = s * c.friction.kinetic * -N;
@@ -63,7 +63,7 @@ class Drawn {
  private:
   [[nodiscard]] std::vector<State> states() const {
     if (!c.has_friction()) return {State::open, State::closed};
-    if (c.is_pressed()) return {State::stick, State::slip_plus, State::slip_minus};
+    if (c.normal_force_given()) return {State::stick, State::slip_plus, State::slip_minus};
     return {State::open, State::inside, State::stick, State::slip_plus, State::slip_minus};
   }
   double real() { return std::uniform_real_distribution<double>(-1.0, 1.0)(draw_); }
@@ -96,7 +96,7 @@ TEST_CASE("rows stand, and a force that is off by 1e-9 of itself does not") {
     CAPTURE(seed);
     CHECK(rows_stand(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
     const State state = drawn.mode[0].state;
-    const bool of_rows_N = drawn.c.is_pressed() || drawn.c.has_spring() || is_open(state);
+    const bool of_rows_N = drawn.c.normal_force_given() || drawn.c.normal_spring() || is_open(state);
     const bool of_rows_T = state != State::stick || drawn.c.tangential_stiffness.has_value();
     for (const int force : {0, 1}) {
       if (!(force == 0 ? of_rows_N : of_rows_T)) continue;

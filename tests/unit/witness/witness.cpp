@@ -54,7 +54,7 @@ void write_rows(const Model& model, InstantRecord& record) {
     const Contact& c = model.contacts[event.contact];
     const auto at = static_cast<Eigen::Index>(2 * event.contact);
     const double surface = record.after.driven[event.contact].ds;
-    if (c.has_gap()) event.gap = c.gap_at(*record.after.u);
+    event.gap = c.gap_if_any(c.gap_at(*record.after.u));
     event.N = (*record.before.forces)[at];
     event.T = (*record.before.forces)[at + 1];
     event.N_after = (*record.after.forces)[at];

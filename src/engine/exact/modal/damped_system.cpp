@@ -117,15 +117,15 @@ std::size_t most_state_terms(const Model& model) {
   const auto damping = damping_of(model);
   std::size_t count = damping ? damping->dampers.size() : 0;
   for (const Contact& contact : model.contacts)
-    count +=
-        (contact.has_gap() ? 1u : 0u) + (contact.tangential_stiffness || contact.sticks_rigidly() ? 1u : 0u);
+    count += (contact.normal_force_given() ? 0u : 1u) +
+             (contact.tangential_stiffness || contact.sticks_rigidly() ? 1u : 0u);
   return count;
 }
 
 std::string damped_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
   for (const Contact& contact : model.contacts) {
-    if (contact.shear) return "shear elements";
+    if (contact.sliding_point()) return "shear elements";
     if (friction_varies(contact)) return named_friction(contact);
   }
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))

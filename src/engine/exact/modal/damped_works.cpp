@@ -47,7 +47,7 @@ void DampedWorks::pair_contact(std::size_t c) {
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   const TimeBasis& time = motion_.time();
   ContactPairings& pairings = contacts_[c];
-  if (contact.has_gap()) pairings.pressing = paired(own.N, alone(time.constant(1.0)));
+  if (!contact.normal_force_given()) pairings.pressing = paired(own.N, alone(time.constant(1.0)));
   if (const int direction = slip_sign(state.state); direction != 0)
     pairings.slip = paired(own.T, motion_.of(slip_rate(contact, direction), c));
   if (const Course moved = time.derivative(own.surface); !moved.isZero(0.0))

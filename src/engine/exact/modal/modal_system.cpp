@@ -26,7 +26,7 @@ std::string coupling_refusal(const Model& model) {
   for (const Contact& contact : model.contacts) {
     if (contact.takes_impulses()) return "rigid contacts";
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
-    if (contact.shear) return "shear elements";
+    if (contact.sliding_point()) return "shear elements";
     if (contact.normal_damping != 0.0) return "dashpots of contacts";
     if (friction_varies(contact)) return named_friction(contact);
   }
@@ -54,7 +54,7 @@ std::string proportional_refusal(const Model& model) {
 std::size_t most_state_springs(const Model& model) {
   std::size_t count = 0;
   for (const Contact& contact : model.contacts)
-    count += (contact.has_spring() ? 1u : 0u) + (contact.tangential_stiffness ? 1u : 0u);
+    count += (contact.normal_spring() ? 1u : 0u) + (contact.tangential_stiffness ? 1u : 0u);
   return count;
 }
 
@@ -72,7 +72,7 @@ Amplitudes constant_forces(const Model& model, const StateModes& state, const Mo
     const Contact& contact = model.contacts[c];
     const ForceLaw law = force_law(contact, mode[c], forcing.pressing(c, t, 0));
     const double gap = contact.gap, surface = forcing.surface(c, t, 0);
-    if (contact.has_gap()) add(state.from_normal[c], -(law.N_constant + law.N_gap * gap));
+    if (!contact.normal_force_given()) add(state.from_normal[c], -(law.N_constant + law.N_gap * gap));
     add(state.from_tangent[c], -(law.T_constant + law.T_gap * gap - law.T_ut * surface));
   }
   return forces;

@@ -298,7 +298,8 @@ void ModalWorks::add(const ModalProof& proof, const ModalPoint& from, const Moda
     if (state.is_open()) continue;
     const Contact& contact = model_.contacts[c];
     const ForceLaw law = proof.law(c);
-    if (contact.has_gap()) works.pressing[c] -= law.N_gap * gap_area(s, c) + law.N_constant * time;
+    if (!contact.normal_force_given())
+      works.pressing[c] -= law.N_gap * gap_area(s, c) + law.N_constant * time;
     const int direction = slip_sign(state.state);
     if (direction == 0) continue;
     const Shown begin = proof.shown(c, from), end = proof.shown(c, to);

@@ -9,10 +9,13 @@
 // Work that the pad has taken when it is off again: Y times the growth of the dent.
 #pragma once
 
-#include "signorini/own_law.hpp"
+#include "contact/law/data_laws.hpp"
 
 namespace signorini {
 
 [[nodiscard]] OwnLaw yielding_pad(double normal_stiffness, double yield_force);
+
+/// As scenes name it, with its constant yield_force.
+[[nodiscard]] const DataLaw& yielding_law();
 
 }  // namespace signorini

@@ -1,0 +1,47 @@
+// constants.hpp: every number and every form of a contact, whichever law it has.
+//
+// Whoever rescales, perturbs, renumbers or reduces contacts visits them here and need not know what a law is made of.
+#pragma once
+
+#include "base/unit.hpp"
+#include "signorini/contact.hpp"
+
+namespace signorini {
+
+/// Forms on the displacements: along the normal, along the tangent, and of the body beside a sliding point.
+template <class AnyContact, class Visit>
+void visit_forms(AnyContact& contact, const Visit& visit) {
+  visit(contact.normal);
+  visit(contact.tangent);
+  if (contact.shear) visit(contact.shear->body);
+}
+
+/// Stiffnesses and dashpots of a contact: visit(double&, Unit).
+template <class Visit>
+void visit_stiffnesses(Contact& contact, const Visit& visit) {
+  visit(contact.normal_stiffness, unit::stiffness);
+  visit(contact.normal_damping, unit::damping);
+  if (contact.tangential_stiffness) visit(*contact.tangential_stiffness, unit::stiffness);
+  if (!contact.shear) return;
+  visit(contact.shear->stiffness, unit::stiffness);
+  visit(contact.shear->damping, unit::damping);
+}
+
+/// All numbers that have a unit, those of its law, too; without its forms and its histories: visit(double&, Unit).
+template <class Visit>
+void visit_constants(Contact& contact, const Visit& visit) {
+  visit(contact.gap, unit::length);
+  visit_stiffnesses(contact, visit);
+  if (contact.bowl) {
+    visit(contact.bowl->radius, unit::length);
+    visit(contact.bowl->carried, unit::force);
+  }
+  for (const FrictionConstant& constant : friction_constants)
+    if (auto& value = contact.friction.*constant.value) visit(*value, constant.unit);
+  if (contact.capture_velocity) visit(*contact.capture_velocity, unit::velocity);
+  visit(contact.initial_shear, unit::force);
+  visit(contact.own_memory, unit::length);
+  if (auto law = contact.law->with_constants(visit)) contact.law = std::move(law);
+}
+
+}  // namespace signorini

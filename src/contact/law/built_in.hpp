@@ -1,0 +1,12 @@
+// built_in.hpp: the laws that a scene names, one object each.
+#pragma once
+
+#include "signorini/contact_law.hpp"
+
+namespace signorini {
+
+[[nodiscard]] const ContactLaw& compliant_law();
+[[nodiscard]] const ContactLaw& rigid_law();
+[[nodiscard]] const ContactLaw& slider_law();
+
+}  // namespace signorini

@@ -1,0 +1,63 @@
+// A spring and a dashpot along the normal:  N = kn g + cn g' while closed. It opens at N = 0, so it never pulls.
+#include <cmath>
+
+#include "contact/conditions.hpp"
+#include "contact/law/built_in.hpp"
+#include "contact/law/coulomb_law.hpp"
+
+namespace signorini {
+namespace {
+
+class CompliantLaw : public CoulombLaw {
+ public:
+  CompliantLaw() : CoulombLaw(Law::compliant) {}
+
+ protected:
+  explicit CompliantLaw(const LawCapabilities& of) : CoulombLaw(Law::rigid, of) {}
+
+ private:
+  [[nodiscard]] Form closed_normal_row(const Contact& contact) const override {
+    return {.N = 1.0, .gap = -contact.normal_stiffness, .vn = -contact.normal_damping};
+  }
+  void add_normal_rate(const Contact& contact, double factor, Form& form) const override {
+    form.vn = factor * contact.normal_stiffness;
+    form.an = factor * contact.normal_damping;
+  }
+  [[nodiscard]] double normal_energy(const Contact& contact, State state,
+                                     const ContactMotion& m) const override {
+    if (state == State::inside)
+      return 0.5 * contact.normal_stiffness * m.gap * m.gap;  // as long as the gap is deep
+    if (is_open(state)) return 0.0;
+    const double spring = m.N - contact.normal_damping * m.vn;
+    return spring * spring / (2.0 * contact.normal_stiffness);
+  }
+  void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
+                             Violations& v) const override {
+    // The surface in contact: the element's own length, which a dashpot may leave short (inside).
+    const double element = !is_open(state) ? (m.N - contact.normal_damping * m.vn) / contact.normal_stiffness
+                           : state == State::inside ? m.gap
+                                                    : 0.0;
+    v.gap = -(m.gap - element);
+    v.product = std::abs(v.gap * m.N);
+  }
+};
+
+/// The springs are the structure's: to whoever asks for its name the contact is rigid.
+class ComplianceSplitLaw final : public CompliantLaw {
+ public:
+  ComplianceSplitLaw() : CompliantLaw({.normal_spring = true, .compliance_split = true}) {}
+};
+
+}  // namespace
+
+const ContactLaw& compliant_law() {
+  static const CompliantLaw law;
+  return law;
+}
+
+ContactLawPtr compliance_split_law() {
+  static const std::shared_ptr<const ContactLaw> law = std::make_shared<const ComplianceSplitLaw>();
+  return law;
+}
+
+}  // namespace signorini

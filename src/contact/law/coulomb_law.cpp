@@ -1,0 +1,203 @@
+#include "contact/law/coulomb_law.hpp"
+
+#include <cmath>
+
+#include "contact/conditions.hpp"
+#include "contact/friction.hpp"
+#include "contact/motion.hpp"
+#include "contact/transition.hpp"
+#include "contact/work.hpp"
+
+namespace signorini {
+namespace {
+
+/// How far T is from the limit of friction on one side.
+Form friction_left(const Contact& contact, double side) {
+  Form form;
+  form.T = -side;
+  if (contact.friction.by_force())
+    form.limit = 1.0;
+  else
+    form.N = -static_friction(contact);
+  return form;
+}
+
+Form tangent_row(const Contact& contact, const ContactState& state) {
+  Form row;
+  row.T = 1.0;
+  if (state.state == State::stick) {
+    if (contact.tangential_stiffness) {
+      row.ut = -*contact.tangential_stiffness;
+      row.constant = *contact.tangential_stiffness * state.anchor;
+    } else {
+      row.T = 0.0;
+      (contact.shear ? row.vt : row.at) = 1.0;
+    }
+  } else if (const int s = slip_sign(state.state); s != 0) {
+    if (contact.friction.by_force())
+      row.limit = -s;
+    else
+      row = sliding_row(s, slipping_friction(contact, state.state));
+  }
+  return row;
+}
+
+/// Closing: the contact enters the friction cone at its apex, so only the directions compare.
+ContactState close(const Contact& contact, const MotionJet& jet) {
+  ContactState next{state_at_rest(contact), jet.motion[0].ut};
+  if (!contact.has_friction()) return next;
+  // N jumps and T does not, or the shear element has not yet come to rest: the caller's guards decide.
+  if (contact.normal_damping > 0.0 || contact.shear) return next;
+  for (std::size_t m = 1; m < jet.motion.size(); ++m) {
+    const ContactMotion& d = jet.motion[m];
+    const bool normal_moves = std::abs(d.gap) > jet.noise[m].gap;
+    const bool tangent_moves = std::abs(d.ut) > jet.noise[m].ut;
+    if (!normal_moves && !tangent_moves) continue;
+    const double pull = *contact.tangential_stiffness * std::abs(d.ut);
+    // At the apex friction that depends on N is that of light loads.
+    if (pull > contact.friction.static_ * contact.normal_stiffness * std::abs(d.gap))
+      next.state = slip_along(d.ut);
+    break;
+  }
+  return next;
+}
+
+}  // namespace
+
+Form CoulombLaw::slip_rate(const Contact& contact, int s) const {
+  Form form;
+  form.vt = 1.0;
+  if (!contact.tangential_stiffness) return form;
+  if (contact.friction.by_force())
+    form.limit_rate = -s / *contact.tangential_stiffness;
+  else
+    add_normal_rate(contact, s * kinetic_friction(contact) / *contact.tangential_stiffness, form);
+  return form;
+}
+
+Rows CoulombLaw::rows(const Contact& contact, const ContactState& state) const {
+  Rows result;
+  if (state.is_open() && !capabilities.normal_force_given)
+    result.normal.N = 1.0;
+  else
+    result.normal = closed_normal_row(contact);
+  result.tangent = tangent_row(contact, state);
+  return result;
+}
+
+void CoulombLaw::set_normal_guards(const Contact& contact, const ContactState& state, Guards& result) const {
+  if (!state.is_open()) {
+    result[0].kind = Guard::separation;
+    result[0].form.N = -1.0;
+    return;
+  }
+  result[0].kind = Guard::closing;
+  result[0].form.gap = 1.0;
+  if (state.state != State::inside) return;
+  result[0].form.vn = contact.normal_damping / contact.normal_stiffness;
+  result[1].kind = Guard::clearing;
+  result[1].form.gap = -1.0;
+}
+
+ContactLaw::Guards CoulombLaw::guards(const Contact& contact, const ContactState& state) const {
+  Guards result;
+  set_normal_guards(contact, state, result);
+  if (state.state == State::stick) {
+    result[1].kind = Guard::slip_plus;
+    result[1].form = friction_left(contact, 1.0);
+    result[2].kind = Guard::slip_minus;
+    result[2].form = friction_left(contact, -1.0);
+  } else if (const int s = slip_sign(state.state); s != 0) {
+    result[1].kind = Guard::sliding;
+    result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
+    if (contact.shear && contact.friction.rises()) {  // it tells the rate, and is known better
+      result[1].form = {};
+      result[1].form.N = static_friction(contact);
+      result[1].form.T = s;
+    }
+  }
+  return result;
+}
+
+ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& now, Guard fallen,
+                                    const MotionJet& jet) const {
+  const ContactMotion& m = jet.motion[0];
+  switch (fallen) {
+    case Guard::separation:
+      return {let_go(contact, m.gap), 0.0};
+    case Guard::clearing:
+      return {State::open, 0.0};
+    case Guard::closing:
+      return close(contact, jet);
+    case Guard::slip_plus:
+    case Guard::slip_minus: {
+      const double s = fallen == Guard::slip_plus ? 1.0 : -1.0;
+      const double T = s * sliding_limit(contact, m.N);
+      return {slip_along(s), slip_of(contact, m.ut, T)};
+    }
+    case Guard::sliding:
+      return {State::stick, slip_of(contact, m)};
+    case Guard::none:
+    case Guard::own_1:
+    case Guard::own_2:
+    case Guard::own_3:
+      break;
+  }
+  return now;
+}
+
+std::vector<ContactState> CoulombLaw::candidates(const Contact& contact, const ContactState& now,
+                                                 const ContactMotion& before) const {
+  // What stuck keeps its anchor, what slipped sticks where it is.
+  const double anchor = now.state == State::stick ? now.anchor : slip_of(contact, before);
+  std::vector<ContactState> result;
+  if (!capabilities.normal_force_given) result.push_back({let_go(contact, before.gap), 0.0});
+  if (!contact.has_friction()) {
+    result.push_back({State::closed, 0.0});
+    return result;
+  }
+  for (const State s : {State::stick, State::slip_plus, State::slip_minus}) result.push_back({s, anchor});
+  return result;
+}
+
+double CoulombLaw::working_slip_rate(const Contact& contact, State state, const ContactMotion& m) const {
+  const int s = slip_sign(state);
+  return s == 0 ? 0.0 : slip_rate(contact, s).value(m);
+}
+
+ContactWork CoulombLaw::work(const Contact& contact, State state, double N, double T,
+                             const ContactPath& path) const {
+  ContactWork work;
+  if (slip_sign(state) != 0) work.friction = T * path.slip;
+  work.surface = -T * path.surface;
+  if (!is_open(state)) work.damping = contact.normal_damping * path.gap_rate * path.gap;
+  work.pressing = -N * path.time;
+  return work;
+}
+
+double CoulombLaw::normal_energy(const Contact& /*contact*/, State /*state*/,
+                                 const ContactMotion& /*m*/) const {
+  return 0.0;
+}
+
+double CoulombLaw::stored_energy(const Contact& contact, State state, const ContactMotion& m) const {
+  return shear_energy(contact, m.T) + normal_energy(contact, state, m);
+}
+
+void CoulombLaw::add_normal_violations(const Contact& /*contact*/, State /*state*/,
+                                       const ContactMotion& /*m*/, Violations& /*v*/) const {}
+
+Violations CoulombLaw::violations(const Contact& contact, State state, const ContactMotion& m) const {
+  Violations v;
+  v.tension = m.N;
+  add_normal_violations(contact, state, m, v);
+  const int s = slip_sign(state);
+  const double limit = s == 0 || is_held(state) || contact.friction.by_force()
+                           ? sticking_limit(contact, m.N)
+                           : -sliding_friction(contact, s * m.vt) * m.N;
+  if (!is_open(state)) v.friction = std::abs(m.T) - limit;
+  if (s != 0) v.direction = -m.T * slip_rate(contact, s).value(m);
+  return v;
+}
+
+}  // namespace signorini

@@ -1,0 +1,56 @@
+// coulomb_law.hpp: Coulomb's friction beside any law along the normal; the base of the built-in laws.
+//
+//   tangent row   open, closed  T = 0
+//                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 of a sliding point of its own
+//                 slip s        T + s fk N = 0,  held s: T + s fs N = 0,    T - s F = 0 where friction depends on N
+//   guards        stick         fs |N| -+ T
+//                 slip s        s p',  p' = ut' - T'/kt
+//
+// A law along the normal gives its row, its guards and the rate of N (compliant_law.cpp, rigid_law.cpp, slider_law.cpp).
+#pragma once
+
+#include "contact/law.hpp"
+
+namespace signorini {
+
+class CoulombLaw : public ContactLaw {
+ public:
+  explicit CoulombLaw(Law law) : CoulombLaw(law, capabilities_of(law)) {}
+
+  [[nodiscard]] std::string name() const override { return to_string(law_); }
+  [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state) const override;
+  [[nodiscard]] Guards guards(const Contact& contact, const ContactState& state) const override;
+  [[nodiscard]] Form slip_rate(const Contact& contact, int s) const override;
+  [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard fallen,
+                                        const MotionJet& jet) const override;
+  [[nodiscard]] std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
+                                                     const ContactMotion& before) const override;
+  [[nodiscard]] double working_slip_rate(const Contact& contact, State state,
+                                         const ContactMotion& m) const override;
+  [[nodiscard]] ContactWork work(const Contact& contact, State state, double N, double T,
+                                 const ContactPath& path) const override;
+  [[nodiscard]] double stored_energy(const Contact& contact, State state,
+                                     const ContactMotion& m) const override;
+  [[nodiscard]] Violations violations(const Contact& contact, State state,
+                                      const ContactMotion& m) const override;
+
+ protected:
+  CoulombLaw(Law named, const LawCapabilities& of) : ContactLaw(of), law_(named) {}
+  /// While the contact is closed. While it is open N = 0.
+  [[nodiscard]] virtual Form closed_normal_row(const Contact& contact) const = 0;
+  /// Guards of g and N: g > 0 in open, -N > 0 in closed.
+  virtual void set_normal_guards(const Contact& contact, const ContactState& state, Guards& result) const;
+  /// N' as a form, times `factor`, added to the rate of slip of an anchor's spring.
+  virtual void add_normal_rate(const Contact& contact, double factor, Form& form) const = 0;
+  /// Work that springs along the normal hold.
+  [[nodiscard]] virtual double normal_energy(const Contact& contact, State state,
+                                             const ContactMotion& m) const;
+  /// What the gap and N violate.
+  virtual void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
+                                     Violations& v) const;
+
+ private:
+  Law law_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,34 @@
+// A constraint along the normal:  g'' = 0 while closed. Where it closes with g' < 0 it is hit (decide/impact.hpp).
+#include <cmath>
+
+#include "contact/conditions.hpp"
+#include "contact/law/built_in.hpp"
+#include "contact/law/coulomb_law.hpp"
+
+namespace signorini {
+namespace {
+
+class RigidLaw final : public CoulombLaw {
+ public:
+  RigidLaw() : CoulombLaw(Law::rigid) {}
+
+ private:
+  [[nodiscard]] Form closed_normal_row(const Contact& /*contact*/) const override { return {.an = 1.0}; }
+  void add_normal_rate(const Contact& /*contact*/, double factor, Form& form) const override {
+    form.pressing_rate = -factor;  // the rate of N is that of an unknown; a rigid contact has no kt
+  }
+  void add_normal_violations(const Contact& /*contact*/, State state, const ContactMotion& m,
+                             Violations& v) const override {
+    v.penetration = !is_open(state) ? std::abs(m.gap) : -m.gap;
+    v.product = std::abs(m.gap * m.N);
+  }
+};
+
+}  // namespace
+
+const ContactLaw& rigid_law() {
+  static const RigidLaw law;
+  return law;
+}
+
+}  // namespace signorini

@@ -1,0 +1,200 @@
+#include "contact/law/user_law.hpp"
+
+#include <fmt/core.h>
+
+#include "base/unit.hpp"
+#include "contact/conditions.hpp"
+#include "contact/law.hpp"
+#include "contact/transition.hpp"
+#include "contact/work.hpp"
+
+namespace signorini {
+namespace {
+
+Form with_memory(const OwnForm& own, double memory) {
+  Form form = own.form;
+  form.constant += own.memory * memory;
+  return form;
+}
+
+class UserLaw final : public ContactLaw {
+ public:
+  explicit UserLaw(std::shared_ptr<const OwnLaw> data)
+      : ContactLaw({.normal_spring = true, .signorini_coulomb = false}), data_(std::move(data)) {}
+
+  [[nodiscard]] std::string name() const override {
+    return is_named() ? data_->name : to_string(Law::compliant);
+  }
+  [[nodiscard]] bool is_named() const override { return !data_->name.empty(); }
+
+  [[nodiscard]] Rows rows(const Contact& /*contact*/, const ContactState& state) const override {
+    const OwnState& in = at(state.state);
+    return {with_memory(in.normal, state.anchor), with_memory(in.tangent, state.anchor)};
+  }
+
+  [[nodiscard]] Guards guards(const Contact& /*contact*/, const ContactState& state) const override {
+    constexpr std::array kinds = {Guard::own_1, Guard::own_2, Guard::own_3};
+    static_assert(kinds.size() == most_guards);
+    Guards result;
+    const OwnState& in = at(state.state);
+    for (std::size_t i = 0; i < in.guards.size(); ++i)
+      result[i] = {kinds[i], with_memory(in.guards[i].positive, state.anchor)};
+    return result;
+  }
+
+  [[nodiscard]] Form slip_rate(const Contact& /*contact*/, int /*s*/) const override { return {.vt = 1.0}; }
+
+  [[nodiscard]] ContactState next_state(const Contact& /*contact*/, const ContactState& now, Guard fallen,
+                                        const MotionJet& jet) const override {
+    if (fallen == Guard::none) return now;
+    const auto i = static_cast<std::size_t>(fallen) - static_cast<std::size_t>(Guard::own_1);
+    const OwnGuard& guard = at(now.state).guards[i];
+    return in_state(guard.next, guard.memory ? guard.memory->value(jet.motion[0]) : now.anchor);
+  }
+
+  [[nodiscard]] std::vector<ContactState> candidates(const Contact& /*contact*/, const ContactState& now,
+                                                     const ContactMotion& /*before*/) const override {
+    std::vector<ContactState> result;
+    for (std::size_t i = 0; i < data_->states.size(); ++i) result.push_back(in_state(i, now.anchor));
+    return result;
+  }
+
+  [[nodiscard]] double working_slip_rate(const Contact& /*contact*/, State /*state*/,
+                                         const ContactMotion& m) const override {
+    return m.vt;
+  }
+
+  /// All that it takes, stored or lost, counts as friction.
+  [[nodiscard]] ContactWork work(const Contact& /*contact*/, State /*state*/, double N, double T,
+                                 const ContactPath& path) const override {
+    ContactWork work;
+    work.friction = N * path.gap + T * path.slip;
+    work.surface = -T * path.surface;
+    work.pressing = -N * path.time;
+    return work;
+  }
+  [[nodiscard]] double stored_energy(const Contact& /*contact*/, State /*state*/,
+                                     const ContactMotion& /*m*/) const override {
+    return 0.0;
+  }
+  /// Its conditions are its guards.
+  [[nodiscard]] Violations violations(const Contact& /*contact*/, State /*state*/,
+                                      const ContactMotion& /*m*/) const override {
+    return {};
+  }
+
+  [[nodiscard]] std::vector<State> own_states() const override {
+    std::vector<State> states;
+    for (std::size_t i = 0; i < data_->states.size(); ++i) states.push_back(in_state(i, 0.0).state);
+    return states;
+  }
+  [[nodiscard]] bool has_memory() const override {
+    for (const OwnState& state : data_->states)
+      for (const OwnGuard& guard : state.guards)
+        if (guard.memory) return true;
+    return false;
+  }
+  [[nodiscard]] std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const override {
+    return std::make_shared<const UserLaw>(visited(*data_, visit));
+  }
+  [[nodiscard]] bool equals(const ContactLaw& other) const override {
+    const auto* user = dynamic_cast<const UserLaw*>(&other);
+    return user != nullptr && user->data_ == data_;
+  }
+
+ private:
+  [[nodiscard]] const OwnState& at(State state) const {
+    return data_->states[is_own(state) ? number_of(state) : 0];
+  }
+  [[nodiscard]] ContactState in_state(std::size_t i, double memory) const {
+    return {own_state(i, data_->states[i].kind), memory};
+  }
+
+  std::shared_ptr<const OwnLaw> data_;
+};
+
+/// A form whose value has the unit `of`.
+void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& visit) {
+  const auto per = [&](double& coefficient, const Unit& unit) {
+    visit(coefficient, Unit{of.force - unit.force, of.length - unit.length, of.time - unit.time});
+  };
+  per(form.N, unit::force);
+  per(form.T, unit::force);
+  per(form.gap, unit::length);
+  per(form.ut, unit::length);
+  per(form.vn, unit::velocity);
+  per(form.vt, unit::velocity);
+  visit(form.constant, of);
+}
+
+void visit_form(OwnForm& own, const ContactLaw::VisitConstant& visit) {
+  const Unit of = unit_of(own.form);
+  visit_form(own.form, of, visit);
+  visit(own.memory, Unit{of.force, of.length - 1, of.time});
+}
+
+std::string refusal_of(const OwnState& state, std::size_t states) {
+  const auto refuse = [&](const std::string& what) {
+    return fmt::format("state '{}': {}", state.name, what);
+  };
+  if (state.guards.size() > ContactLaw::most_guards)
+    return refuse(
+        fmt::format("found {} guards, expected at most {}", state.guards.size(), ContactLaw::most_guards));
+  if (is_own(state.kind) || state.kind == State::inside)
+    return refuse("expected a kind: open, closed, stick or slip");
+  std::vector<Form> forms = {state.normal.form, state.tangent.form};
+  if (forms[0].N == 0.0 || forms[1].T == 0.0)
+    return refuse("expected N in its normal row and T in its tangent row");
+  for (const OwnGuard& guard : state.guards) {
+    forms.push_back(guard.positive.form);
+    if (guard.memory) forms.push_back(*guard.memory);
+    if (guard.next >= states)
+      return refuse(fmt::format("found next state {}, expected 0 to {}", guard.next, states - 1));
+  }
+  for (const Form& f : forms)
+    if (f.an != 0.0 || f.at != 0.0 || f.pressing != 0.0 || f.pressing_rate != 0.0 || f.limit != 0.0 ||
+        f.limit_rate != 0.0)
+      return refuse("forms are on N, T, g, ut and their rates");
+  return {};
+}
+
+}  // namespace
+
+std::string refusal_of(const OwnLaw& law) {
+  if (law.states.empty() || law.states.size() > most_own_states)
+    return fmt::format("found {} states, expected 1 to {}", law.states.size(), most_own_states);
+  for (const OwnState& state : law.states)
+    if (std::string refusal = refusal_of(state, law.states.size()); !refusal.empty()) return refusal;
+  return {};
+}
+
+bool acts_along_tangent(const OwnLaw& law) {
+  const auto looks = [](const Form& f) { return f.ut != 0.0 || f.vt != 0.0; };
+  const auto depends = [&](const Form& f) { return f.T != 0.0 || looks(f); };
+  for (const OwnState& state : law.states) {
+    const Form& tangent = state.tangent.form;
+    if (looks(tangent) || tangent.N != 0.0 || tangent.gap != 0.0 || tangent.vn != 0.0 ||
+        tangent.constant != 0.0 || state.tangent.memory != 0.0 || depends(state.normal.form))
+      return true;
+    for (const OwnGuard& guard : state.guards)
+      if (depends(guard.positive.form) || (guard.memory && depends(*guard.memory))) return true;
+  }
+  return false;
+}
+
+std::shared_ptr<const OwnLaw> visited(OwnLaw law, const ContactLaw::VisitConstant& visit) {
+  for (OwnState& state : law.states) {
+    visit_form(state.normal, visit);
+    visit_form(state.tangent, visit);
+    for (OwnGuard& guard : state.guards) {
+      visit_form(guard.positive, visit);
+      if (guard.memory) visit_form(*guard.memory, unit::length, visit);
+    }
+  }
+  return std::make_shared<const OwnLaw>(std::move(law));
+}
+
+ContactLawPtr::ContactLawPtr(std::shared_ptr<const OwnLaw> law)
+    : law_(std::make_shared<const UserLaw>(std::move(law))) {}
+
+}  // namespace signorini

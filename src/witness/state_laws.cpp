@@ -19,7 +19,7 @@ struct HeldRows {
   /// swung: accelerations with which a guard was seen, and that are gone; empty: none.
   void add(const Contact& c, const ContactState& state, const OwnResponse& response, const Sight& m,
            const Vector& swung, bool hold) {
-    const bool tangent = holds_tangent(c, state.state);
+    const bool tangent = c.holds_tangent(state.state);
     double of_row = rounding::of_elimination * m.push;
     if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
     if (c.takes_impulses() && !is_open(state.state)) {
@@ -206,8 +206,7 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   if (own == nullptr) return std::nullopt;
   Old result{see(c, k, record_.after)};
   Sight& m = result.m;
-  const bool solved_N = c.takes_impulses() && !is_open(old.state),
-             solved_T = HeldRows::holds_tangent(c, old.state);
+  const bool solved_N = c.takes_impulses() && !is_open(old.state), solved_T = c.holds_tangent(old.state);
   const double N = m.N, T = m.T;
   const auto sliding = [&] { return -sign_of_slip(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N; };
   // What its old rows say of its forces directly, and what that does to accelerations.

@@ -8,8 +8,8 @@
 namespace signorini {
 namespace {
 
-constexpr int terms =
-    4;  // of the series in each force; chosen: behaviour/reduction compares them with all modes
+// Terms of the series in each force. Chosen; tests/unit/study/reduction/excited_modes compares them with all modes.
+constexpr int terms = 4;
 constexpr double dependent = 1e-10;  // of its energy, that is left of a vector beside the others: rounding
 constexpr double needs_no_mass = 1e-12;  // 1/omega^2 against the greatest one: it follows at once
 
@@ -46,7 +46,7 @@ ExcitedModes excited_modes(const Model& structure, const KeptModes& kept) {
   const ResidualFlexibility flexibility(structure.mass, structure.stiffness, kept);
   std::vector<Vector> answers;
   for (const Contact& contact : structure.contacts) {
-    if (contact.has_gap()) answers.push_back(flexibility.answer(full(contact.normal, n)));
+    if (!contact.normal_force_given()) answers.push_back(flexibility.answer(full(contact.normal, n)));
     if (contact.has_friction()) answers.push_back(flexibility.answer(full(contact.tangent, n)));
   }
   for (const Load& load : structure.loads) answers.push_back(flexibility.answer(full(load.direction, n)));

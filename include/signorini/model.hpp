@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "signorini/contact.hpp"
+#include "signorini/force_layout.hpp"
 #include "signorini/output.hpp"
 #include "signorini/scene.hpp"
 
@@ -215,6 +216,7 @@ struct Model {
   SparseMatrix mass, damping, stiffness;
   std::vector<Load> loads;
   std::vector<Contact> contacts;
+  ForceLayout layout;  ///< of the forces of all contacts
   std::vector<Column> columns;
   std::vector<Output> outputs;
   /// Along x and y: reactions less what loads and inertia ask for; zero but for the residual of the equation
@@ -245,6 +247,10 @@ struct Model {
   std::optional<Geometric> geometric;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
+  /// Length of the vector of all contact forces.
+  [[nodiscard]] Eigen::Index force_count() const {
+    return static_cast<Eigen::Index>(layout.size(contacts.size()));
+  }
   /// Whether displacements that are computed are those of physical_dofs().
   [[nodiscard]] bool is_physical() const { return !reduction && !basis && !ties; }
   /// Displacements (or velocities) of physical_dofs(), where no support moves a rigid body and no load is seen.

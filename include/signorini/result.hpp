@@ -78,7 +78,7 @@ struct Curves {
 struct InstantSide {
   Vector u, v, a;                    ///< a: after the instant; just before it empty
   std::vector<ContactState> states;  ///< one a contact
-  Vector forces;                     ///< (N_1, T_1, N_2, ...)
+  Vector forces;                     ///< of all contacts, in the order of the model's layout
 };
 
 /// What a rigid contact takes of one impact; those of an instant come one after the other, turn 1, 2, ...

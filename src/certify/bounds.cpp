@@ -15,7 +15,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// have no tolerance of their own.
 double tolerance_of(const Model& model, std::size_t index, double greatest, const Tolerance& t) {
   if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
-  if (index >= model.columns.size() + 2 * model.contacts.size()) return t.rtol * greatest;
+  if (index >= model.columns.size() + forces_a_row * model.contacts.size()) return t.rtol * greatest;
   if (index >= model.columns.size()) return t.rtol * greatest + t.force;
   const Column& column = model.columns[index];
   const bool rotation = model.turns(column);

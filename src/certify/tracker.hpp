@@ -32,13 +32,17 @@ class Leash {
   std::atomic<double> end_{std::numeric_limits<double>::infinity()};
 };
 
+/// N and T: columns of a row that each contact has.
+inline constexpr std::size_t forces_a_row = 2;
+
 class Tracker : public Relay {
  public:
   /// Both must outlive it; without a recorder nothing is passed on.
   /// `all`: forces and outputs, too.
   explicit Tracker(const Model& model, bool all, Recorder* next = nullptr)
       : Relay(next), model_(model), all_(all), companion_(next == nullptr) {
-    rows.width = model.columns.size() + (all ? 2 * model.contacts.size() + model.outputs.size() : 0);
+    rows.width =
+        model.columns.size() + (all ? forces_a_row * model.contacts.size() + model.outputs.size() : 0);
   }
 
   void event(const Event& event) override;

@@ -1,6 +1,5 @@
-// slots.hpp: where the forces and guards of a contact stand among those of all.
-//
-//   forces  N_1, T_1, N_2, T_2, ...        guards  three a contact, in the order of contact/law.hpp
+// slots.hpp: where the guards of a contact stand among those of all: three a contact, in the order of contact/law.hpp.
+// Where its forces stand: signorini/force_layout.hpp.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +7,6 @@
 namespace signorini {
 
 inline constexpr std::size_t guards_per_contact = 3;
-
-/// Index among the forces of all contacts.
-[[nodiscard]] constexpr std::size_t normal_slot(std::size_t contact) { return 2 * contact; }
-[[nodiscard]] constexpr std::size_t tangent_slot(std::size_t contact) { return 2 * contact + 1; }
 
 [[nodiscard]] constexpr std::size_t guard_count(std::size_t contacts) {
   return guards_per_contact * contacts;

@@ -31,15 +31,15 @@ Acting acting(const CoulombProblem& p, const CoulombSolution& s) {
   Acting result;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const auto row = normal_place(i);
-    const double l = s.force[row], k = s.force[row + 1];
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    const double l = s.force[n], k = s.force[t];
     const double f = item.friction(s.kinetic[i]);
     const bool presses = item.kind != Kind::pressed && item.kind != Kind::limit && l > 0.0;
     const bool sticks = item.kind == Kind::limit     ? k != 0.0
                         : item.kind == Kind::pressed ? std::abs(k) < f * item.pressing
                                                      : item.kind == Kind::frictional && std::abs(k) < f * l;
-    if (presses) result.add(row, p.W.col(row) + (sticks ? 0.0 : k / l) * p.W.col(row + 1));
-    if (sticks) result.add(row + 1, p.W.col(row + 1));
+    if (presses) result.add(n, p.W.col(n) + (sticks ? 0.0 : k / l) * p.W.col(t));
+    if (sticks) result.add(t, p.W.col(t));
   }
   return result;
 }
@@ -81,9 +81,9 @@ bool CoulombReading::is_zero_response(Eigen::Index row) const {
 }
 
 bool CoulombReading::is_inside_cone(std::size_t i) const {
-  const auto n = normal_place(i);
+  const Eigen::Index n = normal_place(i), t = tangent_place(i);
   const double f = friction(i);
-  return f * pressing(i) - std::abs(force(n + 1)) > zero_force(n + 1) + f * zero_force(n);
+  return f * pressing(i) - std::abs(force(t)) > zero_force(t) + f * zero_force(n);
 }
 
 }  // namespace signorini

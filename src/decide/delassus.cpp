@@ -9,18 +9,18 @@ namespace signorini {
 
 Delassus delassus(const Model& model, const ModeSystem& system, const std::vector<std::size_t>& contacts) {
   const auto n = static_cast<Eigen::Index>(model.size());
-  const auto m = static_cast<Eigen::Index>(contacts.size());
-  Delassus d{Eigen::MatrixXd(n, 2 * m), Eigen::MatrixXd(2 * m, 2 * m)};
+  const Eigen::Index m = place_count(contacts.size());
+  Delassus d{Eigen::MatrixXd(n, m), Eigen::MatrixXd(m, m)};
   Vector x(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
-  for (Eigen::Index j = 0; j < 2 * m; ++j) {
-    const Contact& contact = model.contacts[contacts[static_cast<std::size_t>(j / 2)]];
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const Contact& contact = model.contacts[contacts[contact_of_place(j)]];
     x.setZero();
-    (j % 2 == 0 ? contact.normal : contact.tangent).add_to(x, 1.0);
+    (is_normal_place(j) ? contact.normal : contact.tangent).add_to(x, 1.0);
     system.solve(x.data(), work.data());
     for (Eigen::Index i = 0; i < n; ++i)
       d.effect(i, j) = system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive ? x[i] : 0.0;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const Contact& other = model.contacts[contacts[static_cast<std::size_t>(i)]];
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Contact& other = model.contacts[contacts[i]];
       d.W(normal_place(i), j) = other.normal.dot(d.effect.col(j));
       d.W(tangent_place(i), j) = other.tangent.dot(d.effect.col(j));
     }
@@ -37,10 +37,10 @@ Eigen::VectorXd with_reactions(const Model& model, const ModeSystem& system,
     model.contacts[contacts[i]].tangent.add_to(x, impulses[tangent_place(i)]);
   }
   system.solve(x.data(), work.data());
-  Eigen::VectorXd all = -x.tail(2 * static_cast<Eigen::Index>(model.contacts.size()));
+  Eigen::VectorXd all = -x.tail(model.force_count());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    all[normal_place(contacts[i])] += impulses[normal_place(i)];
-    all[tangent_place(contacts[i])] += impulses[tangent_place(i)];
+    all.data()[model.layout.normal(contacts[i])] += impulses[normal_place(i)];
+    all.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(i)];
   }
   return all;
 }
@@ -66,7 +66,8 @@ Eigen::VectorXd settle(const Delassus& d, const std::vector<Fixed>& fixed, Vecto
   v += effect * impulses(rows);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const Fixed& f = fixed[i];
-    const bool both = i + 1 < fixed.size() && f.row % 2 == 0 && fixed[i + 1].row == f.row + 1;
+    const bool both = i + 1 < fixed.size() && is_normal_place(f.row) &&
+                      fixed[i + 1].row == tangent_place(contact_of_place(f.row));
     if (both)
       set_exactly(*f.form, f.value, *fixed[i + 1].form, fixed[i + 1].value, v);
     else

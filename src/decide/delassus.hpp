@@ -13,11 +13,12 @@ namespace signorini {
 
 /// The columns of H for the given contacts, their effect on all degrees of freedom, and on each other.
 struct Delassus {
-  Eigen::MatrixXd effect;  ///< n x 2m: accelerations for unit forces (l along n, k along t); 0 without mass
-  Eigen::MatrixXd W;       ///< 2m x 2m
+  Eigen::MatrixXd
+      effect;  ///< n x places of the list: accelerations for unit forces (l along n, k along t); 0 without mass
+  Eigen::MatrixXd W;  ///< places x places of the list
 };
 
-/// A velocity along n or t of one of the contacts that is known exactly. row: 2 i, 2 i + 1.
+/// A velocity along n or t of one of the contacts that is known exactly. row: decide/places.hpp.
 struct Fixed {
   Eigen::Index row;
   const Combination* form;
@@ -32,7 +33,7 @@ Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed
 [[nodiscard]] Delassus delassus(const Model& model, const ModeSystem& system,
                                 const std::vector<std::size_t>& contacts);
 
-/// Of impulses at rows 2 i, 2 i + 1 of the i-th of these contacts: they themselves, and what rows in force of others, as of a slider
+/// Of impulses on a list of contacts (decide/places.hpp): they themselves, and what rows in force of others, as of a slider
 /// that sticks, give against them. Slots as those of forces. Empty: no impulses.
 [[nodiscard]] Eigen::VectorXd with_reactions(const Model& model, const ModeSystem& system,
                                              const std::vector<std::size_t>& contacts,

@@ -56,8 +56,8 @@ void share_fairly(const CoulombProblem& problem, CoulombSolution& solution) {
   Eigen::VectorXd limit(k0.size()), at = Eigen::VectorXd::Zero(k0.size());
   for (Eigen::Index i = 0; i < k0.size(); ++i) {
     const Eigen::Index t = rows[static_cast<std::size_t>(i)];
-    const CoulombItem& item = problem.items[static_cast<std::size_t>(t / 2)];
-    limit[i] = item.static_friction * pressing_of(item, solution.force[t - 1]);
+    const CoulombItem& item = problem.items[contact_of_place(t)];
+    limit[i] = item.static_friction * pressing_of(item, solution.force[normal_place(contact_of_place(t))]);
   }
   std::vector<Eigen::Index> given;
   for (Eigen::Index round = 0; round <= k0.size(); ++round) {  // each holds one more at its limit
@@ -76,7 +76,7 @@ void share_fairly(const CoulombProblem& problem, CoulombSolution& solution) {
       for (Eigen::Index i = 0; i < k->size(); ++i) {
         const Eigen::Index t = rows[static_cast<std::size_t>(i)];
         solution.force[t] = (*k)[i];
-        solution.kinetic[static_cast<std::size_t>(t / 2)] = false;
+        solution.kinetic[contact_of_place(t)] = false;
       }
       return;
     }

@@ -53,8 +53,8 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
   const auto m = static_cast<Eigen::Index>(touching.size());
   Hit hit{delassus(model_, system, touching),
           {},
-          Eigen::VectorXd(2 * m),
-          Eigen::VectorXd(2 * m),
+          Eigen::VectorXd(place_count(m)),
+          Eigen::VectorXd(place_count(m)),
           {},
           Eigen::VectorXd(m),
           {},
@@ -171,7 +171,7 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
       const Eigen::Index n = normal_place(i);
       impact.refusal.reason +=
           fmt::format("; '{}': vn = {:.6g}, vt = {:.6g}", model_.contacts[touching[i]].name,
-                      hit.before[n] * shown, hit.before[n + 1] * shown);
+                      hit.before[n] * shown, hit.before[tangent_place(i)] * shown);
     }
     return impact;
   }

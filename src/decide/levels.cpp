@@ -162,18 +162,18 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
   const double per_force = acceleration / said(model_, 1.0, unit::force);
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
     const CoulombItem& item = problem.items[i];
-    const Eigen::Index n = normal_place(i);
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
     result.reason +=
         fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
                     model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
-                    problem.b[n + 1] * acceleration, problem.W(n, n) * per_force);
-    const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, n + 1);
+                    problem.b[t] * acceleration, problem.W(n, n) * per_force);
+    const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);
     if (item.kind == Kind::sliding)
       result.reason += fmt::format(", with friction {:.6g} while it slips ({})", sliding * per_force,
                                    to_string(slip_along(item.sign)));
     else if (item.kind == Kind::frictional)
       result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}",
-                                   problem.W(n, n + 1) * per_force, item.static_friction);
+                                   problem.W(n, t) * per_force, item.static_friction);
   }
   return result;
 }
@@ -181,7 +181,7 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
 /// Items, right side and its noise, from the motion under the forces decided so far.
 void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
                   const std::vector<MotionJet>& jets, Level& level) const {
-  const auto size = static_cast<Eigen::Index>(2 * level.entries.size());
+  const auto size = place_count(level.entries.size());
   level.problem.b = Eigen::VectorXd::Zero(size);
   level.noise.resize(size);
   for (std::size_t i = 0; i < level.entries.size(); ++i) {
@@ -190,11 +190,11 @@ void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vec
     const bool last = level.order + 1 == MotionJet::orders;
     const double an = last ? 0.0 : jet.motion[level.order + 1].an,
                  at = last ? 0.0 : jet.motion[level.order + 1].at;
-    const Eigen::Index n = normal_place(i);
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
     level.noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
-    level.noise[n + 1] = instant.blur * zero.at + instant.resolution * std::abs(at);
+    level.noise[t] = instant.blur * zero.at + instant.resolution * std::abs(at);
     if (std::abs(now.an) > level.noise[n]) level.problem.b[n] = now.an;
-    if (std::abs(now.at) > level.noise[n + 1]) level.problem.b[n + 1] = now.at;
+    if (std::abs(now.at) > level.noise[t]) level.problem.b[t] = now.at;
     level.problem.items.push_back(item_of(entries[level.entries[i]], forcing, instant.t));
   }
 }

@@ -51,9 +51,9 @@ double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd&
   double loss = 0.0;
   if (now.size() == 0) return loss;
   for (const std::size_t c : touching)
-    for (const auto& [slot, form] : {std::pair{normal_place(c), &model.contacts[c].normal},
-                                     std::pair{tangent_place(c), &model.contacts[c].tangent}}) {
-      const double impulse = now[slot] - (before.size() > 0 ? before[slot] : 0.0);
+    for (const auto& [place, form] : {std::pair{model.layout.normal(c), &model.contacts[c].normal},
+                                      std::pair{model.layout.tangent(c), &model.contacts[c].tangent}}) {
+      const double impulse = now.data()[place] - (before.size() > 0 ? before.data()[place] : 0.0);
       if (impulse != 0.0) loss -= 0.5 * impulse * form->dot(twice);
     }
   return loss;
@@ -61,12 +61,13 @@ double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd&
 
 }  // namespace
 
-void Findings::capture(const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses) {
+void Findings::capture(const Model& model, const std::vector<std::size_t>& contacts,
+                       const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return;
-  if (captures.size() == 0) captures.setZero(static_cast<Eigen::Index>(2 * known.size()));
+  if (captures.size() == 0) captures.setZero(model.force_count());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    captures[normal_place(contacts[i])] += impulses[normal_place(i)];
-    captures[tangent_place(contacts[i])] += impulses[tangent_place(i)];
+    captures.data()[model.layout.normal(contacts[i])] += impulses[normal_place(i)];
+    captures.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(i)];
   }
 }
 
@@ -310,7 +311,7 @@ Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Bl
   const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.v);
   if (result.refusal) return result.refusal;
   const Vector before = std::exchange(instant.v, result.v);
-  found.capture(struck, result.settled);
+  found.capture(model_, struck, result.settled);
   for (const std::size_t c : block) {
     found.stays[c] = found.rests[c] = false;
     found.known[c].sliding = {};

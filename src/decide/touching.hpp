@@ -45,7 +45,7 @@ struct Findings {
   std::vector<double> departures;
   Eigen::VectorXd captures;  ///< Decision::captures; empty: none so far
   /// Adds impulses of rows 2 i, 2 i + 1 of the i-th of these contacts; empty: none.
-  void capture(const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
+  void capture(const Model& model, const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
   /// The same, of all contacts.
   void capture(const Eigen::VectorXd& impulses);
   std::vector<KnownGuards> known;         ///< of those that touch

@@ -41,12 +41,12 @@ Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vecto
 
 /// Feet of one body that share a motion have shares that are unique: s z z' stands where they do nothing
 /// (linear/shared_rows.hpp).
-void add_shares(const std::vector<SharedForces>& shared, const std::vector<std::size_t>& contacts,
-                Eigen::MatrixXd& W) {
+void add_shares(const ForceLayout& layout, const std::vector<SharedForces>& shared,
+                const std::vector<std::size_t>& contacts, Eigen::MatrixXd& W) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
-    const auto at = std::find(contacts.begin(), contacts.end(), row / 2);
+    const auto at = std::find(contacts.begin(), contacts.end(), layout.contact_of(row));
     if (at == contacts.end()) return std::nullopt;
-    return row % 2 == 0 ? normal_place(at - contacts.begin()) : tangent_place(at - contacts.begin());
+    return layout.is_normal(row) ? normal_place(at - contacts.begin()) : tangent_place(at - contacts.begin());
   };
   for (const SharedForces& of : shared)
     for (std::size_t i = 0; i < of.rows.size(); ++i)
@@ -83,7 +83,8 @@ bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
   const ModeSystemPtr system = systems.of(free);
   if (!system) return true;
   Eigen::MatrixXd W = delassus(model, *system, contacts).W;
-  if (const ModeSystemPtr held = systems.of(mode)) add_shares(held->factorised().shared, contacts, W);
+  if (const ModeSystemPtr held = systems.of(mode))
+    add_shares(model.layout, held->factorised().shared, contacts, W);
   Eigen::MatrixXd a = held_part(model, mode, contacts, W);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's: another matter

@@ -14,7 +14,7 @@ namespace signorini {
 /// Bounds on a step. Units: |.|_M a length times the root of a mass, v and a over time; forces.
 struct Ripple {
   double u = 0.0, v = 0.0, a = 0.0;
-  Eigen::VectorXd forces;  ///< N and T, two a contact
+  Eigen::VectorXd forces;  ///< of all contacts, in the order of the model's layout
 };
 
 }  // namespace signorini

@@ -15,7 +15,7 @@ constexpr std::size_t rows_at_once = 32;
 
 bool is_economical(const Model& model, const Structure& structure, const SharedRows& shared) {
   return !has_massless(model) && shared.groups().empty() &&
-         structure.size + 2 * static_cast<int>(model.contacts.size()) >= economical_from;
+         structure.size + static_cast<int>(model.force_count()) >= economical_from;
 }
 
 CondensedMatrix::CondensedMatrix(const CondensedRows& rows)
@@ -90,7 +90,7 @@ void CondensedMatrix::solve(double* x) {
   double* forces = x + n;
   for (std::size_t c = 0; c < rows_.contacts(); ++c) {
     const CondensedRows::Held& held = rows_.held(c);
-    double &N = forces[2 * c], &T = forces[2 * c + 1];
+    double &N = forces[rows_.layout().normal(c)], &T = forces[rows_.layout().tangent(c)];
     N /= held.normal_N;
     T = (T - held.tangent_N * N) / held.tangent_T;
     if (N == 0.0 && T == 0.0) continue;
@@ -109,8 +109,8 @@ void CondensedMatrix::solve(double* x) {
       N += by_N_[i] * x[rows_.touch(i).dof];
       T += by_T_[i] * x[rows_.touch(i).dof];
     }
-    forces[2 * c] -= N;
-    forces[2 * c + 1] -= T;
+    forces[rows_.layout().normal(c)] -= N;
+    forces[rows_.layout().tangent(c)] -= T;
   }
 }
 

@@ -32,6 +32,7 @@ std::optional<CondensedRows> CondensedRows::of(const Model& model, const Structu
   CondensedRows result;
   const auto n = static_cast<std::size_t>(structure.size);
   result.width_ = order.width;
+  result.layout_ = model.layout;
   result.dof_at_.resize(n);
   std::vector<std::vector<Entry>> rows(n);
   std::vector<std::vector<std::uint32_t>> touching(n);

@@ -43,6 +43,7 @@ class CondensedRows {
   [[nodiscard]] std::size_t size() const { return dof_at_.size(); }
   [[nodiscard]] std::size_t width() const { return width_; }
   [[nodiscard]] std::size_t contacts() const { return held_.size(); }
+  [[nodiscard]] const ForceLayout& layout() const { return layout_; }
 
   /// Puts the rows of a contact in force, of all.
   void put(std::size_t contact, const Rows& rows);
@@ -78,6 +79,7 @@ class CondensedRows {
   CondensedRows() = default;
 
   std::size_t width_ = 0;
+  ForceLayout layout_;
   std::vector<std::size_t> dof_at_;  // of a place
   std::vector<Entry> entries_;
   std::vector<std::size_t> entries_end_{0};  // place by place

@@ -38,12 +38,14 @@ std::vector<OwnForces> own_forces(const std::vector<Rows>& rows) {
 }
 
 void MassSolver::solve(double* x, double* work) const {
-  double* force = x + mass_->size();
-  for (std::size_t c = 0; c < forces_.size(); ++c, force += 2) {
+  double* const forces = x + mass_->size();
+  const ForceLayout& layout = model_->layout;
+  for (std::size_t c = 0; c < forces_.size(); ++c) {
     const OwnForces& b = forces_[c];
-    const double N = force[0] / b.normal_N, T = (force[1] - b.tangent_N * N) / b.tangent_T;
-    force[0] = N;
-    force[1] = T;
+    double &in_N = forces[layout.normal(c)], &in_T = forces[layout.tangent(c)];
+    const double N = in_N / b.normal_N, T = (in_T - b.tangent_N * N) / b.tangent_T;
+    in_N = N;
+    in_T = T;
     const Contact& contact = model_->contacts[c];
     if (N != 0.0)
       for (const auto& [dof, factor] : contact.normal.terms) x[dof] -= factor * N;

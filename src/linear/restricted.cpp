@@ -10,6 +10,7 @@ namespace {
 /// Scales, frequencies and factors are those of the whole, so that what is decided by them is decided as there.
 Model common_to_parts(const Model& whole) {
   Model model;
+  model.layout = whole.layout;
   model.units = whole.units;
   model.unit = whole.unit;
   model.machine = whole.machine;

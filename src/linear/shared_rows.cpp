@@ -55,8 +55,8 @@ bool has_share(const Eigen::MatrixXd& null, Eigen::Index i) { return null.row(i)
 namespace {
 
 const Combination& form_of(const Model& model, std::size_t row) {
-  const Contact& contact = model.contacts[row / 2];
-  return row % 2 == 0 ? contact.normal : contact.tangent;
+  const Contact& contact = model.contacts[model.layout.contact_of(row)];
+  return model.layout.is_normal(row) ? contact.normal : contact.tangent;
 }
 
 }  // namespace
@@ -97,14 +97,15 @@ SharedRows::SharedRows(const Model& model, const Structure& structure)
   for (std::vector<std::size_t>& group : together()) {
     std::vector<std::size_t> rows;
     for (const std::size_t k : group) {
-      if (model.contacts[k].takes_impulses()) rows.push_back(2 * k);
-      if (model.contacts[k].sticks_rigidly()) rows.push_back(2 * k + 1);
+      if (model.contacts[k].takes_impulses()) rows.push_back(model.layout.normal(k));
+      if (model.contacts[k].sticks_rigidly()) rows.push_back(model.layout.tangent(k));
     }
     // Two walls on both sides of a mass never close together: without friction nothing is shared.
     const Eigen::MatrixXd null = null_of_columns(columns(rows));
     bool friction = false;
     for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
-      friction = friction || (rows[i] % 2 == 1 && has_share(null, static_cast<Eigen::Index>(i)));
+      friction =
+          friction || (!model.layout.is_normal(rows[i]) && has_share(null, static_cast<Eigen::Index>(i)));
     if (!friction) continue;
     for (const std::size_t k : group) grouped_[k] = true;
     groups_.push_back(std::move(group));
@@ -122,8 +123,9 @@ std::vector<SharedForces> SharedRows::in_force(const std::vector<Rows>& rows) co
   for (const std::vector<std::size_t>& group : groups_) {
     SharedForces shared;
     for (const std::size_t k : group) {
-      if (rows[k].normal.an != 0.0 && rows[k].normal.N == 0.0) shared.rows.push_back(2 * k);
-      if (rows[k].tangent.at != 0.0 && rows[k].tangent.T == 0.0) shared.rows.push_back(2 * k + 1);
+      if (rows[k].normal.an != 0.0 && rows[k].normal.N == 0.0) shared.rows.push_back(model_.layout.normal(k));
+      if (rows[k].tangent.at != 0.0 && rows[k].tangent.T == 0.0)
+        shared.rows.push_back(model_.layout.tangent(k));
     }
     if (shared.rows.size() < 2) continue;
     const Eigen::MatrixXd h = columns(shared.rows);

@@ -17,7 +17,7 @@
 
 namespace signorini {
 
-/// s Z Z' on rows of forces: row 2 k of the normal of contact k, 2 k + 1 of its tangent.
+/// s Z Z' on rows of forces, numbered as the forces are (signorini/force_layout.hpp).
 struct SharedForces {
   std::vector<std::size_t> rows;
   Eigen::MatrixXd entries;  ///< one a pair of rows

@@ -1,6 +1,7 @@
 #include "linear/system_matrix.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace signorini {
@@ -33,6 +34,30 @@ class Pattern {
   std::vector<std::set<int>> columns_;
 };
 
+/// Rows of the matrix, and columns: those of the forces follow those of the degrees of freedom.
+struct ForcePlaces {
+  int dofs;
+  const ForceLayout& layout;
+
+  [[nodiscard]] int normal(std::size_t contact) const {
+    return dofs + static_cast<int>(layout.normal(contact));
+  }
+  [[nodiscard]] int tangent(std::size_t contact) const {
+    return dofs + static_cast<int>(layout.tangent(contact));
+  }
+  [[nodiscard]] std::array<int, 2> of(std::size_t contact) const {
+    return {normal(contact), tangent(contact)};
+  }
+  /// Those of no force.
+  [[nodiscard]] std::vector<int> unused(std::size_t contacts) const {
+    std::vector<int> result;
+    for (std::size_t c = 0; c < contacts; ++c)
+      for (std::size_t i = layout.tangents; i + 1 < layout.stride(); ++i)
+        result.push_back(dofs + static_cast<int>(layout.tangent(c, i)));
+    return result;
+  }
+};
+
 std::size_t position(const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& rows, int row,
                      int column) {
   const auto begin = rows.begin() + start[static_cast<std::size_t>(column)];
@@ -48,29 +73,27 @@ std::vector<int> touched(const Contact& contact) {
 }
 
 Pattern pattern_of(const Model& model, const Structure& structure, const SharedRows& shared) {
-  const int n = structure.size;
-  Pattern pattern(n + 2 * static_cast<int>(model.contacts.size()));
-  for (int j = 0; j < n; ++j) {
+  const ForcePlaces at{structure.size, model.layout};
+  Pattern pattern(structure.size + static_cast<int>(model.force_count()));
+  for (int j = 0; j < structure.size; ++j) {
     const auto begin = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j)]);
     const auto end = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j) + 1]);
     for (std::size_t p = begin; p < end; ++p) pattern.add(static_cast<int>(structure.row[p]), j);
   }
-  int force = n;
-  for (const Contact& contact : model.contacts) {
-    for (int dof : touched(contact))
-      for (int side = 0; side < 2; ++side) {
-        pattern.add(force + side, dof);
-        pattern.add(dof, force + side);
+  for (std::size_t c = 0; c < model.contacts.size(); ++c)
+    for (const int force : at.of(c)) {
+      for (const int dof : touched(model.contacts[c])) {
+        pattern.add(force, dof);
+        pattern.add(dof, force);
       }
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j) pattern.add(force + i, force + j);
-    force += 2;
-  }
+      for (const int other : at.of(c)) pattern.add(force, other);
+    }
+  for (const int place : at.unused(model.contacts.size())) pattern.add(place, place);
   for (const std::vector<std::size_t>& group : shared.groups())
     for (const std::size_t a : group)
       for (const std::size_t b : group)
-        for (int i = 0; i < 4; ++i)
-          pattern.add(n + 2 * static_cast<int>(a) + i / 2, n + 2 * static_cast<int>(b) + i % 2);
+        for (const int row : at.of(a))
+          for (const int column : at.of(b)) pattern.add(row, column);
   for (const std::vector<int>& together : undamped_together(dof_kinds(model, structure), model))
     pattern.unite(together);
   return pattern;
@@ -104,7 +127,8 @@ std::vector<Rows> rows_of(const Model& model, const Mode& mode) {
 }
 
 SystemMatrix::SystemMatrix(const Model& model, const Structure& structure)
-    : size_(structure.size + 2 * static_cast<int>(model.contacts.size())),
+    : size_(structure.size + static_cast<int>(model.force_count())),
+      layout_(model.layout),
       structure_(structure),
       shared_(model, structure),
       united_(!undamped_together(dof_kinds(model, structure), model).empty()),
@@ -119,25 +143,27 @@ SystemMatrix::SystemMatrix(const Model& model, const Structure& structure)
     for (std::size_t p = begin; p < end; ++p)
       structure_slot_.push_back(at(static_cast<int>(structure.row[p]), j));
   }
-  int force = structure.size;
-  for (const Contact& contact : model.contacts) {
+  const ForcePlaces places{structure.size, layout_};
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    const int N = places.normal(c), T = places.tangent(c);
     ContactSlots slots;
     slots.dof = touched(contact);
     for (int dof : slots.dof) {
       slots.n.push_back(component(contact.normal, dof));
       slots.t.push_back(component(contact.tangent, dof));
-      slots.normal_row.push_back(at(force, dof));
-      slots.tangent_row.push_back(at(force + 1, dof));
-      slots.N_column.push_back(at(dof, force));
-      slots.T_column.push_back(at(dof, force + 1));
+      slots.normal_row.push_back(at(N, dof));
+      slots.tangent_row.push_back(at(T, dof));
+      slots.N_column.push_back(at(dof, N));
+      slots.T_column.push_back(at(dof, T));
     }
-    slots.NN = at(force, force);
-    slots.NT = at(force, force + 1);
-    slots.TN = at(force + 1, force);
-    slots.TT = at(force + 1, force + 1);
+    slots.NN = at(N, N);
+    slots.NT = at(N, T);
+    slots.TN = at(T, N);
+    slots.TT = at(T, T);
     contacts_.push_back(std::move(slots));
-    force += 2;
   }
+  for (const int place : places.unused(model.contacts.size())) unused_.push_back(at(place, place));
 }
 
 std::size_t SystemMatrix::slot(int row, int column) const {
@@ -152,23 +178,25 @@ void SystemMatrix::add_column(int to, int from, double factor, const Weights& w,
     values_[slot(structure_.row[p], to)] +=
         factor *
         (w.acceleration * structure_.m[p] + w.velocity * structure_.c[p] + w.displacement * structure_.k[p]);
-  int force = structure_.size;
-  for (std::size_t k = 0; k < contacts_.size(); ++k, force += 2)
+  const ForcePlaces at{structure_.size, layout_};
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].dof.size(); ++i) {
       if (contacts_[k].dof[i] != from) continue;
       const double n = contacts_[k].n[i], t = contacts_[k].t[i];
-      values_[slot(force, to)] += factor * entry_of(rows[k].normal, n, t, w);
-      values_[slot(force + 1, to)] += factor * entry_of(rows[k].tangent, n, t, w);
+      values_[slot(at.normal(k), to)] += factor * entry_of(rows[k].normal, n, t, w);
+      values_[slot(at.tangent(k), to)] += factor * entry_of(rows[k].tangent, n, t, w);
     }
 }
 
 void SystemMatrix::add_shared(const std::vector<Rows>& rows) {
   const int n = structure_.size;
+  const ForcePlaces at{n, layout_};
   for (const std::vector<std::size_t>& group : shared_.groups())
     for (const std::size_t a : group)
       for (const std::size_t b : group)
-        for (int i = 0; i < 4 && a != b; ++i)
-          values_[slot(n + 2 * static_cast<int>(a) + i / 2, n + 2 * static_cast<int>(b) + i % 2)] = 0.0;
+        for (const int row : at.of(a))
+          for (const int column : at.of(b))
+            if (a != b) values_[slot(row, column)] = 0.0;
   in_force_ = shared_.in_force(rows);
   for (const SharedForces& shared : in_force_)
     for (std::size_t i = 0; i < shared.rows.size(); ++i)
@@ -203,6 +231,7 @@ bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>
     values_[slots.TN] = r.tangent.N;
     values_[slots.TT] = r.tangent.T;
   }
+  for (const std::size_t place : unused_) values_[place] = 1.0;
   add_shared(rows);
   for (const UndampedMotion& motion : undamped)
     for (const auto& [other, factor] : motion.others)

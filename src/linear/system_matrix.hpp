@@ -71,6 +71,7 @@ class SystemMatrix {
   [[nodiscard]] std::size_t slot(int row, int column) const;
 
   int size_;
+  const ForceLayout layout_;
   const Structure& structure_;
   SharedRows shared_;
   std::vector<SharedForces> in_force_;
@@ -78,6 +79,7 @@ class SystemMatrix {
   std::vector<std::int64_t> column_start_, row_;
   std::vector<std::size_t> structure_slot_;  // position of the structure's entry p
   std::vector<ContactSlots> contacts_;
+  std::vector<std::size_t> unused_;  // diagonal of places of no force
   std::vector<double> values_;
   Klu klu_;
 };

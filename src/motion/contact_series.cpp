@@ -23,8 +23,8 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   const auto slots = static_cast<std::size_t>(series.forces.rows());
   const double* forces = series.forces.data();
   for (std::size_t k = 0; k <= degree; ++k, forces += slots) {
-    normal[k] = forces[normal_slot(index)];
-    tangent[k] = forces[tangent_slot(index)];
+    normal[k] = forces[series.layout.normal(index)];
+    tangent[k] = forces[series.layout.tangent(index)];
   }
   if (contact.sliding_point()) {
     const double* surface = series.forcing.surface.data() + index * series.forcing.count;

@@ -10,11 +10,11 @@ double imbalance(const Model& model, const Structure& structure, const Forcing& 
   forcing.add_load(t, 0, r.data(), -1.0);
   structure.add_product(point.a.data(), point.v.data(), point.u.data(), r.data());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    model.contacts[k].normal.add_to(r, point.N(k));
-    model.contacts[k].tangent.add_to(r, point.T(k));
+    model.contacts[k].normal.add_to(r, point.N(model.layout, k));
+    model.contacts[k].tangent.add_to(r, point.T(model.layout, k));
     if (const Contact& contact = model.contacts[k]; contact.curved_surface())
-      contact.body_tangent().add_to(
-          r, bowl_force(contact, point.N(k), slide_of(contact, k, forcing, t, point.u, point.v).ut));
+      contact.body_tangent().add_to(r, bowl_force(contact, point.N(model.layout, k),
+                                                  slide_of(contact, k, forcing, t, point.u, point.v).ut));
   }
   return r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0.0;
 }

@@ -32,6 +32,8 @@ class Forcing {
                                 const std::vector<std::size_t>& loads,
                                 const std::vector<std::size_t>& contacts, const Vector& more) const;
 
+  /// Of the forces of the model's contacts.
+  [[nodiscard]] const ForceLayout& layout() const { return model_->layout; }
   /// P += factor times the derivative of the given order of the load vector; length n.
   void add_load(double t, int order, double* P, double factor = 1.0) const;
   /// What of the load on a degree of freedom does not change.

@@ -100,12 +100,13 @@ double FrictionSeries::known(int k, const Series& series) {
   const auto level = static_cast<std::size_t>(k);
   if (limit_) {
     if (k > 1)
-      limit_->take(-series.forces(static_cast<Eigen::Index>(normal_slot(index_)),
+      limit_->take(-series.forces(static_cast<Eigen::Index>(series.layout.normal(index_)),
                                   static_cast<Eigen::Index>(level - 1)));
     return -sign_ * limit_->known();
   }
   const auto pressing = [&](std::size_t i) {
-    return series.forces(static_cast<Eigen::Index>(normal_slot(index_)), static_cast<Eigen::Index>(i));
+    return series.forces(static_cast<Eigen::Index>(series.layout.normal(index_)),
+                         static_cast<Eigen::Index>(i));
   };
   if (!contact_->sliding_point()) return friction_.next(slip_rate(level, series), pressing);
   if (k > 1) friction_.take_rate(slip_rate(level - 1, series));

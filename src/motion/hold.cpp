@@ -34,14 +34,14 @@ Eigen::VectorXd hold(const Model& model, const ModeSystem& system, const Forcing
   bool any = false;
   for (std::size_t c = 0; c < mode.size() && !any; ++c) any = is_held(c) || sticks(c);
   if (!any) return {};
-  std::vector<double> places(2 * mode.size(), 0.0), rates(2 * mode.size(), 0.0);
+  std::vector<double> places(model.layout.size(mode.size()), 0.0), rates(places);
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (is_held(c)) {
-      places[normal_slot(c)] = -contact.gap_at(u);
-      rates[normal_slot(c)] = -gap_rate(contact, v);
+      places[model.layout.normal(c)] = -contact.gap_at(u);
+      rates[model.layout.normal(c)] = -gap_rate(contact, v);
     }
-    if (sticks(c)) rates[tangent_slot(c)] = -along_surface(contact, v, forcing.surface(c, t, 1));
+    if (sticks(c)) rates[model.layout.tangent(c)] = -along_surface(contact, v, forcing.surface(c, t, 1));
   }
   correct(system, places, u);
   Eigen::VectorXd impulses = correct(system, rates, v);

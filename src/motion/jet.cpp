@@ -59,8 +59,8 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
       d.ut_terms[k] = factorial * (size_of(model, contact.tangent, u) + std::abs(f.surface[c * f.count + k]));
     }
     if (k > last) continue;
-    d.N[k] = factorial * series.forces.data()[k * forces + normal_slot(c)];
-    d.T[k] = factorial * series.forces.data()[k * forces + tangent_slot(c)];
+    d.N[k] = factorial * series.forces.data()[k * forces + model.layout.normal(c)];
+    d.T[k] = factorial * series.forces.data()[k * forces + model.layout.tangent(c)];
   }
   d.gap_terms[0] += std::abs(contact.gap);
   if (contact.friction.by_force()) fill_limit(contact, c, series, last, d);

@@ -16,7 +16,7 @@
 
 namespace signorini {
 
-/// Derivatives: column k of order k. u: n rows; forces: (N_1, T_1, N_2, ...)^(k).
+/// Derivatives: column k of order k. u: n rows; forces: of all contacts, in the order of the model's layout.
 struct Jet {
   /// The orders up to which motions of contacts are needed to decide their states.
   static constexpr int orders = static_cast<int>(MotionJet::orders) - 1;

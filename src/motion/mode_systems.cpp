@@ -13,13 +13,15 @@ namespace {
 constexpr int most_told = 8;
 
 /// z.s' = 0 from t on: surfaces on which feet share a motion move alike, or stand.
-bool moves_as_one(const SharedForces& shared, const Eigen::VectorXd& z, const Forcing& forcing, double t) {
+bool moves_as_one(const ForceLayout& layout, const SharedForces& shared, const Eigen::VectorXd& z,
+                  const Forcing& forcing, double t) {
   for (int order = 1; order <= most_told; ++order) {
     double sum = 0.0, zero = 0.0;
     for (std::size_t i = 0; i < shared.rows.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      if (shared.rows[i] % 2 == 0 || !has_share(shared.null, at)) continue;  // a normal, or it takes no part
-      const std::size_t c = shared.rows[i] / 2;
+      if (layout.is_normal(shared.rows[i]) || !has_share(shared.null, at))
+        continue;  // a normal, or it takes no part
+      const std::size_t c = layout.contact_of(shared.rows[i]);
       const double zi = z[at], rate = forcing.surface(c, t, order);
       sum += zi * rate;
       zero += std::abs(zi) *
@@ -40,7 +42,7 @@ ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBo
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(structure.size)),
       cache_(bounds) {
-  const std::size_t unknowns = own_kinds_.size() + 2 * model.contacts.size();
+  const std::size_t unknowns = own_kinds_.size() + static_cast<std::size_t>(model.force_count());
   if (!massless_ && unknowns > most_dense) mass_ = mass_factors(structure);
   for (const std::vector<std::size_t>& group : sharing())
     for (const std::size_t c : group) {
@@ -76,7 +78,7 @@ std::shared_ptr<const FactorisedMode> ModeSystems::cached(const Mode& mode, cons
 
 FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& rows) const {
   FactorisedMode result;
-  result.unknowns = {own_kinds_.size(), mode.size()};
+  result.unknowns = {own_kinds_.size(), mode.size(), model_.layout};
   result.massless = massless_;
   if (massless_) {
     MotionKinds in_mode = kinds_in_mode(own_kinds_, model_, rows);
@@ -161,10 +163,11 @@ bool ModeSystems::held_by_others(std::size_t c, Mode mode, const Forcing& forcin
   if (!may_share(c) || !model_.contacts[c].sticks_rigidly() || mode[c].is_open()) return false;
   mode[c].state = State::stick;
   for (const SharedForces& shared : matrix_.shared_rows().in_force(rows_of(model_, mode))) {
-    const auto at = std::find(shared.rows.begin(), shared.rows.end(), 2 * c + 1) - shared.rows.begin();
+    const auto at =
+        std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
     if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !has_share(shared.null, at)) continue;
     // The motion with the greatest z_c of those that are held too often.
-    return moves_as_one(shared, shared.null * shared.null.row(at).transpose(), forcing, t);
+    return moves_as_one(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t);
   }
   return false;
 }

@@ -90,8 +90,8 @@ void NearJets::tell_soft(const Rows& rows, double surface, const Point& now, std
   along(c.middle, c.end, c.tangent_squared, m.ut, m.vt, m.at, terms.ut, terms.vt);
   m.gap += c.gap;
   m.ut -= surface;
-  m.N = now.N(contact);
-  m.T = now.T(contact);
+  m.N = now.N(model_.layout, contact);
+  m.T = now.T(model_.layout, contact);
   d.gap = m.vn;
   d.ut = m.vt;
   d.vn = m.an;
@@ -269,8 +269,8 @@ std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& 
       const double by = force - std::exchange(old, force);
       for (const auto& [dof, x] : column) jet.u(dof, 2) -= by * x;
     };
-    change(normal_slot(c), N, columns.by_N);
-    change(tangent_slot(c), T, columns.by_T);
+    change(model_.layout.normal(c), N, columns.by_N);
+    change(model_.layout.tangent(c), T, columns.by_T);
   }
   return jet;
 }
@@ -296,8 +296,8 @@ std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const 
       order_one(*system, forcing, c, motion);
       bound_rounding(*system, forcing, now, c, motion);
     }
-    jet.forces(static_cast<Eigen::Index>(normal_slot(c)), 1) = motion.motion[1].N;
-    jet.forces(static_cast<Eigen::Index>(tangent_slot(c)), 1) = motion.motion[1].T;
+    jet.forces(static_cast<Eigen::Index>(model_.layout.normal(c)), 1) = motion.motion[1].N;
+    jet.forces(static_cast<Eigen::Index>(model_.layout.tangent(c)), 1) = motion.motion[1].T;
     if (known || ((soft || !accelerates(model_.contacts[c], system->mode()[c])) && told(c, motion, 1)))
       continue;
     open.push_back(c);

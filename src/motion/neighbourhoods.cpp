@@ -131,8 +131,8 @@ std::unique_ptr<Neighbourhood> Neighbourhoods::make(const std::vector<int>& dist
       if (inside(dof)) near->pulls.push_back({place[static_cast<std::size_t>(dof)], force, factor});
   };
   for (const std::size_t c : across) {
-    pull(model_.contacts[c].normal, normal_slot(c));
-    pull(model_.contacts[c].tangent, tangent_slot(c));
+    pull(model_.contacts[c].normal, model_.layout.normal(c));
+    pull(model_.contacts[c].tangent, model_.layout.tangent(c));
   }
   return near;
 }

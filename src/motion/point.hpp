@@ -7,12 +7,11 @@
 
 #include "contact/friction_limit.hpp"
 #include "contact/motion.hpp"
-#include "contact/slots.hpp"
 #include "motion/forcing.hpp"
 
 namespace signorini {
 
-/// u, v (length n) and forces (N_1, T_1, N_2, ...) at one time.
+/// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
 /// Of the structure without its contacts.
 struct StructureEnergy {
   double kinetic = 0.0, elastic = 0.0;
@@ -25,8 +24,12 @@ struct Point {
   /// are sums of terms far greater than they.
   std::optional<StructureEnergy> energy = {};
 
-  [[nodiscard]] double N(std::size_t k) const { return forces[static_cast<Eigen::Index>(normal_slot(k))]; }
-  [[nodiscard]] double T(std::size_t k) const { return forces[static_cast<Eigen::Index>(tangent_slot(k))]; }
+  [[nodiscard]] double N(const ForceLayout& layout, std::size_t k) const {
+    return forces.data()[layout.normal(k)];
+  }
+  [[nodiscard]] double T(const ForceLayout& layout, std::size_t k) const {
+    return forces.data()[layout.tangent(k)];
+  }
 };
 
 /// On the straight line from a to b, 0 <= x <= 1.
@@ -39,8 +42,8 @@ struct Point {
 [[nodiscard]] inline ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing,
                                              double t, const Point& point) {
   ContactMotion m;
-  m.N = point.N(k);
-  m.T = point.T(k);
+  m.N = point.N(forcing.layout(), k);
+  m.T = point.T(forcing.layout(), k);
   set_place(contact, point.u, forcing.surface(k, t, 0), m);
   set_velocity(contact, point.v, forcing.surface(k, t, 1), m);
   if (point.a.size() > 0) set_acceleration(contact, point.a, forcing.surface(k, t, 2), m);

@@ -13,7 +13,7 @@ void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point&
     const double slip = working_slip_rate(model_.contacts[k], mode[k].state, m);
     if (const Contact& contact = model_.contacts[k]; contact.curved_surface()) {
       const BodySlide slide = slide_of(contact, k, forcing, t, point.u, point.v);
-      out[0] -= bowl_force(contact, point.N(k), slide.ut) * slide.vt;
+      out[0] -= bowl_force(contact, point.N(model_.layout, k), slide.ut) * slide.vt;
     }
     const ContactWork power = work_on(model_.contacts[k], mode[k].state, m.N, m.T,
                                       {slip, forcing.surface(k, t, 1), m.vn, m.vn, 1.0});

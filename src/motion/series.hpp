@@ -11,8 +11,9 @@ namespace signorini {
 struct Series {
   double t = 0.0, scale = 1.0;
   int levels = 0;
-  Eigen::MatrixXd u;       ///< n x (levels + 3); complete to order `levels`, beyond only where there is mass
-  Eigen::MatrixXd forces;  ///< 2 contacts x (levels + 1): N_1, T_1, N_2, ...
+  Eigen::MatrixXd u;  ///< n x (levels + 3); complete to order `levels`, beyond only where there is mass
+  ForceLayout layout;
+  Eigen::MatrixXd forces;  ///< of all contacts x (levels + 1)
   ForcingSeries forcing;   ///< levels + 3 coefficients
 };
 

@@ -26,7 +26,7 @@ Taylor::Taylor(ModeSystems& systems)
       structure_(systems.structure()),
       massless_(has_massless(model_)) {
   const auto n = static_cast<std::size_t>(structure_.size);
-  const Unknowns unknowns{n, model_.contacts.size()};
+  const Unknowns unknowns{n, model_.contacts.size(), model_.layout};
   x_.resize(unknowns.size());
   work_.resize(unknowns.size());
   known_u_.resize(n);
@@ -236,9 +236,9 @@ void Taylor::measure_forces(std::size_t c, int order, const Series& series, doub
   const double* forces =
       series.forces.data() + static_cast<std::size_t>(order) * (x_.size() - known_u_.size());
   for (const auto& [dof, factor] : model_.contacts[c].normal.terms)
-    terms[dof] += std::abs(factor * forces[normal_slot(c)]);
+    terms[dof] += std::abs(factor * forces[model_.layout.normal(c)]);
   for (const auto& [dof, factor] : model_.contacts[c].tangent.terms)
-    terms[dof] += std::abs(factor * forces[tangent_slot(c)]);
+    terms[dof] += std::abs(factor * forces[model_.layout.tangent(c)]);
 }
 
 /// Its rows. kn g is a difference of great numbers: its rounding is that of its terms. A row that holds an
@@ -252,7 +252,7 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
   const double to_acceleration = to_velocity * (order + 2) / series.scale;
   const double *u = sizes_.col(order).data(), *v = sizes_.col(order + 1).data();
   const double* forces = series.forces.data() + k * (x_.size() - n);
-  const double N = forces[normal_slot(c)], T = forces[tangent_slot(c)];
+  const double N = forces[model_.layout.normal(c)], T = forces[model_.layout.tangent(c)];
   const double *pressing = f.pressing.data() + c * f.count + k, *surface = f.surface.data() + c * f.count + k;
   double r = std::abs(normal.N * N) + std::abs(normal.pressing * pressing[0]);
   double q = std::abs(tangent.N * N) + std::abs(tangent.T * T) + std::abs(tangent.ut * surface[0]) +
@@ -369,8 +369,9 @@ void Taylor::begin(const ModeSystemPtr& system, const Forcing& forcing, double t
   out.t = t;
   out.scale = scale;
   out.levels = -1;
+  out.layout = model_.layout;
   out.u.setZero(u.size(), levels + 3);
-  out.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()), levels + 1);
+  out.forces.resize(model_.force_count(), levels + 1);
   forcing.expand(t, scale, static_cast<std::size_t>(levels) + 3, out.forcing);
   out.u.col(0) = u;
   for (Eigen::Index i = 0; i < u.size(); ++i)

@@ -32,13 +32,14 @@ OrbitPoint orbit_point(double t, const Decision& after) {
           after.jet.a(),
           after.jet.forces.col(0),
           after.jet.forces.col(1),
-          after.system->kinds()};
+          after.system->kinds(),
+          after.system->unknowns().layout};
 }
 
 OrbitState orbit_state(const OrbitPoint& point) {
   OrbitState state{point.u, point.v, {}, {}};
   for (std::size_t c = 0; c < point.mode.size(); ++c) {
-    state.shears.push_back(point.forces[static_cast<Eigen::Index>(2 * c + 1)]);
+    state.shears.push_back(point.forces[static_cast<Eigen::Index>(point.layout.tangent(c))]);
     state.slips.push_back(slip_sign(point.mode[c].state));
   }
   return state;
@@ -117,7 +118,7 @@ Vector OrbitSection::coordinates(const Vector& u, const Vector& v, const Vector&
   Eigen::Index at = 0;
   for (const Eigen::Index i : u_) z[at++] = u[i];
   for (const Eigen::Index i : v_) z[at++] = v[i];
-  for (const std::size_t c : shears_) z[at++] = forces[static_cast<Eigen::Index>(2 * c + 1)];
+  for (const std::size_t c : shears_) z[at++] = forces[static_cast<Eigen::Index>(model_.layout.tangent(c))];
   return z.cwiseQuotient(scales_);
 }
 

@@ -25,8 +25,9 @@ struct OrbitState {
 struct OrbitPoint {
   double t = 0.0;
   Mode mode;
-  Vector u, v, a, forces, force_rates;  ///< forces: (N_1, T_1, N_2, ...)
+  Vector u, v, a, forces, force_rates;  ///< forces: in the order of `layout`
   std::vector<DofKind> kinds;           ///< of this mode
+  ForceLayout layout;
 };
 [[nodiscard]] OrbitPoint orbit_point(double t, const Decision& after);
 [[nodiscard]] OrbitState orbit_state(const OrbitPoint& point);

@@ -104,7 +104,7 @@ Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSectio
     slope[k] = Mv.dot(d.v) - Ma.dot(d.u);
     for (std::size_t c = 0; c < d.shears.size(); ++c)
       if (const auto& kt = model.contacts[c].tangential_stiffness)
-        slope[k] += pass.begin.forces[static_cast<Eigen::Index>(2 * c + 1)] * d.shears[c] / *kt;
+        slope[k] += pass.begin.forces[static_cast<Eigen::Index>(model.layout.tangent(c))] * d.shears[c] / *kt;
   }
   return unit * slope;
 }
@@ -127,7 +127,7 @@ double shears_left_out(const Model& model, const OrbitPass& pass) {
   double worst = 0.0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (!model.contacts[c].tangential_stiffness || pass.end.mode[c].state != State::stick) continue;
-    const auto T = static_cast<Eigen::Index>(2 * c + 1);
+    const auto T = static_cast<Eigen::Index>(model.layout.tangent(c));
     worst = std::max(worst, std::abs(pass.end.forces[T] - pass.begin.forces[T]));
   }
   return over(worst / model.scales.force, pass.T_amplitude);

@@ -88,11 +88,12 @@ void InstantWriter::side(const InstantRow& row, bool after) {
   numbers(s.v);
   numbers(s.a);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
+    const auto in_N = static_cast<Eigen::Index>(model_.layout.normal(k)),
+               in_T = static_cast<Eigen::Index>(model_.layout.tangent(k));
     block_.text(text_of(s.states[k].state))
         .number(s.states[k].anchor)
-        .number(s.forces[at])
-        .number(s.forces[at + 1]);
+        .number(s.forces[in_N])
+        .number(s.forces[in_T]);
     if (!after) {
       block_.empty().empty().empty().empty();
       continue;
@@ -103,7 +104,7 @@ void InstantWriter::side(const InstantRow& row, bool after) {
         blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", blow.turn, shortest(blow.normal),
                              shortest(blow.tangent));
     block_.text(blows);
-    for (const Eigen::Index i : {at, at + 1})
+    for (const Eigen::Index i : {in_N, in_T})
       if (row.captures.size() > 0)
         block_.number(row.captures[i]);
       else
@@ -181,12 +182,12 @@ void InstantReader::take_side(InstantSide& side, bool after) const {
   side.u = vector(heads);
   side.v = vector(heads + n);
   if (after) side.a = vector(heads + 2 * n);
-  side.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+  side.forces.resize(model_.force_count());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const std::size_t column = of_contact(k);
     side.states.push_back(state(k, column));
-    side.forces[static_cast<Eigen::Index>(2 * k)] = number(column + of_N);
-    side.forces[static_cast<Eigen::Index>(2 * k + 1)] = number(column + of_T);
+    side.forces[static_cast<Eigen::Index>(model_.layout.normal(k))] = number(column + of_N);
+    side.forces[static_cast<Eigen::Index>(model_.layout.tangent(k))] = number(column + of_T);
   }
 }
 
@@ -203,12 +204,10 @@ void InstantReader::take_impulses(std::size_t contact, std::size_t column, Insta
       fail(column + of_blows, "turn:Pn:Pt between blanks");
     row.blows.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
   }
-  const auto at = static_cast<Eigen::Index>(2 * contact);
   if (!reader_.cell(column + of_capture_n).empty()) {
-    if (row.captures.size() == 0)
-      row.captures = Vector::Zero(static_cast<Eigen::Index>(2 * model_.contacts.size()));
-    row.captures[at] = number(column + of_capture_n);
-    row.captures[at + 1] = number(column + of_capture_t);
+    if (row.captures.size() == 0) row.captures = Vector::Zero(model_.force_count());
+    row.captures.data()[model_.layout.normal(contact)] = number(column + of_capture_n);
+    row.captures.data()[model_.layout.tangent(contact)] = number(column + of_capture_t);
   }
   if (flag(column + of_released)) row.released.push_back(static_cast<int>(contact));
 }

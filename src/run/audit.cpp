@@ -206,8 +206,8 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     ContactMotion m;
-    m.N = point.N(k);
-    m.T = point.T(k);
+    m.N = point.N(model_.layout, k);
+    m.T = point.T(model_.layout, k);
     m.gap = contact.gap_at(point.u);
     m.vn = gap_rate(contact, point.v);
     const double springs = stored_energy(contact, mode[k].state, m);

@@ -19,13 +19,14 @@ struct OutputReading {
 
 /// The value of a linear output; losses: of all contacts.
 [[nodiscard]] double value_of(const Output& output, double t, Side side, const Point& point,
-                              const std::vector<double>& losses);
+                              const ForceLayout& layout, const std::vector<double>& losses);
 [[nodiscard]] OutputReading reading_of(const Output& output, double t, Side side, const Point& point,
-                                       const std::vector<double>& losses);
+                                       const ForceLayout& layout, const std::vector<double>& losses);
 /// Extremes along the i-th of its stretches, as places of the output.
 [[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i, const Along::Values& values);
 
 /// Sum of the magnitudes of the terms of a linear output: what rounding is relative to.
-[[nodiscard]] double magnitude_of(const Output& output, double t, Side side, const Point& point);
+[[nodiscard]] double magnitude_of(const Output& output, double t, Side side, const Point& point,
+                                  const ForceLayout& layout);
 
 }  // namespace signorini

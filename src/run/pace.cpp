@@ -49,11 +49,11 @@ Reach reach_of(const Stepper& engine, const Output& linear) {
   return {engine.reach(linear.u), engine.reach(linear.v), engine.reach(linear.a)};
 }
 
-double added(const Ripple& ripple, const Reach& reach, const Output& linear) {
+double added(const Ripple& ripple, const Reach& reach, const Output& linear, const ForceLayout& layout) {
   double sum = reach.u * ripple.u + reach.v * ripple.v + reach.a * ripple.a;
   for (const Output::ContactForces& f : linear.forces)
-    sum += std::abs(f.N) * ripple.forces[static_cast<Eigen::Index>(normal_slot(f.contact))] +
-           std::abs(f.T) * ripple.forces[static_cast<Eigen::Index>(tangent_slot(f.contact))];
+    sum += std::abs(f.N) * ripple.forces[static_cast<Eigen::Index>(layout.normal(f.contact))] +
+           std::abs(f.T) * ripple.forces[static_cast<Eigen::Index>(layout.tangent(f.contact))];
   return sum;
 }
 

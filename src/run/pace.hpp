@@ -21,7 +21,8 @@ struct Reach {
 };
 [[nodiscard]] Reach reach_of(const Stepper& engine, const Output& linear);
 /// What a ripple may add to it.
-[[nodiscard]] double added(const Ripple& ripple, const Reach& reach, const Output& linear);
+[[nodiscard]] double added(const Ripple& ripple, const Reach& reach, const Output& linear,
+                           const ForceLayout& layout);
 
 /// All rates in rad per time.
 class Pace {

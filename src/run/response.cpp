@@ -61,7 +61,8 @@ ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorde
 void ResponseWatch::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
                              std::vector<OutputReading>& readings) const {
   readings.clear();
-  for (const Output& output : model_.outputs) readings.push_back(reading_of(output, t, side, point, losses));
+  for (const Output& output : model_.outputs)
+    readings.push_back(reading_of(output, t, side, point, model_.layout, losses));
 }
 
 void ResponseWatch::see(std::size_t i, double t, const OutputReading& r) {
@@ -109,7 +110,7 @@ void ResponseWatch::row(double t, Side side, const Point& point, const std::vect
   before_t_ = -1.0;
   write(t, readings_);
   for (const Output& sum : model_.reaction_sums) {
-    const double off = std::abs(value_of(sum, t, side, point, none_));
+    const double off = std::abs(value_of(sum, t, side, point, model_.layout, none_));
     if (off > reactions_.value) reactions_ = {off, t, -1};
   }
 }
@@ -130,7 +131,8 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
     engine.evaluate(end, point_);
     engine.accelerate(end, point_);
     for (std::size_t i = 0; i < at_end.size(); ++i)
-      if (at_end[i] != 0) see(i, end, reading_of(model_.outputs[i], end, Side::before, point_, none_));
+      if (at_end[i] != 0)
+        see(i, end, reading_of(model_.outputs[i], end, Side::before, point_, model_.layout, none_));
   }
   radian_ = 1.0 / turning(engine, {begin, end, open});
   const double pieces = std::max(1.0, std::ceil((end - begin) / (longest * radian_)));
@@ -182,8 +184,8 @@ bool ResponseWatch::is_rounding(const Ripple& ripple, const Ripple& whole) const
     double magnitude = 0.0, most = 0.0, terms = 0.0;
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
       magnitude = std::max(magnitude, magnitudes_[i]);
-      most = std::max(most, added(ripple, reaches_[i], *forms_[i]));
-      terms = std::max(terms, added(whole, reaches_[i], *forms_[i]));
+      most = std::max(most, added(ripple, reaches_[i], *forms_[i], model_.layout));
+      terms = std::max(terms, added(whole, reaches_[i], *forms_[i], model_.layout));
     }
     const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));
     const double counts =
@@ -221,9 +223,9 @@ void ResponseWatch::sample(Stepper& engine, const Part& part, double begin, std:
     if (part.open[k] == 0) continue;
     const Watched& watched = watched_[k];
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
-      samples_[i][point] = value_of(*forms_[i], t, side, point_, none_);
+      samples_[i][point] = value_of(*forms_[i], t, side, point_, model_.layout, none_);
       if (watched.stretch < 0 || point == 0)  // of the many points of stretches the beginning will do
-        magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_));
+        magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_, model_.layout));
     }
     const double value = samples_[watched.first][point];
     if (watched.stretch < 0) see(watched.output, t, {value, value, value, {}, {}});
@@ -285,7 +287,7 @@ void ResponseWatch::see_motion(const Watched& watched, Stepper& engine, double t
   const Output& output = model_.outputs[watched.output];
   Along::Values values{};
   for (std::size_t i = 0; i < watched.count; ++i)
-    values[i] = value_of(*forms_[watched.first + i], t, Side::before, point_, none_);
+    values[i] = value_of(*forms_[watched.first + i], t, Side::before, point_, model_.layout, none_);
   see(watched.output, t,
       watched.stretch < 0 ? OutputReading{values[0], values[0], values[0], {}, {}}
                           : along_stretch(output, static_cast<std::size_t>(watched.stretch), values));

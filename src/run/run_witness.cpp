@@ -144,11 +144,11 @@ void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, con
 namespace {
 
 /// What springs that a contact borrows give along n and t, beside the motion of its surfaces.
-std::pair<double, double> borrowed(const Contact& c, std::size_t k, const Vector& forces) {
+std::pair<double, double> borrowed(const Contact& c, const ForceLayout& layout, std::size_t k,
+                                   const Vector& forces) {
   if (!c.compliance_split()) return {0.0, 0.0};
-  const auto at = static_cast<Eigen::Index>(2 * k);
-  return {forces[at] / c.normal_stiffness,
-          c.tangential_stiffness ? forces[at + 1] / *c.tangential_stiffness : 0.0};
+  return {forces.data()[layout.normal(k)] / c.normal_stiffness,
+          c.tangential_stiffness ? forces.data()[layout.tangent(k)] / *c.tangential_stiffness : 0.0};
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ void RunWitness::start_peaks(const Instant& now) {
   passed_.resize(model_.contacts.size());
   for (std::size_t k = 0; k < passed_.size(); ++k) {
     const Contact& c = model_.contacts[k];
-    const auto [n, t] = borrowed(c, k, now.decision->jet.forces.col(0));
+    const auto [n, t] = borrowed(c, model_.layout, k, now.decision->jet.forces.col(0));
     passed_[k].g0 = c.normal.dot(now.decision->u) - n;
     passed_[k].ut0 = c.body_tangent().dot(now.decision->u) - now.forcing_after->surface(k, now.t, 0) - t;
   }
@@ -170,11 +170,10 @@ void RunWitness::passes(double t, const Forcing& forcing, const Point& point) {
 void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const Point& point) {
   if (engine_.limits.step > 0.0) return;  // peaks are those of the ends of steps
   const Contact& c = model_.contacts[k];
-  const auto at = static_cast<Eigen::Index>(2 * k);
   PassedPeak& p = passed_[k];
-  p.most.N = std::max(p.most.N, std::abs(point.forces[at]));
-  p.most.T = std::max(p.most.T, std::abs(point.forces[at + 1]));
-  const auto [along_n, along_t] = borrowed(c, k, point.forces);
+  p.most.N = std::max(p.most.N, std::abs(point.N(model_.layout, k)));
+  p.most.T = std::max(p.most.T, std::abs(point.T(model_.layout, k)));
+  const auto [along_n, along_t] = borrowed(c, model_.layout, k, point.forces);
   p.most.normal = std::max(p.most.normal, std::abs(c.normal.dot(point.u) - along_n - p.g0));
   const double ut = c.body_tangent().dot(point.u) - forcing.surface(k, t, 0) - along_t;
   p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));

@@ -76,7 +76,7 @@ std::optional<std::string> shared_motion(const Model& model, const Decision& dec
   if (decision.system)
     for (const SharedForces& shared : decision.system->factorised().shared)
       for (std::size_t i = 0; i < shared.rows.size(); ++i)
-        if (const std::string& name = model.contacts[shared.rows[i] / 2].name;
+        if (const std::string& name = model.contacts[model.layout.contact_of(shared.rows[i])].name;
             has_share(shared.null, static_cast<Eigen::Index>(i)) && (names.empty() || names.back() != name))
           names.push_back(name);
   // At its limit, and the guard of its slip is asleep: others hold it.

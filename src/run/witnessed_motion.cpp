@@ -70,10 +70,10 @@ std::vector<ContactState> left_states(const Model& model, const std::vector<Cont
 }
 
 Vector left_forces(const Model& model) {
-  Vector forces = Vector::Zero(static_cast<Eigen::Index>(2 * model.contacts.size()));
+  Vector forces = Vector::Zero(model.force_count());
   for (std::size_t k = 0; k < model.continues.size(); ++k) {
-    forces[static_cast<Eigen::Index>(2 * k)] = model.continues[k].N;
-    forces[static_cast<Eigen::Index>(2 * k + 1)] = model.continues[k].T;
+    forces[static_cast<Eigen::Index>(model.layout.normal(k))] = model.continues[k].N;
+    forces[static_cast<Eigen::Index>(model.layout.tangent(k))] = model.continues[k].T;
   }
   return forces;
 }
@@ -116,6 +116,7 @@ Driven WitnessedMotion::driven_at(std::size_t k, const Forcing& forcing, double 
 }
 
 void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const {
+  side.layout = model_.layout;
   for (std::size_t turns : {0U, 1U}) {
     // From one instant to the next it goes as far as the scene's displacements, though it be at rest at both.
     const double own = turns ? model_.scales.rotation : model_.scales.displacement;

@@ -39,10 +39,11 @@ ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& fo
   return motion_of(contact, k, forcing, t, Point{point.u, point.v, point.forces, point.a});
 }
 
-ContactMotion time_rate(std::size_t k, const ContactMotion& m, const SeriesPoint& point) {
+ContactMotion time_rate(const ForceLayout& layout, std::size_t k, const ContactMotion& m,
+                        const SeriesPoint& point) {
   ContactMotion rate;
-  rate.N = point.force_rates[static_cast<Eigen::Index>(normal_slot(k))];
-  rate.T = point.force_rates[static_cast<Eigen::Index>(tangent_slot(k))];
+  rate.N = point.force_rates[static_cast<Eigen::Index>(layout.normal(k))];
+  rate.T = point.force_rates[static_cast<Eigen::Index>(layout.tangent(k))];
   rate.gap = m.vn;
   rate.ut = m.vt;
   rate.vn = m.an;
@@ -51,11 +52,12 @@ ContactMotion time_rate(std::size_t k, const ContactMotion& m, const SeriesPoint
   return rate;
 }
 
-ContactMotion parameter_rate(const Contact& contact, const ContactRates& rates, std::size_t k,
-                             const SeriesPoint& point, const SeriesPoint& w, const DrivenRates& driven) {
+ContactMotion parameter_rate(const Contact& contact, const ContactRates& rates, const ForceLayout& layout,
+                             std::size_t k, const SeriesPoint& point, const SeriesPoint& w,
+                             const DrivenRates& driven) {
   ContactMotion m;
-  m.N = w.forces[static_cast<Eigen::Index>(normal_slot(k))];
-  m.T = w.forces[static_cast<Eigen::Index>(tangent_slot(k))];
+  m.N = w.forces[static_cast<Eigen::Index>(layout.normal(k))];
+  m.T = w.forces[static_cast<Eigen::Index>(layout.tangent(k))];
   m.gap = contact.normal.dot(w.u) + rates.normal.dot(point.u) + rates.gap;
   m.vn = contact.normal.dot(w.v) + rates.normal.dot(point.v);
   m.an = contact.normal.dot(w.a) + rates.normal.dot(point.a);
@@ -76,14 +78,15 @@ ContactMotion sum(const ContactMotion& a, const ContactMotion& b, double factor)
   return m;
 }
 
-WatchedMotion watched(const Contact& contact, std::size_t k, const Vector& u0, const SeriesPoint& point,
-                      const Vector& force_bends) {
-  const auto n = static_cast<Eigen::Index>(normal_slot(k));
+WatchedMotion watched(const Contact& contact, const ForceLayout& layout, std::size_t k, const Vector& u0,
+                      const SeriesPoint& point, const Vector& force_bends) {
+  const auto n = static_cast<Eigen::Index>(layout.normal(k)),
+             t = static_cast<Eigen::Index>(layout.tangent(k));
   const Combination& body = contact.body_tangent();
   const Vector moved = point.u - u0;
-  return {{point.forces[n], point.forces[n + 1], contact.normal.dot(moved), body.dot(moved)},
-          {point.force_rates[n], point.force_rates[n + 1], contact.normal.dot(point.v), body.dot(point.v)},
-          {force_bends[n], force_bends[n + 1], contact.normal.dot(point.a), body.dot(point.a)}};
+  return {{point.forces[n], point.forces[t], contact.normal.dot(moved), body.dot(moved)},
+          {point.force_rates[n], point.force_rates[t], contact.normal.dot(point.v), body.dot(point.v)},
+          {force_bends[n], force_bends[t], contact.normal.dot(point.a), body.dot(point.a)}};
 }
 
 BodySlide slide_rate(const Contact& contact, const ContactRates& rates, const SeriesPoint& point,

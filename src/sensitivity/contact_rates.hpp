@@ -26,11 +26,12 @@ struct DrivenRates {
 [[nodiscard]] ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing, double t,
                                       const SeriesPoint& point);
 /// Its derivative by time; those of g'' and ut'' are left at zero.
-[[nodiscard]] ContactMotion time_rate(std::size_t k, const ContactMotion& motion, const SeriesPoint& point);
+[[nodiscard]] ContactMotion time_rate(const ForceLayout& layout, std::size_t k, const ContactMotion& motion,
+                                      const SeriesPoint& point);
 /// Its derivative by the parameter at fixed time.
-[[nodiscard]] ContactMotion parameter_rate(const Contact& contact, const ContactRates& rates, std::size_t k,
-                                           const SeriesPoint& point, const SeriesPoint& tangent,
-                                           const DrivenRates& driven);
+[[nodiscard]] ContactMotion parameter_rate(const Contact& contact, const ContactRates& rates,
+                                           const ForceLayout& layout, std::size_t k, const SeriesPoint& point,
+                                           const SeriesPoint& tangent, const DrivenRates& driven);
 /// a + factor b
 [[nodiscard]] ContactMotion sum(const ContactMotion& a, const ContactMotion& b, double factor);
 
@@ -38,8 +39,8 @@ struct DrivenRates {
 struct WatchedMotion {
   std::array<double, 4> values{}, slopes{}, bends{};
 };
-[[nodiscard]] WatchedMotion watched(const Contact& contact, std::size_t k, const Vector& u0,
-                                    const SeriesPoint& point, const Vector& force_bends);
+[[nodiscard]] WatchedMotion watched(const Contact& contact, const ForceLayout& layout, std::size_t k,
+                                    const Vector& u0, const SeriesPoint& point, const Vector& force_bends);
 
 /// The body's own ut and ut': those of the motion unless there is a shear element.
 [[nodiscard]] BodySlide slide_rate(const Contact& contact, const ContactRates& rates,

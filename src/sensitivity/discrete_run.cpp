@@ -60,7 +60,7 @@ void DiscreteRun::begin(const ObservedInstant& start) {
     moved.u = d.u0;
     moved.v = d.v0;
     moved.a = Vector::Zero(model_.size());
-    moved.forces = Vector::Zero(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+    moved.forces = Vector::Zero(model_.force_count());
     const ForcingRatesSeries series = forcing_at(moved_.size() - 1, 0.0);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
@@ -72,9 +72,7 @@ void DiscreteRun::begin(const ObservedInstant& start) {
       moved.anchors.push_back(anchor);
     }
   }
-  node_ = {0.0,
-           {model_.u0, model_.v0, Vector::Zero(static_cast<Eigen::Index>(2 * model_.contacts.size())),
-            Vector::Zero(model_.size())}};
+  node_ = {0.0, {model_.u0, model_.v0, Vector::Zero(model_.force_count()), Vector::Zero(model_.size())}};
   pass(start);
   rows_at(start);
 }
@@ -107,8 +105,8 @@ ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const Forcing& fo
                                  const Moved& moved, const ForcingRatesSeries& series) const {
   const Contact& contact = model_.contacts[c];
   const DrivenRates driven = driven_rates(series, 1.0, c, 0.0);
-  ContactMotion m = parameter_rate(contact, states_[p].derivative.contacts[c], c, point_of(at.point),
-                                   {moved.u, moved.v, moved.a, moved.forces, {}}, driven);
+  ContactMotion m = parameter_rate(contact, states_[p].derivative.contacts[c], model_.layout, c,
+                                   point_of(at.point), {moved.u, moved.v, moved.a, moved.forces, {}}, driven);
   m.ut -= moved.t * forcing.surface(c, at.t, 1);
   m.vt -= moved.t * forcing.surface(c, at.t, 2);
   m.at -= moved.t * forcing.surface(c, at.t, 3);
@@ -124,8 +122,8 @@ void DiscreteRun::add_rows(std::size_t p, const Forcing& forcing, const Ends& en
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactRates& rates = d.contacts[c];
-    rates.normal.add_to(x_, -end.N(c));
-    rates.tangent.add_to(x_, -end.T(c));
+    rates.normal.add_to(x_, -end.N(model_.layout, c));
+    rates.tangent.add_to(x_, -end.T(model_.layout, c));
     const ContactMotion m = motion_of(contact, c, forcing, ends.to.t, end);
     const ContactMotion D = along(p, c, forcing, ends.to, known, ends.forcing);
     const Rows row = rows(contact, mode_[c]);
@@ -135,8 +133,8 @@ void DiscreteRun::add_rows(std::size_t p, const Forcing& forcing, const Ends& en
       q += rates.tangential_stiffness * mode_[c].anchor +
            *contact.tangential_stiffness * ends.moved.anchors[c];
     const auto n = static_cast<Eigen::Index>(model_.size());
-    x_[n + static_cast<Eigen::Index>(normal_slot(c))] = -r;
-    x_[n + static_cast<Eigen::Index>(tangent_slot(c))] = -q;
+    x_[n + static_cast<Eigen::Index>(model_.layout.normal(c))] = -r;
+    x_[n + static_cast<Eigen::Index>(model_.layout.tangent(c))] = -q;
   }
 }
 

@@ -30,7 +30,7 @@ void LandingRecord::offer(std::size_t c, double force, const std::vector<double>
 void LandingRecord::turn(const TangentSample& s) {
   for (std::size_t c = 0; c < all_.size(); ++c) {
     if (!lasts_[c]) continue;
-    const auto n = static_cast<Eigen::Index>(normal_slot(c));
+    const auto n = static_cast<Eigen::Index>(model_.layout.normal(c));
     std::vector<double> rates;
     for (const SeriesPoint& w : s.tangents) rates.push_back(w.u.size() > 0 ? -w.forces[n] : EventRates::none);
     offer(c, -s.point.forces[n], rates);

@@ -124,10 +124,12 @@ WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, c
     const Contact& contact = model_.contacts[c];
     const ContactRates& rates = derivative_.contacts[c];
     dt_of.push_back(after.rates[c].t);
-    s.D_before.push_back(sum(parameter_rate(contact, rates, c, m.before, before.point, before.driven[c]),
-                             m.rate_before[c], dt_of[c]));
-    s.D_after.push_back(sum(parameter_rate(contact, rates, c, m.after, after.point, after.driven[c]),
-                            m.rate_after[c], dt_of[c]));
+    s.D_before.push_back(
+        sum(parameter_rate(contact, rates, model_.layout, c, m.before, before.point, before.driven[c]),
+            m.rate_before[c], dt_of[c]));
+    s.D_after.push_back(
+        sum(parameter_rate(contact, rates, model_.layout, c, m.after, after.point, after.driven[c]),
+            m.rate_after[c], dt_of[c]));
   }
   works.shift(now.forcing_before, now.t, now.mode_before, m.before, m.motion_before, after.dt, dt_of);
   add_impact(s, works.now());

@@ -327,21 +327,22 @@ class ModalStretchOf final : public ModalStretch {
 
   void tell_forces(TangentsAt& at) const {
     SeriesPoint& m = at.motion;
-    const auto rows = static_cast<Eigen::Index>(2 * model_.contacts.size());
+    const auto rows = model_.force_count();
     m.forces.resize(rows);
     m.force_rates.resize(rows);
     at.force_bends.resize(rows);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ForceLaw& law = laws_[c];
-      const auto n = static_cast<Eigen::Index>(normal_slot(c));
+      const auto n = static_cast<Eigen::Index>(model_.layout.normal(c)),
+                 t = static_cast<Eigen::Index>(model_.layout.tangent(c));
       const double ut = contact.tangent.dot(m.u) - forcing_.surface(c, begin_, 0);
       m.forces[n] = law.N(contact.gap_at(m.u));
-      m.forces[n + 1] = law.T(contact.gap_at(m.u), ut);
+      m.forces[t] = law.T(contact.gap_at(m.u), ut);
       for (const auto& [of, out] : {std::pair{&m.v, &m.force_rates}, std::pair{&m.a, &at.force_bends}}) {
         const double normal = contact.normal.dot(*of), tangent = contact.tangent.dot(*of);
         (*out)[n] = law.N_rate(normal);
-        (*out)[n + 1] = law.T_rate(normal, tangent);
+        (*out)[t] = law.T_rate(normal, tangent);
       }
     }
   }
@@ -353,17 +354,18 @@ class ModalStretchOf final : public ModalStretch {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = derivatives_[p]->contacts[c];
       const LawRates at = law_rates(contact, c, mode_[c], rates, forcing_, begin_, sources_[p]);
-      const auto n = static_cast<Eigen::Index>(normal_slot(c));
+      const auto n = static_cast<Eigen::Index>(model_.layout.normal(c)),
+                 t = static_cast<Eigen::Index>(model_.layout.tangent(c));
       const double gap = contact.gap_at(m.u), ut = contact.tangent.dot(m.u) - at.surface;
       const double gap_p = contact.normal.dot(w.u) + rates.normal.dot(m.u) + at.gap_rate;
       const double ut_p = contact.tangent.dot(w.u) + rates.tangent.dot(m.u) - at.surface_rate;
       w.forces[n] = at.N_by(gap, gap_p);
-      w.forces[n + 1] = at.T_by(gap, gap_p, ut, ut_p);
+      w.forces[t] = at.T_by(gap, gap_p, ut, ut_p);
       const double vn = contact.normal.dot(m.v), vt = contact.tangent.dot(m.v);
       const double vn_p = contact.normal.dot(w.v) + rates.normal.dot(m.v);
       const double vt_p = contact.tangent.dot(w.v) + rates.tangent.dot(m.v);
       w.force_rates[n] = at.N_rate_by(vn, vn_p);
-      w.force_rates[n + 1] = at.T_rate_by(vn, vn_p, vt, vt_p);
+      w.force_rates[t] = at.T_rate_by(vn, vn_p, vt, vt_p);
     }
   }
 

@@ -93,10 +93,10 @@ void RateRecord::add_row(const TangentSample& s) {
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = derivatives_[p].contacts[c];
-      const ContactMotion m = parameter_rate(contact, rates, c, s.point, w, s.driven[p][c]);
+      const ContactMotion m = parameter_rate(contact, rates, model_.layout, c, s.point, w, s.driven[p][c]);
       const double body = slide_rate(contact, rates, s.point, w, s.driven[p][c]).ut;
       const double kt = contact.tangential_stiffness.value_or(0.0);
-      const double T = s.point.forces[static_cast<Eigen::Index>(tangent_slot(c))];
+      const double T = s.point.forces[static_cast<Eigen::Index>(model_.layout.tangent(c))];
       double slip = m.ut;
       if (kt > 0.0) slip = m.ut - m.T / kt + T * rates.tangential_stiffness / (kt * kt);
       if (kt > 0.0 && s.mode[c].state == State::stick) slip = s.anchors[p][c];
@@ -117,7 +117,8 @@ void RateRecord::add_energies(const TangentSample& s, std::size_t p, std::vector
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     motions.push_back(motion_of(contact, c, s.forcing, s.t, s.point));
-    rates.push_back(parameter_rate(contact, derivatives_[p].contacts[c], c, s.point, w, s.driven[p][c]));
+    rates.push_back(
+        parameter_rate(contact, derivatives_[p].contacts[c], model_.layout, c, s.point, w, s.driven[p][c]));
   }
   Energy e =
       WorkTangent(model_, derivatives_[p]).stored({s.mode, s.point.u, s.point.v, w.u, w.v, motions, rates});
@@ -143,8 +144,9 @@ void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
   if (std::abs(s.t - instant_) <= resolution_) return;
   const Contact& contact = model_.contacts[c];
   const Vector first = s.point.u - model_.u0;
-  const auto n = static_cast<Eigen::Index>(normal_slot(c));
-  const auto [values, unused, bends] = watched(contact, c, model_.u0, s.point, s.force_bends);
+  const auto n = static_cast<Eigen::Index>(model_.layout.normal(c)),
+             t = static_cast<Eigen::Index>(model_.layout.tangent(c));
+  const auto [values, unused, bends] = watched(contact, model_.layout, c, model_.u0, s.point, s.force_bends);
   for (std::size_t which = 0; which < values.size(); ++which) {
     if (!(std::abs(values[which]) > peaks_[c][which].size)) continue;
     Seen seen{values[which], true, {}, {}};
@@ -155,10 +157,10 @@ void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
         const ContactRates& rates = derivatives_[p].contacts[c];
         const Vector moved = w.u - derivatives_[p].u0;
         const std::array<double, 4> by_p = {
-            w.forces[n], w.forces[n + 1], contact.normal.dot(moved) + rates.normal.dot(first),
+            w.forces[n], w.forces[t], contact.normal.dot(moved) + rates.normal.dot(first),
             contact.body_tangent().dot(moved) + rates.body_tangent.dot(first)};
         const std::array<double, 4> slopes = {
-            w.force_rates[n], w.force_rates[n + 1], contact.normal.dot(w.v) + rates.normal.dot(s.point.v),
+            w.force_rates[n], w.force_rates[t], contact.normal.dot(w.v) + rates.normal.dot(s.point.v),
             contact.body_tangent().dot(w.v) + rates.body_tangent.dot(s.point.v)};
         rate = by_p[which];
         bent = bends[which] != 0.0 ? -slopes[which] / bends[which] : nothing;

@@ -33,7 +33,7 @@ std::vector<double> pressing_turns(const Model& model, const ObservedStep& step)
   std::vector<double> turns;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (model.contacts[c].normal_force_given() || step.decision.mode[c].is_open()) continue;
-    const auto row = static_cast<Eigen::Index>(normal_slot(c));
+    const auto row = static_cast<Eigen::Index>(model.layout.normal(c));
     const auto slope = [&](double x) {
       double sum = 0.0;
       for (std::size_t k = e.degree; k > 0; --k)

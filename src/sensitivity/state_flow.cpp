@@ -185,17 +185,18 @@ void StateFlow::tell(const Mode& mode, const Eigen::MatrixXd& moved, const Eigen
     w.v = state.now.start.v = moved.col(columns + j);
     w.a = Vector::Zero(model_.size());
     for (std::size_t i = 0; i < felt_.size(); ++i) w.a[felt_[i]] = seen(static_cast<Eigen::Index>(i), j);
-    w.forces = w.force_rates = Vector::Zero(static_cast<Eigen::Index>(2 * mode.size()));
+    w.forces = w.force_rates = Vector::Zero(model_.force_count());
     for (std::size_t c = 0; c < mode.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ForceLaw law = force_law(contact, mode[c], 0.0);
-      const auto slot = static_cast<Eigen::Index>(normal_slot(c));
+      const auto slot = static_cast<Eigen::Index>(model_.layout.normal(c)),
+                 t = static_cast<Eigen::Index>(model_.layout.tangent(c));
       w.forces[slot] = law.N_rate(contact.normal.dot(w.u));
-      w.forces[slot + 1] = law.T_rate(contact.normal.dot(w.u), contact.tangent.dot(w.u));
+      w.forces[t] = law.T_rate(contact.normal.dot(w.u), contact.tangent.dot(w.u));
       if (contact.tangential_stiffness && mode[c].state == State::stick)
-        w.forces[slot + 1] -= *contact.tangential_stiffness * state.now.start.anchors[c];
+        w.forces[t] -= *contact.tangential_stiffness * state.now.start.anchors[c];
       w.force_rates[slot] = law.N_rate(contact.normal.dot(w.v));
-      w.force_rates[slot + 1] = law.T_rate(contact.normal.dot(w.v), contact.tangent.dot(w.v));
+      w.force_rates[t] = law.T_rate(contact.normal.dot(w.v), contact.tangent.dot(w.v));
     }
     ++j;
   }

@@ -219,9 +219,9 @@ void TangentEvents::look_at_holds(Course& course) const {
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const State state = m.instant.after.mode[c].state;
-    const ContactMotion D =
-        sum(parameter_rate(contact, derivative_.contacts[c], c, m.after, after.point, after.driven[c]),
-            m.rate_after[c], course.dt_of(c));
+    const ContactMotion D = sum(parameter_rate(contact, derivative_.contacts[c], model_.layout, c, m.after,
+                                               after.point, after.driven[c]),
+                                m.rate_after[c], course.dt_of(c));
     const Scales& scales = model_.scales;
     bool held = true;
     if (contact.takes_impulses() && !is_open(state))
@@ -249,8 +249,8 @@ void TangentEvents::look_for_kinks(Course& course) const {
     const std::size_t c = contact_of_guard(slot);
     const Contact& contact = model_.contacts[c];
     const double dt = course.dt_of(c);
-    const ContactMotion p = parameter_rate(contact, derivative_.contacts[c], c, m.after, course.after.point,
-                                           course.after.driven[c]);
+    const ContactMotion p = parameter_rate(contact, derivative_.contacts[c], model_.layout, c, m.after,
+                                           course.after.point, course.after.driven[c]);
     const Form& form_rate =
         derivative_.contacts[c].guards[index_of(decision.mode[c].state)][guard_within(slot)];
     const ContactMotion D = sum(p, m.rate_after[c], dt);
@@ -280,9 +280,9 @@ void TangentEvents::fill_rates(Course& course) const {
     const ContactRates& rates = derivative_.contacts[c];
     const double dt = course.dt_of(c);
     const ContactMotion before = sum(course.p_before[c], m.rate_before[c], dt);
-    const ContactMotion after =
-        sum(parameter_rate(contact, rates, c, m.after, course.after.point, course.after.driven[c]),
-            m.rate_after[c], dt);
+    const ContactMotion after = sum(
+        parameter_rate(contact, rates, model_.layout, c, m.after, course.after.point, course.after.driven[c]),
+        m.rate_after[c], dt);
     const double t = m.instant.t;
     EventRates row;
     row.t = dt;
@@ -311,8 +311,8 @@ TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefor
   const std::size_t count = model_.contacts.size();
   course.own.resize(count);
   for (std::size_t c = 0; c < count; ++c)
-    course.p_before.push_back(parameter_rate(model_.contacts[c], derivative_.contacts[c], c, motion.before,
-                                             before.point, before.driven[c]));
+    course.p_before.push_back(parameter_rate(model_.contacts[c], derivative_.contacts[c], model_.layout, c,
+                                             motion.before, before.point, before.driven[c]));
   find_times(course);
   if (course.after.reason.empty()) move_state(course);
   if (course.after.reason.empty()) move_anchors(course);

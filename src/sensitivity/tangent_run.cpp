@@ -70,7 +70,7 @@ void TangentRun::begin(const ObservedInstant& start) {
   end_.u = model_.u0;
   end_.v = model_.v0;
   end_.a = Vector::Zero(model_.size());
-  end_.forces = end_.force_rates = Vector::Zero(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+  end_.forces = end_.force_rates = Vector::Zero(model_.force_count());
   for (TangentState& state : states_) {
     const ModelDerivative& d = state.derivative;
     ForcingRatesSeries series;
@@ -227,7 +227,8 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const O
   double at = t;
   for (int i = 0; i < most_turn_steps; ++i) {
     const TangentsAt here = modal_->motion(at);
-    const WatchedMotion m = watched(model_.contacts[c], c, model_.u0, here.motion, here.force_bends);
+    const WatchedMotion m =
+        watched(model_.contacts[c], model_.layout, c, model_.u0, here.motion, here.force_bends);
     if (m.bends[which] == 0.0) return t;
     const double next = at - m.slopes[which] / m.bends[which];
     if (!(next > step.step.begin && next < step.step.end)) return t;
@@ -244,7 +245,8 @@ std::vector<double> TangentRun::turns_in_modes(const ObservedStep& step) const {
     if (t < step.step.begin || t > step.step.end) continue;
     const TangentsAt here = modal_->motion(t);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-      const WatchedMotion m = watched(model_.contacts[c], c, model_.u0, here.motion, here.force_bends);
+      const WatchedMotion m =
+          watched(model_.contacts[c], model_.layout, c, model_.u0, here.motion, here.force_bends);
       for (std::size_t which = 0; which < m.values.size(); ++which)
         if (listener_.exceeds(c, which, m.values[which])) turns.push_back(turn_near(t, c, which, step));
     }
@@ -346,9 +348,9 @@ void TangentRun::pass(const ObservedInstant& instant) {
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     motion.motion_before.push_back(motion_of(contact, c, instant.forcing_before, instant.t, end_));
-    motion.rate_before.push_back(time_rate(c, motion.motion_before[c], end_));
+    motion.rate_before.push_back(time_rate(model_.layout, c, motion.motion_before[c], end_));
     motion.motion_after.push_back(motion_of(contact, c, instant.forcing_after, instant.t, after));
-    motion.rate_after.push_back(time_rate(c, motion.motion_after[c], after));
+    motion.rate_after.push_back(time_rate(model_.layout, c, motion.motion_after[c], after));
   }
   for (TangentState& state : states_) {
     state.rates.assign(model_.contacts.size(), EventRates{});

@@ -113,7 +113,7 @@ TangentSeries::TangentSeries(const Model& model, const Structure& structure,
                 0),
       forms_(std::any_of(derivative.contacts.begin(), derivative.contacts.end(),
                          [](const ContactRates& c) { return any(c.normal) || any(c.tangent); })),
-      x_(static_cast<std::size_t>(model.size()) + 2 * model.contacts.size()),
+      x_(static_cast<std::size_t>(model.size() + model.force_count())),
       work_(x_.size()),
       known_u_(static_cast<std::size_t>(model.size())),
       known_v_(known_u_.size()) {
@@ -131,7 +131,7 @@ void TangentSeries::begin(const ModeSystem& system, const Series& motion, const 
   levels_ = -1;
   constexpr int columns = most_tangent_levels + 3;
   u_.setZero(model_.size(), columns);
-  forces_.setZero(static_cast<Eigen::Index>(2 * model_.contacts.size()), columns);
+  forces_.setZero(model_.force_count(), columns);
   forcing.expand(motion.t, motion.scale, motion.forcing.count, forcing_);
   friction_.clear();
   for (const std::size_t c : system.factorised().by_rate)
@@ -196,9 +196,10 @@ void TangentSeries::add_sources(int k) {
   if (!forms_) return;
   double* const x = x_.data();
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    const auto at = static_cast<Eigen::Index>(normal_slot(c));
-    derivative_.contacts[c].normal.add_to(x, -motion_->forces(at, k));
-    derivative_.contacts[c].tangent.add_to(x, -motion_->forces(at + 1, k));
+    derivative_.contacts[c].normal.add_to(
+        x, -motion_->forces(static_cast<Eigen::Index>(model_.layout.normal(c)), k));
+    derivative_.contacts[c].tangent.add_to(
+        x, -motion_->forces(static_cast<Eigen::Index>(model_.layout.tangent(c)), k));
   }
 }
 
@@ -222,8 +223,8 @@ void TangentSeries::add_rows(int k) {
       const auto u = s.u.col(k), v = s.u.col(k + 1), a = s.u.col(k + 2);
       const std::size_t f = index_in(s, c, k);
       ContactMotion m;
-      m.N = s.forces(static_cast<Eigen::Index>(normal_slot(c)), k);
-      m.T = s.forces(static_cast<Eigen::Index>(tangent_slot(c)), k);
+      m.N = s.forces(static_cast<Eigen::Index>(model_.layout.normal(c)), k);
+      m.T = s.forces(static_cast<Eigen::Index>(model_.layout.tangent(c)), k);
       m.gap = gap_coefficient(contact, s, static_cast<std::size_t>(k));
       m.ut = ut_coefficient(contact, c, s, static_cast<std::size_t>(k));
       m.vn = to_velocity * contact.normal.dot(v);
@@ -265,7 +266,7 @@ void TangentSeries::add_friction(int k) {
       rate = ut_coefficient(model_.contacts[c], c, *motion_, level + 1);
       slip += rates.tangent.dot(motion_->u.col(k + 1)) - forcing_.surface[c * forcing_.count + level + 1];
     }
-    const auto row = static_cast<Eigen::Index>(normal_slot(c));
+    const auto row = static_cast<Eigen::Index>(model_.layout.normal(c));
     x_[system_->unknowns().tangent(c)] -= friction.next(
         to_velocity * rate, to_velocity * slip,
         [&](std::size_t i) {

@@ -53,7 +53,8 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     const ContactRates& rates = derivative_.contacts[c];
     const ContactState& state = at.mode[c];
     const ContactMotion m = motion_of(contact, c, at.forcing, at.t, at.motion);
-    const ContactMotion p = parameter_rate(contact, rates, c, at.motion, at.tangent, at.driven[c]);
+    const ContactMotion p =
+        parameter_rate(contact, rates, model_.layout, c, at.motion, at.tangent, at.driven[c]);
     double friction = 0.0;
     if (!contact.obeys_coulomb()) {
       friction = p.N * m.vn + m.N * p.vn + p.T * m.vt + m.T * p.vt;

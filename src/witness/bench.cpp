@@ -154,11 +154,12 @@ double Bench::balance(const WitnessedSide& side) const {
   add(model.damping, side.v);
   add(model.stiffness, side.u);
   for (std::size_t k = 0; side.forces != nullptr && k < model.contacts.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
+    const auto n = static_cast<Eigen::Index>(model.layout.normal(k)),
+               t = static_cast<Eigen::Index>(model.layout.tangent(k));
     for (const auto& [dof, factor] : model.contacts[k].normal.terms)
-      sum[dof] += std::abs(factor * (*side.forces)[at]);
+      sum[dof] += std::abs(factor * (*side.forces)[n]);
     for (const auto& [dof, factor] : model.contacts[k].tangent.terms)
-      sum[dof] += std::abs(factor * (*side.forces)[at + 1]);
+      sum[dof] += std::abs(factor * (*side.forces)[t]);
   }
   return sum.size() > 0 ? sum.maxCoeff() : 0.0;
 }
@@ -168,9 +169,10 @@ double Bench::moved_by(const Vector& captures, std::size_t k) const {
   double speed = 0.0;
   for (std::size_t l = 0; own != nullptr && l < model.contacts.size(); ++l) {
     const Contact& c = model.contacts[l];
-    const auto at = static_cast<Eigen::Index>(2 * l);
+    const auto n = static_cast<Eigen::Index>(model.layout.normal(l)),
+               t = static_cast<Eigen::Index>(model.layout.tangent(l));
     for (const Vector* by : {&own->by_n, &own->by_t})
-      speed += std::abs(c.normal.dot(*by) * captures[at]) + std::abs(c.tangent.dot(*by) * captures[at + 1]);
+      speed += std::abs(c.normal.dot(*by) * captures[n]) + std::abs(c.tangent.dot(*by) * captures[t]);
   }
   return speed;
 }
@@ -206,9 +208,10 @@ Vector Bench::captured(const InstantRecord& record) const {
   if (!(limits.step > 0.0) || record.captures.size() == 0 || record.captures.isZero(0.0)) return {};
   Vector impulse = Vector::Zero(model.size());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    model.contacts[k].normal.add_to(impulse, record.captures[at]);
-    model.contacts[k].tangent.add_to(impulse, record.captures[at + 1]);
+    const auto n = static_cast<Eigen::Index>(model.layout.normal(k)),
+               t = static_cast<Eigen::Index>(model.layout.tangent(k));
+    model.contacts[k].normal.add_to(impulse, record.captures[n]);
+    model.contacts[k].tangent.add_to(impulse, record.captures[t]);
   }
   return per_mass(impulse);
 }

@@ -182,7 +182,7 @@ void Finder::slide_at_once(std::size_t k) {
 
 /// T is the same on both sides though its terms be no larger than itself, and points the way that it slides.
 bool Finder::shear_stays(std::size_t k) const {
-  const auto at = static_cast<Eigen::Index>(2 * k + 1);
+  const auto at = static_cast<Eigen::Index>(model_.layout.tangent(k));
   const double before = (*record_.before.forces)[at], after = (*record_.after.forces)[at];
   return std::abs(after - before) <= rounding::of_elimination * std::abs(before) &&
          sign_of_slip((*record_.after.mode)[k].state) * before >= 0.0;

@@ -56,9 +56,8 @@ void Finder::momentum() {
     push(model_.contacts[p.contact].tangent, p.tangent);
   }
   for (std::size_t k = 0; record_.captures.size() > 0 && k < model_.contacts.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    push(model_.contacts[k].normal, record_.captures[at]);
-    push(model_.contacts[k].tangent, record_.captures[at + 1]);
+    push(model_.contacts[k].normal, record_.captures.data()[model_.layout.normal(k)]);
+    push(model_.contacts[k].tangent, record_.captures.data()[model_.layout.tangent(k)]);
   }
   Vector jump = Vector::Zero(model_.size()), speed = jump;
   // Velocities are known to the least normal number, and no better: below it they have no digits.
@@ -109,20 +108,22 @@ void Finder::captures() {
   if (record_.captures.size() == 0 || record_.captures.isZero(0.0)) return;
   Vector impulse = Vector::Zero(model_.size());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    model_.contacts[k].normal.add_to(impulse, record_.captures[at]);
-    model_.contacts[k].tangent.add_to(impulse, record_.captures[at + 1]);
+    const auto n = static_cast<Eigen::Index>(model_.layout.normal(k)),
+               t = static_cast<Eigen::Index>(model_.layout.tangent(k));
+    model_.contacts[k].normal.add_to(impulse, record_.captures[n]);
+    model_.contacts[k].tangent.add_to(impulse, record_.captures[t]);
   }
   const Vector change = bench_.per_mass(impulse);
   if (change.size() == 0) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    if (record_.captures[at] == 0.0 && record_.captures[at + 1] == 0.0) continue;
+    const auto n = static_cast<Eigen::Index>(model_.layout.normal(k)),
+               t = static_cast<Eigen::Index>(model_.layout.tangent(k));
+    if (record_.captures[n] == 0.0 && record_.captures[t] == 0.0) continue;
     const OwnResponse* own = bench_.own_response(k);
     const double most = std::numeric_limits<double>::infinity();  // by itself, without the others
-    const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[at]) : most;
-    const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[at + 1]) : most;
+    const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[n]) : most;
+    const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[t]) : most;
     const double speed = std::max(std::min(by_n, std::abs(c.normal.dot(change))),
                                   std::min(by_t, std::abs(c.tangent.dot(change))));
     double limit = with_slow_slips * bench_.slowest(record_, k);

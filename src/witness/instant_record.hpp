@@ -30,7 +30,8 @@ struct WitnessedSide {
   const Vector* v = nullptr;
   const Vector* a = nullptr;  ///< null: not known
   const std::vector<ContactState>* mode = nullptr;
-  const Vector* forces = nullptr;  ///< (N_1, T_1, N_2, ...)
+  const Vector* forces = nullptr;  ///< of all contacts, in the order of `layout`
+  ForceLayout layout = {};
   std::vector<Driven> driven;      ///< one a contact
   std::vector<Vector> loads = {};  ///< P, P', P''; empty: all degrees of freedom have mass
   /// Greatest displacement and velocity of the run so far (translations; rotations): sums over modes, and solves, are

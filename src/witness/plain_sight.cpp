@@ -9,10 +9,10 @@ namespace signorini {
 namespace {
 
 double N_of(const WitnessedSide& side, std::size_t k) {
-  return (*side.forces)[static_cast<Eigen::Index>(2 * k)];
+  return (*side.forces)[static_cast<Eigen::Index>(side.layout.normal(k))];
 }
 double T_of(const WitnessedSide& side, std::size_t k) {
-  return (*side.forces)[static_cast<Eigen::Index>(2 * k + 1)];
+  return (*side.forces)[static_cast<Eigen::Index>(side.layout.tangent(k))];
 }
 
 /// s p' of what slips; a spring between body and sliding point lets N' count, too.

@@ -75,11 +75,10 @@ bool held_beside(const Model& model, std::size_t k) {
 }
 
 Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
-  const auto at = static_cast<Eigen::Index>(2 * k);
   const Driven& d = side.driven[k];
   Sight m;
-  m.N = (*side.forces)[at];
-  m.T = (*side.forces)[at + 1];
+  m.N = side.forces->data()[side.layout.normal(k)];
+  m.T = side.forces->data()[side.layout.tangent(k)];
   m.g = c.gap + c.normal.dot(*side.u);
   m.ut = c.tangent.dot(*side.u) - d.s;
   m.dg = c.normal.dot(*side.v);

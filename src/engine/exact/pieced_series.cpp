@@ -1,6 +1,7 @@
 #include "engine/exact/pieced_series.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/wide_lanes.hpp"
 
@@ -68,10 +69,11 @@ void PiecedSeries::take_over(const NearSeries::Made& near, double x, double reac
   const std::size_t count = whole.forcing.count, known = near.series->forcing.count;
   for (std::size_t i = 0; i < near.where->contacts.size(); ++i) {
     const std::size_t c = near.where->contacts[i];
-    for (const std::size_t side : {0U, 1U}) {
-      const std::size_t slot = normal_slot(c) + side;
+    const ForceLayout &layout = model_.layout, &part = near.series->layout;
+    for (const auto& [slot, from] :
+         {std::pair{layout.normal(c), part.normal(i)}, std::pair{layout.tangent(c), part.tangent(i)}}) {
       whole.forces.row(static_cast<Eigen::Index>(slot)).head(near.series->forces.cols()) =
-          near.series->forces.row(static_cast<Eigen::Index>(normal_slot(i) + side));
+          near.series->forces.row(static_cast<Eigen::Index>(from));
       force_origins_[slot] = x;
     }
     std::copy_n(near.series->forcing.pressing.data() + i * known, known,
@@ -168,7 +170,7 @@ void PiecedSeries::place_at(double x, std::size_t contact, Point& point) const {
       point.u[term.first] = sum_at(at, whole.u.data() + i, n, degree_);
       point.v[term.first] = sum_at(at, whole.u.data() + n + i, n, degree_, to_rate_.data());
     }
-  for (const std::size_t slot : {normal_slot(contact), tangent_slot(contact)}) {
+  for (const std::size_t slot : {model_.layout.normal(contact), model_.layout.tangent(contact)}) {
     const double at = x - (force_origins_.empty() ? 0.0 : force_origins_[slot]);
     point.forces[static_cast<Eigen::Index>(slot)] =
         sum_at(at, whole.forces.data() + slot, static_cast<std::size_t>(whole.forces.rows()), degree_);

@@ -6,7 +6,8 @@
 
 namespace signorini {
 
-Layout::Layout(const Model& model) : dofs(model.size()), contacts(static_cast<int>(model.contacts.size())) {
+Layout::Layout(const Model& model)
+    : dofs(model.size()), forces(static_cast<int>(model.force_count())), contacts(model.layout) {
   for (const Dof& dof : model.dofs) velocity.push_back(dof.massless ? -1 : dofs + massive++);
 }
 
@@ -48,7 +49,7 @@ void IdaLinearSolver::solve(const double* b, double* x) {
     for (std::size_t i = 0; i < n; ++i) rhs_[i] = layout_.velocity[i] >= 0 ? b[layout_.velocity[i]] : b[i];
     std::copy(b + n + massive, b + massive + rhs_.size(), rhs_.data() + n);
   }
-  const Unknowns at{n, rows_.size()};
+  const Unknowns at{n, rows_.size(), layout_.contacts};
   for (std::size_t i = 0; i < held_.size(); ++i) {
     const Pinned& p = pinned_[i];
     held_[i] =

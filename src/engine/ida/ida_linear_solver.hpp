@@ -22,16 +22,18 @@
 namespace signorini {
 
 /// Where u, v, N and T stand in IDA's vector: u of all n degrees of freedom, v of those with mass,
-/// then N_k, T_k of each contact.
+/// then the forces of all contacts.
 struct Layout {
   explicit Layout(const Model& model);
 
-  int dofs = 0, massive = 0, contacts = 0;
+  int dofs = 0, massive = 0, forces = 0;
+  ForceLayout contacts;
   std::vector<int> velocity;  ///< index of v_i, or -1 where u_i' is the velocity
-  [[nodiscard]] int force(std::size_t contact) const {
-    return dofs + massive + 2 * static_cast<int>(contact);
-  }
-  [[nodiscard]] int size() const { return dofs + massive + 2 * contacts; }
+  [[nodiscard]] int normal(std::size_t contact) const { return force(contacts.normal(contact)); }
+  [[nodiscard]] int tangent(std::size_t contact) const { return force(contacts.tangent(contact)); }
+  /// Its index, by that among the forces of all contacts.
+  [[nodiscard]] int force(std::size_t place) const { return dofs + massive + static_cast<int>(place); }
+  [[nodiscard]] int size() const { return dofs + massive + forces; }
 };
 
 class IdaLinearSolver {

@@ -65,6 +65,9 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
       u_(static_cast<std::size_t>(layout_.dofs)) {
   const auto size = static_cast<std::size_t>(layout_.size());
   atol_.assign(size, tolerance.force);
+  for (std::size_t c = 0; c < model.contacts.size(); ++c)
+    for (std::size_t i = 0; i < model.layout.unused; ++i)
+      unused_.push_back(layout_.force(model.layout.tangent(c, model.layout.tangents + i)));
   std::vector<std::size_t> group(size, 2 * model.contacts.size());
   for (std::size_t i = 0; i < model.dofs.size(); ++i) {
     const bool rotation = model.dofs[i].rotation;
@@ -74,8 +77,7 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
           rotation ? tolerance.angular_velocity : tolerance.velocity;
   }
   for (std::size_t k = model.contacts.size(); k-- > 0;) {
-    const auto f = static_cast<std::size_t>(layout_.force(k));
-    group[f] = group[f + 1] = 2 * k;
+    for (const int f : {layout_.normal(k), layout_.tangent(k)}) group[static_cast<std::size_t>(f)] = 2 * k;
     for (const Combination* form : {&model.contacts[k].normal, &model.contacts[k].tangent})
       for (const auto& term : form->terms) {
         const auto i = static_cast<std::size_t>(term.first);
@@ -89,8 +91,8 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
     factor_.push_back(std::sqrt(static_cast<double>(size) / members[group[i]]) / local_part);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
-    if (contact.takes_impulses()) stop(contact.normal, layout_.force(k));
-    if (contact.takes_impulses() || contact.sticks_rigidly()) stop(contact.tangent, layout_.force(k) + 1);
+    if (contact.takes_impulses()) stop(contact.normal, layout_.normal(k));
+    if (contact.takes_impulses() || contact.sticks_rigidly()) stop(contact.tangent, layout_.tangent(k));
   }
   for (int i = 0; i < layout_.dofs; ++i) {
     if (layout_.velocity[static_cast<std::size_t>(i)] >= 0) continue;
@@ -104,8 +106,8 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
           own.forces.emplace_back(force, std::abs(factor));
         }
       };
-      carry(contact.normal, layout_.force(k), contact.normal_stiffness);
-      carry(contact.tangent, layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0));
+      carry(contact.normal, layout_.normal(k), contact.normal_stiffness);
+      carry(contact.tangent, layout_.tangent(k), contact.tangential_stiffness.value_or(0.0));
     }
     if (own.stiffness > 0.0) massless_.push_back(std::move(own));
   }
@@ -141,9 +143,8 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   const Contact& contact = model_.contacts[k];
   const Forcing& forcing = *segment_.forcing;
   ContactMotion m;
-  const int f = layout_.force(k);
-  m.N = y[f];
-  m.T = y[f + 1];
+  m.N = y[layout_.normal(k)];
+  m.T = y[layout_.tangent(k)];
   set_place(contact, y, forcing.surface(k, t, 0), m);
   if (step != 0.0) {
     const auto off = by_dof([&](std::size_t i, int v) { return v >= 0 ? yp[i] - y[v] : 0.0; });
@@ -169,8 +170,8 @@ ContactMotion IdaProblem::change(std::size_t k, const double* of) const {
   const Contact& contact = model_.contacts[k];
   const auto velocity = by_dof([&](std::size_t, int v) { return v >= 0 ? of[v] : 0.0; });
   ContactMotion m;
-  m.N = of[layout_.force(k)];
-  m.T = of[layout_.force(k) + 1];
+  m.N = of[layout_.normal(k)];
+  m.T = of[layout_.tangent(k)];
   m.gap = contact.normal.dot(of);
   m.ut = contact.tangent.dot(of);
   m.vn = contact.normal.dot(velocity);
@@ -181,15 +182,12 @@ ContactMotion IdaProblem::change(std::size_t k, const double* of) const {
 /// s z z' f: what is the same for all shares of the forces would else only be extrapolated from step to step, and that
 /// grows like a polynomial from the rounding of its first values.
 void IdaProblem::add_shared(const double* y, double* r) const {
-  const auto place = [&](std::size_t row) {  // layout_ has N and T of a contact side by side
-    return layout_.force(row / 2) + static_cast<int>(row % 2);
-  };
   for (const SharedForces& shared : shared_)
     for (std::size_t i = 0; i < shared.rows.size(); ++i)
       for (std::size_t j = 0; j < shared.rows.size(); ++j)
-        r[place(shared.rows[i])] +=
+        r[layout_.force(shared.rows[i])] +=
             shared.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-            y[place(shared.rows[j])];
+            y[layout_.force(shared.rows[j])];
 }
 
 void IdaProblem::residual(double t, double step, const double* y, const double* yp, double* r) {
@@ -212,17 +210,18 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
   momentum_.apply(forces);
   segment_.forcing->add_load(t, 0, forces, -1.0);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const auto f = layout_.force(k);
-    model_.contacts[k].normal.add_to(forces, y[f]);
-    model_.contacts[k].tangent.add_to(forces, y[f + 1]);
+    const int in_N = layout_.normal(k), in_T = layout_.tangent(k);
+    model_.contacts[k].normal.add_to(forces, y[in_N]);
+    model_.contacts[k].tangent.add_to(forces, y[in_T]);
     const ContactMotion m = motion(k, t, y, yp, step);
     if (const Contact& contact = model_.contacts[k]; contact.curved_surface())
       contact.body_tangent().add_to(
           forces,
-          bowl_force(contact, y[f], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
-    r[f] = linear_.rows()[k].normal.value(m);
-    r[f + 1] = linear_.rows()[k].tangent.value(m);
+          bowl_force(contact, y[in_N], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
+    r[in_N] = linear_.rows()[k].normal.value(m);
+    r[in_T] = linear_.rows()[k].tangent.value(m);
   }
+  for (const int place : unused_) r[place] = y[place];
   add_shared(y, r);
   for (std::size_t i = 0; i < n && !all_massive; ++i) {
     const int v = layout_.velocity[i];
@@ -231,7 +230,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
   }
   for (const std::size_t k : nonlinear_) {
     const int s = slip_sign(segment_.decision->mode[k].state);
-    r[layout_.force(k) + 1] = sliding_row_value(model_.contacts[k], s, motion(k, t, y, yp));
+    r[layout_.tangent(k)] = sliding_row_value(model_.contacts[k], s, motion(k, t, y, yp));
   }
 }
 
@@ -248,12 +247,12 @@ void IdaProblem::weights(const double* y, double rate, double* w) const {
       const double rounding = rounding_floor * magnitude;
       if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
     };
-    limit(layout_.force(k), contact.normal_stiffness * gap);
-    limit(layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0) * ut);
+    limit(layout_.normal(k), contact.normal_stiffness * gap);
+    limit(layout_.tangent(k), contact.tangential_stiffness.value_or(0.0) * ut);
     if (contact.sliding_point() && contact.friction.rises()) {
       const ShearElement& element = *contact.sliding_point();
-      limit(layout_.force(k) + 1, above_sharp_newton * (element.stiffness + element.damping * rate) *
-                                      (element.body.magnitude(y) + contact.tangent.magnitude(y)));
+      limit(layout_.tangent(k), above_sharp_newton * (element.stiffness + element.damping * rate) *
+                                    (element.body.magnitude(y) + contact.tangent.magnitude(y)));
     }
   }
   for (const Stop& stop : stops_) {
@@ -318,9 +317,8 @@ void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
     y[i] = jet.u(e, o);
     if (layout_.velocity[i] >= 0) y[layout_.velocity[i]] = jet.u(e, o + 1);
   }
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    for (int side = 0; side < 2; ++side)
-      y[layout_.force(k) + side] = jet.forces(static_cast<Eigen::Index>(normal_slot(k)) + side, o);
+  for (Eigen::Index i = 0; i < jet.forces.rows(); ++i)
+    y[layout_.force(static_cast<std::size_t>(i))] = jet.forces(i, o);
 }
 
 void IdaProblem::along(const Jet& jet, double x, int derivative, double* y) const {
@@ -334,9 +332,7 @@ void IdaProblem::along(const Jet& jet, double x, int derivative, double* y) cons
     if (const int v = layout_.velocity[i]; v >= 0) y[v] = rates[static_cast<Eigen::Index>(i)];
   Vector forces(jet.forces.rows());
   on_polynomials(jet.forces, Jet::orders, p, x, forces);
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    for (int side = 0; side < 2; ++side)
-      y[layout_.force(k) + side] = forces[static_cast<Eigen::Index>(normal_slot(k)) + side];
+  for (Eigen::Index i = 0; i < forces.size(); ++i) y[layout_.force(static_cast<std::size_t>(i))] = forces[i];
 }
 
 double IdaProblem::imbalance(double t, const double* y, const double* yp) const {
@@ -359,7 +355,7 @@ void IdaProblem::read(const double* y, const double* yp, Point& point) const {
       const int v = layout_.velocity[static_cast<std::size_t>(i)];
       point.v[i] = v >= 0 ? y[v] : yp[i];
     }
-  point.forces = Eigen::Map<const Vector>(y + layout_.dofs + layout_.massive, 2 * layout_.contacts);
+  point.forces = Eigen::Map<const Vector>(y + layout_.force(0), layout_.forces);
 }
 
 }  // namespace signorini

@@ -87,6 +87,7 @@ class IdaProblem {
   // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
   // structure does not dilute the few contacts.
   std::vector<double> factor_, atol_;
+  std::vector<int> unused_;  // places of no force
   // Degrees of freedom without mass follow from forces K u alone, which may be differences of large numbers:
   // what slides far takes rounding along. Stiffness: of K and of closed contacts.
   struct Massless {

@@ -54,7 +54,8 @@ FrictionIteration::Known FrictionIteration::known_forces(const Point& point) con
   double noise = 0.0;
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    known.greatest = std::max({known.greatest, std::abs(point.N(k)), std::abs(point.T(k))});
+    known.greatest =
+        std::max({known.greatest, std::abs(point.N(model_.layout, k)), std::abs(point.T(model_.layout, k))});
     const double terms = std::abs(contact.gap) + contact.normal.magnitude(point.u);
     noise = std::max(noise, rounding::of_many * contact.normal_stiffness * terms);
   }
@@ -123,7 +124,7 @@ State FrictionIteration::state_of(std::size_t k) const {
   const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
   // What rests at its limit goes on resting, whatever rounding makes of both; what comes to it slips.
   const double loose = bound_error_ + rounding::of_many * terms;
-  const bool rests = std::abs(m.T - begin_.T(k)) <= loose;
+  const bool rests = std::abs(m.T - begin_.T(model_.layout, k)) <= loose;
   if (std::abs(m.T) <= friction * side.pressed + (rests ? loose : 0.0)) return State::stick;
   return slip_along(m.T);
 }
@@ -160,7 +161,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       const Contact& contact = model_.contacts[k];
       Side& side = sides_[k];
-      const double by = std::max(0.0, -end_.N(k)) - side.pressed;
+      const double by = std::max(0.0, -end_.N(model_.layout, k)) - side.pressed;
       if (slip_sign(side.state) != 0 && kinetic_friction(contact) * std::abs(by) > change) {
         change = kinetic_friction(contact) * std::abs(by);
         worst = k;

@@ -29,7 +29,7 @@ NearStep::NearStep(const Model& model, const CondensedRows& rows)
       of_load = {std::min(of_load.begin, place), std::max(of_load.end, place + 1)};
     }
   }
-  end_ = {load_, load_, Vector::Zero(static_cast<Eigen::Index>(2 * rows.contacts())), load_};
+  end_ = {load_, load_, Vector::Zero(model.force_count()), load_};
 }
 
 std::optional<NearStep::Window> NearStep::window(std::size_t contact) const {
@@ -84,7 +84,8 @@ void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Ro
     set_place(contact, end_.u, forcing.surface(k, t1, 0), m);
     set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
     m.pressing = forcing.pressing(k, t1, 0);
-    double &N = end_.forces.data()[normal_slot(k)], &T = end_.forces.data()[tangent_slot(k)];
+    double &N = end_.forces.data()[model_.layout.normal(k)],
+           &T = end_.forces.data()[model_.layout.tangent(k)];
     N = -rows[k].normal.value(m) / held.normal_N;
     T = (-rows[k].tangent.value(m) - held.tangent_N * N) / held.tangent_T;
     if (held.on_motion) rows_.share(k, weights_, by_N_.data(), by_T_.data());
@@ -121,7 +122,7 @@ bool NearStep::solve(const Window& w, const Point& from, double h, const Point& 
 
 /// Into the point: what the contact's degrees of freedom move, and its forces.
 void NearStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
-  double &N = end_.forces.data()[normal_slot(k)], &T = end_.forces.data()[tangent_slot(k)];
+  double &N = end_.forces.data()[model_.layout.normal(k)], &T = end_.forces.data()[model_.layout.tangent(k)];
   for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i) {
     const std::size_t dof = rows_.touch(i).dof;
     const double x = end_.a.data()[dof];

@@ -39,7 +39,7 @@ NewmarkStep::NewmarkStep(const Model& model, const Structure& structure, std::si
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = u_;
-  x_.setZero(structure.size + 2 * static_cast<Eigen::Index>(model.contacts.size()));
+  x_.setZero(structure.size + model.force_count());
   work_ = x_;
   if (economical_) condensed_ = CondensedRows::of(model, structure, widest_band);
   if (!condensed_) return;
@@ -95,13 +95,13 @@ std::vector<ChangedRow> NewmarkStep::changed_rows() const {
       const Form d = normal ? difference(rows[k].normal, base_rows_[k].normal)
                             : difference(rows[k].tangent, base_rows_[k].tangent);
       if (d == Form{}) continue;
-      ChangedRow row{n + (normal ? normal_slot(k) : tangent_slot(k)), {}};
+      ChangedRow row{n + (normal ? model_.layout.normal(k) : model_.layout.tangent(k)), {}};
       for (const auto& [dof, factor] : model_.contacts[k].normal.terms)
         row.entries.emplace_back(dof, entry_of(d, factor, 0.0, weights_[static_cast<std::size_t>(dof)]));
       for (const auto& [dof, factor] : model_.contacts[k].tangent.terms)
         row.entries.emplace_back(dof, entry_of(d, 0.0, factor, weights_[static_cast<std::size_t>(dof)]));
-      row.entries.emplace_back(n + normal_slot(k), d.N);
-      row.entries.emplace_back(n + tangent_slot(k), d.T);
+      row.entries.emplace_back(n + model_.layout.normal(k), d.N);
+      row.entries.emplace_back(n + model_.layout.tangent(k), d.T);
       changed.push_back(std::move(row));
     }
   return changed;
@@ -181,8 +181,8 @@ void NewmarkStep::take_rest(const Vector& b, const Vector& x, double h) {
   for (std::size_t k = 0; k < rows_->size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const Form &normal = (*rows_)[k].normal, &tangent = (*rows_)[k].tangent;
-    const Eigen::Index N = n + static_cast<Eigen::Index>(normal_slot(k)),
-                       T = n + static_cast<Eigen::Index>(tangent_slot(k));
+    const Eigen::Index N = n + static_cast<Eigen::Index>(model_.layout.normal(k)),
+                       T = n + static_cast<Eigen::Index>(model_.layout.tangent(k));
     ContactMotion m;
     m.N = x[N];
     m.T = x[T];
@@ -298,8 +298,8 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
     set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
     m.pressing = forcing.pressing(k, t1, 0);
-    x_.data()[n + normal_slot(k)] = -QuickForm(rows[k].normal).value(m);
-    x_.data()[n + tangent_slot(k)] = -QuickForm(rows[k].tangent).value(m);
+    x_.data()[n + model_.layout.normal(k)] = -QuickForm(rows[k].normal).value(m);
+    x_.data()[n + model_.layout.tangent(k)] = -QuickForm(rows[k].tangent).value(m);
   }
   if (!solve_condensed(h, kept)) {
     if (!(kept ? solve_kept(h) : solve_odd(h))) return false;
@@ -316,7 +316,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   // The limit itself, not what the solve leaves of it: no drift.
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
-      to.forces.data()[tangent_slot(k)] = -tangent.N * to.forces.data()[normal_slot(k)];
+      to.forces.data()[model_.layout.tangent(k)] = -tangent.N * to.forces.data()[model_.layout.normal(k)];
   return true;
 }
 

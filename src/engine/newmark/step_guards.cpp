@@ -115,7 +115,7 @@ void StepGuards::weigh_plain(std::size_t k, const Point& point) {
   }
   gap += seen.gap;
   ut -= seen.surface;
-  const double N = point.N(k), T = point.T(k);
+  const double N = point.N(model_.layout, k), T = point.T(model_.layout, k);
   const double dN = -(seen.normal_gap * vn), dT = -(seen.tangent_N * dN + seen.tangent_ut * vt);
   for (std::size_t i = 0; i < guards_per_contact; ++i) {
     const Plain& g = seen.guards[i];

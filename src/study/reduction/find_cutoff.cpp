@@ -71,10 +71,11 @@ class Watcher final : public Recorder {
   }
   void event(const Event& /*event*/) override {}
   void sample(const Sample& s) override {
-    forces_.clear();
-    for (const ContactSample& contact : s.contacts) {
-      forces_.push_back(contact.N);
-      forces_.push_back(contact.T);
+    const ForceLayout& layout = left_out_.layout();
+    forces_.assign(layout.size(s.contacts.size()), 0.0);
+    for (std::size_t k = 0; k < s.contacts.size(); ++k) {
+      forces_[layout.normal(k)] = s.contacts[k].N;
+      forces_[layout.tangent(k)] = s.contacts[k].T;
     }
     left_out_.sample(s.t, forces_);
     if (at.rows() > 0) greatest = std::max(greatest, s.u->head(at.rows()).cwiseAbs().maxCoeff());

@@ -57,11 +57,11 @@ LeftOut::LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::
   for (std::size_t p = 0; p < places.size(); ++p)
     places_.row(static_cast<Eigen::Index>(p)) = places[p].form.transpose() * seen;
   missed_.assign(places.size(), 0.0);
-  inputs_.setZero(modes, static_cast<Eigen::Index>(2 * full.contacts.size()));
+  inputs_.setZero(modes, full.force_count());
   for (std::size_t c = 0; c < full.contacts.size(); ++c) {
-    inputs_.col(static_cast<Eigen::Index>(normal_slot(c))) =
+    inputs_.col(static_cast<Eigen::Index>(full.layout.normal(c))) =
         -phi.transpose() * vector_of(full.contacts[c].normal, n);
-    inputs_.col(static_cast<Eigen::Index>(tangent_slot(c))) =
+    inputs_.col(static_cast<Eigen::Index>(full.layout.tangent(c))) =
         -phi.transpose() * vector_of(full.contacts[c].tangent, n);
   }
   loads_.resize(modes, static_cast<Eigen::Index>(full.loads.size()));

@@ -27,7 +27,8 @@ class LeftOut {
   LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes, Eigen::Index kept,
           double step);
 
-  /// Forces of contacts, N and T of each in turn, at times 0, step, 2 step, ...
+  [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
+  /// Forces of contacts, in the order of the model's layout, at times 0, step, 2 step, ...
   void sample(double t, const std::vector<double>& forces);
   /// After the last sample.
   void finish();

@@ -23,14 +23,14 @@ TEST_CASE("an output is the sum of its terms, its magnitude that of their sizes,
   output.given[0].history = History::constant(5.0);
   output.given[1].history = History::constant(-3.0);
   for (const Side side : {Side::before, Side::after}) {
-    CHECK(value_of(output, 0.7, side, point, {}) == -3.0);
-    CHECK(magnitude_of(output, 0.7, side, point) == 49.0);
+    CHECK(value_of(output, 0.7, side, point, {}, {}) == -3.0);
+    CHECK(magnitude_of(output, 0.7, side, point, {}) == 49.0);
   }
   // Two forces in balance: nothing is left of them but their rounding, which is that of both.
   Output balance;
   balance.forces = {{0, 1.0, 0.0}, {1, -0.5, 0.0}};
-  CHECK(value_of(balance, 0.0, Side::after, point, {}) == 0.0);
-  CHECK(magnitude_of(balance, 0.0, Side::after, point) == 8.0);
+  CHECK(value_of(balance, 0.0, Side::after, point, {}, {}) == 0.0);
+  CHECK(magnitude_of(balance, 0.0, Side::after, point, {}) == 8.0);
 }
 
 TEST_SUITE_END();

@@ -20,10 +20,11 @@ void DampedFlow::find_turns(const ModalPoint& from, double begin, double length,
 }
 
 void DampedFlow::forces(const ModalPoint& at, Point& point) const {
+  const ForceLayout& layout = motion_.model().layout;
+  double* const forces = point.forces.data();
   for (std::size_t c = 0; c < motion_.model().contacts.size(); ++c) {
-    const auto row = static_cast<Eigen::Index>(normal_slot(c));
-    point.forces[row] = motion_.value(motion_.contact(c).N, at);
-    point.forces[row + 1] = motion_.value(motion_.contact(c).T, at);
+    forces[layout.normal(c)] = motion_.value(motion_.contact(c).N, at);
+    forces[layout.tangent(c)] = motion_.value(motion_.contact(c).T, at);
   }
 }
 

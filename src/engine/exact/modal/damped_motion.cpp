@@ -164,7 +164,7 @@ ModalQuantity DampedMotion::of(const Form& form, std::size_t c) const {
 }
 
 Ripple DampedMotion::ripple(const ModalPoint& from, double time, double omega) const {
-  const auto count = static_cast<Eigen::Index>(2 * contacts_.size());
+  const auto count = model_.force_count();
   Ripple r{0.0, 0.0, 0.0, Eigen::VectorXd::Zero(count)};
   SumOfModes u(dependence()), v(dependence()), a(dependence());
   for (Eigen::Index k = 0; k < root().size(); ++k) {
@@ -175,8 +175,8 @@ Ripple DampedMotion::ripple(const ModalPoint& from, double time, double omega) c
     v.add(lengths_[k] * y * rate);
     a.add(lengths_[k] * y * rate * rate);
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      r.forces[static_cast<Eigen::Index>(normal_slot(c))] += std::abs(contacts_[c].N.row[k]) * y;
-      r.forces[static_cast<Eigen::Index>(tangent_slot(c))] += std::abs(contacts_[c].T.row[k]) * y;
+      r.forces[static_cast<Eigen::Index>(model_.layout.normal(c))] += std::abs(contacts_[c].N.row[k]) * y;
+      r.forces[static_cast<Eigen::Index>(model_.layout.tangent(c))] += std::abs(contacts_[c].T.row[k]) * y;
     }
   }
   r.u = u.value();

@@ -233,7 +233,7 @@ ModalEngine::Motion ModalEngine::motion(const ModalPoint& z, bool accelerations)
 
 /// Forces and energy, where u and v are known.
 void ModalEngine::fill_rest(const ModalPoint& z, const Motion& motion, Point& point) const {
-  point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+  point.forces.resize(model_.force_count());
   flow_->forces(z, point);
   point.energy = energy_of(motion.q, motion.rate);
 }
@@ -339,14 +339,13 @@ Ripple ModalEngine::whole() const {
   const Motion m = motion(parts_.front().at, false);
   const auto norm = [](const Vector& of) { return of.norm(); };
   const double w = model_.omega_max, q = norm(m.q), rate = norm(m.rate);
-  Ripple r{q + rate / w, w * q + rate, w * (w * q + rate),
-           Vector::Zero(static_cast<Eigen::Index>(2 * model_.contacts.size()))};
+  Ripple r{q + rate / w, w * q + rate, w * (w * q + rate), Vector::Zero(model_.force_count())};
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const double N = contact.normal_stiffness * r.u + contact.normal_damping * r.v;
     const double T = contact.tangential_stiffness.value_or(0.0) * r.u;
-    r.forces[static_cast<Eigen::Index>(normal_slot(c))] = N * norm(basis_.normal(c));
-    r.forces[static_cast<Eigen::Index>(tangent_slot(c))] =
+    r.forces[static_cast<Eigen::Index>(model_.layout.normal(c))] = N * norm(basis_.normal(c));
+    r.forces[static_cast<Eigen::Index>(model_.layout.tangent(c))] =
         T * norm(basis_.tangent(c)) + static_friction(contact) * N * norm(basis_.normal(c));
   }
   return r;

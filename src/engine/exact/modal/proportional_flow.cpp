@@ -70,11 +70,11 @@ std::optional<Ripple> ProportionalFlow::ripple(const ModalPoint& from, double ti
     const double grown = std::exp(std::abs(oscillators_.pair_turning()[k].im) * time);
     add(rate, 2.0 * pair[k] * grown, [&](const Amplitudes& of) { return size_of(of.pair[k]); });
   }
-  Ripple r{u.value(), v.value(), a.value(), Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * contacts))};
+  Ripple r{u.value(), v.value(), a.value(), Eigen::VectorXd::Zero(model_.force_count())};
   for (std::size_t c = 0; c < contacts; ++c) {
     const ForceLaw law = proof_.law(c);
-    r.forces[static_cast<Eigen::Index>(normal_slot(c))] = std::abs(law.N_gap) * normal[c];
-    r.forces[static_cast<Eigen::Index>(tangent_slot(c))] =
+    r.forces[static_cast<Eigen::Index>(model_.layout.normal(c))] = std::abs(law.N_gap) * normal[c];
+    r.forces[static_cast<Eigen::Index>(model_.layout.tangent(c))] =
         std::abs(law.T_gap) * normal[c] + std::abs(law.T_ut) * tangent[c];
   }
   return r;
@@ -93,9 +93,8 @@ void ProportionalFlow::forces(const ModalPoint& /*at*/, Point& point) const {
     const double gap = contact.gap_at(point.u);
     const double ut =
         along_surface(contact, point.u, segment_->forcing->surface(c, segment_->decision->jet.t, 0));
-    const auto row = static_cast<Eigen::Index>(normal_slot(c));
-    point.forces[row] = law.N(gap);
-    point.forces[row + 1] = law.T(gap, ut);
+    point.forces.data()[model_.layout.normal(c)] = law.N(gap);
+    point.forces.data()[model_.layout.tangent(c)] = law.T(gap, ut);
   }
 }
 

@@ -27,7 +27,7 @@
 #include "run/effort.hpp"
 #include "run/engines.hpp"
 #include "run/expected.hpp"
-#include "run/observer.hpp"
+#include "run/run_listener.hpp"
 #include "run/run_witness.hpp"
 
 namespace signorini {
@@ -71,21 +71,19 @@ std::optional<Track::Objection> objection_of(const Report& report, const Model& 
 }
 
 /// What a companion leaves open, and how it moves its events.
-class CompanionWatch final : public MotionObserver {
+class CompanionWatch final : public RunListener, public EventShift {
  public:
   CompanionWatch(const CompanionRun& run, Tracker& tracker)
       : tracker_(tracker), seed_(run.seed), moved_(run.moved) {}
-  void begin(const ObservedInstant& /*start*/) override {}
-  void step(const ObservedStep& /*step*/) override {}
   /// What it has moved an event by itself is no difference: that is for what comes later.
-  void instant(const ObservedInstant& instant) override {
+  void instant(const RunInstant& instant) override {
     tracker_.moved = instant.fired.empty() ? 0.0 : by_ / instant.t;
   }
-  void graze(const Graze& graze) override { first = graze; }
-  /// Of rounding that grows from step to step it draws its own.
-  std::uint64_t step_seed() override { return seed_; }
-  void near_hits(std::vector<NearHit> list) override { near = std::move(list); }
-  double moves(const Step& step) override {
+  void end(const RunPoint& /*last*/, const StepperReport& engine) override {
+    first = engine.graze;
+    near = engine.near_hits;
+  }
+  double shift(const Step& step) override {
     const double length = step.end - step.begin;
     const double hidden = step.resolution - resolution_at(step.end, length);
     by_ = 0.0;
@@ -93,6 +91,8 @@ class CompanionWatch final : public MotionObserver {
       by_ = sign_by_chance(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
     return by_;
   }
+  /// Rounding that grows from step to step is drawn by its own steps.
+  [[nodiscard]] ListenerNeeds needs() const { return {nullptr, true, seed_}; }
   std::optional<Graze> first;
   std::vector<NearHit> near;
 
@@ -114,7 +114,7 @@ class CompanionTask {
   /// Keeps what goes wrong: a companion never ends its run.
   void compute() {
     try {
-      report_ = simulate(run_.model, run_.run, tracker_, watch_);
+      report_ = simulate(run_.model, run_.run, tracker_, watch_, watch_.needs(), &watch_);
     } catch (const std::exception& error) {
       failure_ = error.what();
     }
@@ -214,7 +214,7 @@ std::string why_not(const Model& model, const RunSpec& run, const CompanionPlan&
     return fmt::format(
         "a companion run would take about {:.2g} times as long as the run; --certify starts one", plan.cost);
   double seconds = plan.seconds;
-  if (plan.runs.front().run.engine == Engine::exact)
+  if (engine_row(plan.runs.front().run.engine).can.closed_flow)
     seconds += static_cast<double>(report.counters.restarts) * seconds_of_event(model);
   return fmt::format(
       "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "

@@ -34,11 +34,12 @@ CompanionRun companion_of(const Model& model, const RunSpec& run) {
 
 CompanionPlan exact_plan(const Model& model, const RunSpec& run) {
   CompanionPlan plan;
-  plan.name = "exact";
+  const Engine closed_form = engine_for(EngineRole::closed_form);
+  plan.name = to_string(closed_form);
   plan.factor = by_exact;
   if (name_of(run.engine).accuracy == Accuracy::tolerance) plan.local = local_beside_exact;
   plan.runs.push_back(companion_of(model, run));
-  plan.runs.back().run.engine = Engine::exact;
+  plan.runs.back().run.engine = closed_form;
   return plan;
 }
 
@@ -47,10 +48,10 @@ CompanionPlan ida_plan(const Model& model, const RunSpec& run) {
   plan.factor = by_exact;
   plan.runs.push_back(companion_of(model, run));
   RunSpec& own = plan.runs.back().run;
-  own.engine = Engine::ida;
+  own.engine = engine_for(EngineRole::integrator);
   own.rtol = std::min(own.rtol, rtol_beside_steps);
   own.atol = {};
-  plan.name = fmt::format("ida, rtol {:g}", own.rtol);
+  plan.name = fmt::format("{}, rtol {:g}", to_string(own.engine), own.rtol);
   return plan;
 }
 
@@ -123,7 +124,7 @@ void hold_capture(Model& model, double capture_velocity) {
 }
 
 CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
-  const bool itself = run.engine == Engine::exact;
+  const bool itself = engine_row(run.engine).role == EngineRole::closed_form;
   if (run.companion == Companion::exact && !itself && !exact_takes(model, run))
     throw SceneError(
         run.place, "run.companion",

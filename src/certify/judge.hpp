@@ -29,7 +29,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/graze.hpp"
+#include "engine/falls/graze.hpp"
 #include "signorini/event.hpp"
 
 namespace signorini {

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "certify/bounds.hpp"
-#include "engine/graze.hpp"
+#include "engine/falls/graze.hpp"
 
 namespace signorini {
 

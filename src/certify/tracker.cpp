@@ -7,7 +7,7 @@ namespace signorini {
 void Tracker::event(const Event& event) {
   events.push_back(timed(event));
   events.back().t -= moved * events.back().t;
-  Relay::event(event);
+  ForwardingRecorder::event(event);
 }
 
 void Tracker::sample(const Sample& sample) {
@@ -24,7 +24,7 @@ void Tracker::sample(const Sample& sample) {
     else
       rows.values.resize(rows.t.size() * rows.width, std::numeric_limits<double>::quiet_NaN());
   }
-  Relay::sample(sample);
+  ForwardingRecorder::sample(sample);
 }
 
 void Tracker::response(double t, const std::vector<double>& values) {
@@ -34,11 +34,11 @@ void Tracker::response(double t, const std::vector<double>& values) {
     if (!rows.t.empty() && rows.t.back() == t)
       std::copy(values.begin(), values.end(), rows.values.end() - static_cast<std::ptrdiff_t>(values.size()));
   }
-  Relay::response(t, values);
+  ForwardingRecorder::response(t, values);
 }
 
 bool Tracker::progress(double t) {
-  if (!companion_) return Relay::progress(t);
+  if (!companion_) return ForwardingRecorder::progress(t);
   too_long = ++steps_ > most_steps;
   return !too_long && (leash == nullptr || leash->allows(t));
 }

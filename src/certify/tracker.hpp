@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "certify/judge.hpp"
-#include "run/relay.hpp"
+#include "run/forwarding_recorder.hpp"
 
 namespace signorini {
 
@@ -35,12 +35,12 @@ class Leash {
 /// N and T: columns of a row that each contact has.
 inline constexpr std::size_t forces_a_row = 2;
 
-class Tracker : public Relay {
+class Tracker : public ForwardingRecorder {
  public:
   /// Both must outlive it; without a recorder nothing is passed on.
   /// `all`: forces and outputs, too.
   explicit Tracker(const Model& model, bool all, Recorder* next = nullptr)
-      : Relay(next), model_(model), all_(all), companion_(next == nullptr) {
+      : ForwardingRecorder(next), model_(model), all_(all), companion_(next == nullptr) {
     rows.width =
         model.columns.size() + (all ? forces_a_row * model.contacts.size() + model.outputs.size() : 0);
   }

@@ -8,7 +8,7 @@
 namespace signorini::cli {
 
 Live::Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events)
-    : Relay(&next),
+    : ForwardingRecorder(&next),
       model_(model),
       t_end_(t_end),
       show_progress_(show_progress && stderr_is_terminal()),
@@ -20,7 +20,7 @@ Live::~Live() {
 }
 
 void Live::event(const Event& event) {
-  Relay::event(event);
+  ForwardingRecorder::event(event);
   ++count_;
   if (keep_all_ || first_.size() < most_shown) first_.push_back(event);
   last_.push_back(event);
@@ -51,7 +51,7 @@ std::string Live::time_left(double t) {
 }
 
 bool Live::progress(double t) {
-  const bool go_on = Relay::progress(t) && !Interrupt::asked();
+  const bool go_on = ForwardingRecorder::progress(t) && !Interrupt::asked();
   if (advice_ && go_on && t > 0.0) advise(t);
   if (!show_progress_) return go_on;
   if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {

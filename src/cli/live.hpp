@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "cli/interrupt.hpp"
-#include "run/relay.hpp"
+#include "run/forwarding_recorder.hpp"
 
 namespace signorini::cli {
 
-class Live : public Relay {
+class Live : public ForwardingRecorder {
  public:
   Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events = false);
   ~Live() override;

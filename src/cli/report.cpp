@@ -9,6 +9,7 @@
 #include "base/rounding.hpp"
 #include "engine/tolerance.hpp"
 #include "model/statics/static_reaction.hpp"
+#include "run/engines.hpp"
 #include "run/expected.hpp"
 #include "run/trial.hpp"
 
@@ -273,19 +274,21 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
                         model.units.time);
   text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", method_of(report.method), times(c.steps, "step"),
                       times(c.restarts, "restart"), report.wall_time);
-  if (report.method.engine == Engine::ida && report.method.automatic)
-    return text + "why ida: " + report.method.reason + "\n";
+  const Engine closed_form = engine_for(EngineRole::closed_form);
+  if (report.method.automatic && report.method.engine != closed_form)
+    return text + fmt::format("why {}: {}\n", to_string(report.method.engine), report.method.reason);
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
   // Only where it would be quicker than what the run took: by its first steps, where that is worth a trial.
   std::optional<double> exact = exact_instead(model, chosen);
   constexpr double long_run = 1.0, share = 0.02;  // s, and of what the run took
   if (exact && report.wall_time > long_run) {
-    exact = seconds_by_trial(model, run, Engine::exact, share * report.wall_time);
+    exact = seconds_by_trial(model, run, closed_form, share * report.wall_time);
     if (*exact == 0.0) exact.reset();
   }
   if (exact && *exact < report.wall_time)
-    text += fmt::format("exact would take {} s (--engine exact)\n", about_seconds(*exact));
+    text +=
+        fmt::format("{0} would take {1} s (--engine {0})\n", to_string(closed_form), about_seconds(*exact));
   return text;
 }
 

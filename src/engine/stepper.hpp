@@ -2,20 +2,17 @@
 //
 //   start(segment) -> advance() -> advance() ... -> an event or segment.end -> start(next segment)
 //
-// The loop (run/loop.hpp) decides, applies and records; a stepper advances, finds the instant at
-// which the first guard falls, and integrates works over what it has passed.
+// The loop (run/loop.hpp) decides, applies and notifies; a stepper advances and finds the instant at which the first
+// guard falls. The motion on its last step is its dense output (engine/dense_output.hpp).
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 
 #include "decide/decision.hpp"
 #include "decide/instant.hpp"
-#include "engine/graze.hpp"
-#include "engine/ripple.hpp"
-#include "motion/powers.hpp"
-#include "motion/series.hpp"
+#include "engine/dense_output.hpp"
+#include "engine/falls/graze.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -37,12 +34,14 @@ struct Step {
   std::string reason;             ///< Kind::failed
 };
 
-/// The motion on the last step as a series: its end is at t + scale x.
-struct Expansion {
-  const Series* series = nullptr;  ///< null: the engine knows none
-  std::size_t degree = 0;          ///< up to which u, v, a and forces are complete
-  double x = 0.0;
-  const ModeSystem* system = nullptr;  ///< with friction at the slip rates where the series begins
+/// What an engine knows at the end of a run. Its times and gaps: in the units of the model.
+struct StepperReport {
+  Counters counters;
+  std::vector<std::string> warnings;
+  /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
+  std::optional<Graze> graze;
+  /// Gaps that came near to zero and opened again, where the engine looks for them.
+  std::vector<NearHit> near_hits;
 };
 
 class Stepper {
@@ -50,80 +49,21 @@ class Stepper {
   virtual ~Stepper() = default;
   virtual void start(const Segment& segment) = 0;
   [[nodiscard]] virtual Step advance() = 0;
-  /// The solution at begin <= t <= end of the last step.
-  virtual void evaluate(double t, Point& point) = 0;
-  /// Entries of u and v that glimpses are asked for, beside those of contacts.
-  virtual void watch(const std::vector<int>& /*dofs*/) {}
-  /// The same as evaluate, of the watched entries of u and v; others may be no numbers.
-  virtual void glimpse(double t, Point& point) { evaluate(t, point); }
-  /// Puts accelerations into a point that evaluate() has made at t, where they are missing.
-  virtual void accelerate(double /*t*/, Point& /*point*/) {}
-  /// Puts the energy of the structure into a point that a decision has made, where the engine knows it better.
-  virtual void know_energy(Point& /*point*/) const {}
-  /// The same as evaluate and accelerate, but as cheap as the engine has it: of fixed steps between their
-  /// ends.
-  virtual void interpolate(double t, Point& point) {
-    evaluate(t, point);
-    accelerate(t, point);
-  }
-  /// Adds the integrals of all powers over the part [from, to] of the last step.
-  virtual void integrate(double from, double to, Works& works) = 0;
-  /// Greatest entry of the residual of the equation of motion at the end of the last step. Unit: force.
-  [[nodiscard]] virtual double residual() = 0;
+  /// The motion on the last step.
+  [[nodiscard]] virtual DenseOutput& dense_output() = 0;
   /// How far off a guard's value may be, from one step's errors. Unit: that of the guard.
   [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
+  /// Puts the energy of the structure into a point that a decision has made, where the engine knows it better.
+  virtual void set_energy(Point& /*point*/) const {}
+  /// Once, after the last step.
+  [[nodiscard]] virtual StepperReport report() { return {counters, warnings, {}, {}}; }
 
-  /// Whether a flight that begins with g = 0 and stays lower than the rounding of its gap is known: to a
-  /// series. Else its landing is as late as that rounding makes it, and it lands faster than it left.
-  [[nodiscard]] virtual bool knows_low_flights() const { return false; }
-
-  /// Times inside the last step where N, T, g or ut of a contact turns beyond all its values before.
-  [[nodiscard]] virtual const std::vector<double>& turning_points() const {
-    static const std::vector<double> none;
-    return none;
-  }
-
-  /// One of those turns.
-  struct ContactTurn {
-    std::size_t contact = 0;
-    double t = 0.0;
-  };
-  /// Whose turns they are, in no order. Nothing: glimpse() of all contacts at each time costs no more than of one.
-  [[nodiscard]] virtual std::optional<std::vector<ContactTurn>> contact_turns() const { return std::nullopt; }
-  /// The same as glimpse, of what one contact touches; where contact_turns() tells of any.
-  virtual void glimpse(double t, std::size_t /*contact*/, Point& point) { glimpse(t, point); }
-
-  [[nodiscard]] virtual Expansion expansion() const { return {}; }
-
-  /// By how much roundings of sums over modes are greater than where these are orthogonal: greatest |x| |y| of the modes
-  /// that the last step was followed in, y . x = 1; or more, where their terms are greater than the motion and cancel.
-  /// 1: it was followed in none.
-  [[nodiscard]] virtual double dependence() const { return 1.0; }
-
-  /// By how many radians u, v, a and forces turn at most in the last step, forcing aside: polynomials of degree n by n pi.
-  /// Infinite: by what frequencies say.
-  [[nodiscard]] virtual double turns() const { return std::numeric_limits<double>::infinity(); }
-  /// Of what turns faster than that in the last step, rad per time. Nothing: not known, or something does that does not
-  /// swing.
-  [[nodiscard]] virtual std::optional<Ripple> ripple(double /*omega*/) const { return std::nullopt; }
-  /// Where ripples are known: the sizes of the terms that u, v, a and forces of the last step are sums of, fast modes or
-  /// not. Rounding is relative to that.
-  [[nodiscard]] virtual Ripple whole() const { return {}; }
-  /// The greatest form . u of all u with |u|_M = 1; asked where ripples are known.
-  [[nodiscard]] virtual double reach(const Combination& /*form*/) const { return 0.0; }
-
-  /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
-  [[nodiscard]] virtual std::optional<Graze> graze() const { return std::nullopt; }
-
-  /// Gaps that came near to zero and opened again, where the engine looks for them.
-  [[nodiscard]] virtual std::vector<NearHit> near_hits() const { return {}; }
-
-  /// Brings `counters` up to date.
-  virtual void count() {}
-
-  Counters counters;
+  Counters counters;                  ///< so far; complete in the report
   std::vector<std::string> warnings;  ///< of the run so far
+  /// Whether a flight that begins with g = 0 and stays lower than the rounding of its gap is known: to a series. Else its
+  /// landing is as late as that rounding makes it, and it lands faster than it left.
+  bool knows_low_flights = false;
 };
 
 }  // namespace signorini

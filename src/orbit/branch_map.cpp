@@ -198,7 +198,7 @@ Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) 
   };
   const Vector here = rows_of(pass);
   const double noise = residual_of(section, pass, here.head(n));
-  const double h = at(state.s)->run().engine == Engine::exact
+  const double h = name_of(at(state.s)->run().engine).accuracy == Accuracy::rounding
                        ? std::clamp(std::sqrt(noise), difference, greatest_difference)
                        : difference_of_steps;
   const double side = state.s < 0.5 ? h : -h;  // within the range

@@ -12,6 +12,7 @@
 #include "orbit/orbit_engine.hpp"
 #include "orbit/recurrence.hpp"
 #include "orbit/shooting.hpp"
+#include "run/engines.hpp"
 #include "sensitivity/known_laws.hpp"
 #include "signorini/simulate.hpp"
 
@@ -123,12 +124,11 @@ void Search::set_period(const Scene& scene) {
     throw UsageError("--energy: the scene has damping, expected none: energy is not kept");
   run_ = longer.run;
   run_.engine = orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
-  if (run_.engine != Engine::exact && run_.engine != Engine::ida)
-    throw SceneError(
-        scene.run.place, "run.engine",
-        fmt::format("found \"{}\", expected \"exact\" or \"ida\": orbits need the motion between events to "
-                    "rounding, or its tangents",
-                    to_string(run_.engine)));
+  if (!engine_row(run_.engine).can.follow_orbits)
+    throw SceneError(scene.run.place, "run.engine",
+                     fmt::format("found \"{}\", expected {}: orbits need the motion between events to "
+                                 "rounding, or its tangents",
+                                 to_string(run_.engine), engines_that(&EngineAbilities::follow_orbits)));
   run_.flow = orbit_flow(given_, run_);
   closed_ = orbit_state_error(run_);
   const Factors to_machine = inverse(given_.machine);

@@ -18,23 +18,23 @@ constexpr double of_tolerance = 100.0;  // chosen: errors of a step add up over 
 Engine orbit_engine(const Model& model, const RunSpec& run, double duration) {
   if (run.engine != Engine::automatic) return run.engine;
   try {
-    engine_row(Engine::exact).refuse(model, run);
+    engine_row(engine_for(EngineRole::closed_form)).refuse(model, run);
   } catch (const SceneError&) {
-    return Engine::ida;
+    return engine_for(EngineRole::integrator);
   }
-  if (fastest_decay(model) * duration <= most_decays) return Engine::exact;
+  if (fastest_decay(model) * duration <= most_decays) return engine_for(EngineRole::closed_form);
   return choose_engine(model, run).engine;
 }
 
 Flow orbit_flow(const Model& model, const RunSpec& run) {
-  if (run.flow != Flow::automatic || run.engine != Engine::exact) return run.flow;
+  if (run.flow != Flow::automatic || !engine_row(run.engine).can.closed_flow) return run.flow;
   const ModalKind kind = modal_kind(model);
   const bool can = kind.objection.empty() && kind.damped && !kind.crowded;
   return can && damped_modes_gain(model) ? Flow::modal : run.flow;
 }
 
 double orbit_state_error(const RunSpec& run) {
-  return run.engine == Engine::ida ? of_tolerance * run.rtol : 0.0;
+  return name_of(run.engine).accuracy == Accuracy::tolerance ? of_tolerance * run.rtol : 0.0;
 }
 
 }  // namespace signorini

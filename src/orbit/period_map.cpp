@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "contact/friction.hpp"
-#include "run/observer.hpp"
+#include "run/run_listener.hpp"
 #include "sensitivity/tangent_run.hpp"
 #include "signorini/simulate.hpp"
 
@@ -169,16 +169,16 @@ class Bundle {
 };
 
 /// Keeps what a pass is made of, and leads the tangents along.
-class Follower final : public MotionObserver {
+class Follower final : public RunListener {
  public:
   Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass, StateFlow* flow,
            ModalMemory& kept)
       : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), share_{&kept, nullptr} {}
 
-  ModalShare* modal() override { return &share_; }
-  bool asks_peaks() override { return false; }  // extremes of outputs are sought for themselves
+  /// No peaks: extremes of outputs are sought for themselves.
+  [[nodiscard]] ListenerNeeds needs() { return {&share_, false}; }
 
-  void begin(const ObservedInstant& start) override {
+  void begin(const RunInstant& start) override {
     pass_.begin = pass_.end = orbit_point(start.t, start.after);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       pass_.held.push_back(!pass_.begin.mode[c].is_open() && slip_sign(pass_.begin.mode[c].state) == 0);
@@ -187,10 +187,10 @@ class Follower final : public MotionObserver {
     bundle_->run().listens_with(share_);
     bundle_->run().begin(start);
   }
-  void step(const ObservedStep& step) override {
+  void step(const RunStep& step) override {
     if (bundle_) bundle_->run().step(step);
   }
-  void instant(const ObservedInstant& instant) override {
+  void instant(const RunInstant& instant) override {
     if (bundle_) bundle_->run().instant(instant);
     pass_.end = orbit_point(instant.t, instant.after);
     bool changes = !instant.after.impulses.empty();
@@ -201,8 +201,8 @@ class Follower final : public MotionObserver {
       }
     if (changes) pass_.instants.push_back(pass_.end);
   }
-  void end(double t) override {
-    if (bundle_) bundle_->run().end(t);
+  void end(const RunPoint& last, const StepperReport& engine) override {
+    if (bundle_) bundle_->run().end(last, engine);
   }
   void finish() const {
     if (bundle_) bundle_->finish(pass_);
@@ -249,7 +249,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   if (leg.tangents && model_.size() >= fewest_in_modes && (!flow_ || !flow_->fits(model_)))
     flow_ = modes_uncouple(model_) ? std::make_shared<StateFlow>(model_) : nullptr;
   Follower follower(model, bare, leg, pass, flow_.get(), *memory_);
-  const Report report = simulate(model, run, recorder, follower);
+  const Report report = simulate(model, run, recorder, follower, follower.needs());
   pass.outcome = report.outcome;
   pass.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
   pass.response = report.response;

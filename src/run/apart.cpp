@@ -22,7 +22,8 @@ constexpr std::size_t most_events =
 
 /// The way of the whole: its flow is not chosen again.
 RunSpec as_chosen(RunSpec spec, const Method& method) {
-  if (spec.engine == Engine::exact) spec.flow = method.flow == "modal" ? Flow::modal : Flow::taylor;
+  if (engine_row(spec.engine).can.closed_flow)
+    spec.flow = method.flow == "modal" ? Flow::modal : Flow::taylor;
   return spec;
 }
 
@@ -60,7 +61,7 @@ class Apart {
     }
   }
 
-  Ending run() {
+  RunEnd run() {
     for (const auto& loop : loops_) loop->begin();
     see_stops();
     const double longest = longest_stage();
@@ -76,7 +77,7 @@ class Apart {
   [[nodiscard]] std::unique_ptr<Loop> loop_of(PartModel& part, const RunSpec& spec, PartRecorder& recorder,
                                               std::shared_ptr<const std::vector<double>> grid) const {
     return std::make_unique<Loop>(
-        part.model, spec, engine_, report_.method, recorder, Company{},
+        part.model, spec, engine_, report_.method, recorder, RunHooks{},
         PartShare{parts_.size(), whole_.contacts.size(), columns_, part.contacts, std::move(grid),
                   [&recorder](double t, const Energy& energy) { recorder.energies(t, energy); }});
   }
@@ -95,7 +96,7 @@ class Apart {
     const double from = told_;
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
       told_ = from + (until - from) * static_cast<double>(i) / static_cast<double>(loops_.size());
-      loops_[i]->on(std::min(until, end_));
+      loops_[i]->advance_to(std::min(until, end_));
       see_stops(i);
     }
     told_ = until;
@@ -124,15 +125,15 @@ class Apart {
   /// A step may have gone far beyond the stage in which it found that its part stops.
   void catch_up() {
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
-      loops_[i]->on(end_);
+      loops_[i]->advance_to(end_);
       see_stops(i);
     }
   }
 
-  Ending ending() {
+  RunEnd ending() {
     if (stopped_ != nullptr && begun()) catch_up();
-    Ending result;
-    std::vector<Ending> endings;
+    RunEnd result;
+    std::vector<RunEnd> endings;
     std::vector<PartRecorder*> drawn;
     std::vector<std::unique_ptr<PartRecorder>> again;
     const double end = interrupted_ ? reached() : std::min(end_, spec_.t_end);
@@ -144,7 +145,7 @@ class Apart {
         drawn.back() = again.back().get();
       }
       endings.push_back(beyond ? until(end, parts_[i], *again.back()) : loops_[i]->end());
-      if (&parts_[i] == stopped_) result.grave = endings.back().grave;
+      if (&parts_[i] == stopped_) result.law_violated = endings.back().law_violated;
     }
     if (over() && begun()) rows_.pass_on(end, true);
     rows_.finish();
@@ -161,18 +162,18 @@ class Apart {
   }
 
   /// A part once more, to an earlier end: what it has found until then, without its rows.
-  [[nodiscard]] Ending until(double end, PartModel& part, PartRecorder& recorder) const {
+  [[nodiscard]] RunEnd until(double end, PartModel& part, PartRecorder& recorder) const {
     RunSpec spec = spec_;
     spec.t_end = end;
     spec.output_times = std::vector<double>{0.0};
     spec.frames.clear();
     const std::unique_ptr<Loop> loop = loop_of(part, spec, recorder, nullptr);
     loop->begin();
-    loop->on(end);
+    loop->advance_to(end);
     return loop->end();
   }
 
-  void tell_outcome(double end, const std::vector<Ending>& endings) {
+  void tell_outcome(double end, const std::vector<RunEnd>& endings) {
     report_.outcome.t = end;
     if (interrupted_) {
       report_.outcome.kind = Outcome::Kind::interrupted;
@@ -205,16 +206,16 @@ class Apart {
 
 }  // namespace
 
-Ending run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
+RunEnd run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
                  const EngineRow& engine, Method method, Recorder& recorder) {
   return Apart(whole, std::move(parts), spec, engine, std::move(method), recorder).run();
 }
 
-std::vector<PartModel> parts_to_run(const Model& model, const RunSpec& spec, const Method& method,
-                                    const Recorder& recorder, const Company& company) {
-  if (!company.none() || recorder.steers() || recorder.wants_instants()) return {};
+std::vector<PartModel> parts_to_run(const Model& model, const Method& method, const Recorder& recorder,
+                                    const RunHooks& hooks) {
+  if (!hooks.none() || recorder.steers() || recorder.wants_instants()) return {};
   std::vector<PartModel> parts = part_models(model);
-  if (spec.engine == Engine::exact && method.flow == "modal")
+  if (method.flow == "modal")
     for (const PartModel& part : parts)
       if (!modal_kind(part.model).objection.empty()) return {};
   return parts;

@@ -15,12 +15,11 @@
 namespace signorini {
 
 /// In the units of `whole`, whose parts these are. spec.engine is not automatic.
-[[nodiscard]] Ending run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
+[[nodiscard]] RunEnd run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
                                const EngineRow& engine, Method method, Recorder& recorder);
 
 /// Its parts, if a run in this way is made of them; empty: it is made of the whole.
-[[nodiscard]] std::vector<PartModel> parts_to_run(const Model& model, const RunSpec& spec,
-                                                  const Method& method, const Recorder& recorder,
-                                                  const Company& company);
+[[nodiscard]] std::vector<PartModel> parts_to_run(const Model& model, const Method& method,
+                                                  const Recorder& recorder, const RunHooks& hooks);
 
 }  // namespace signorini

@@ -59,4 +59,21 @@ std::vector<Breakpoint> breakpoints(const Model& model, double t_end) {
   return result;
 }
 
+BreakpointQueue::Passed BreakpointQueue::pass(double& t, double resolution) {
+  Passed passed;
+  for (; next_ < list_.size() && list_[next_].time - t <= resolution; ++next_) {
+    passed.any = true;
+    passed.jump = passed.jump || list_[next_].jump;
+    t = list_[next_].time;
+  }
+  return passed;
+}
+
+void BreakpointQueue::loads_changed(const Model& model, double t) {
+  list_ = breakpoints(model, t_end_);
+  const auto after = std::upper_bound(list_.begin(), list_.end(), t,
+                                      [](double time, const Breakpoint& b) { return time < b.time; });
+  next_ = static_cast<std::size_t>(after - list_.begin());
+}
+
 }  // namespace signorini

@@ -18,18 +18,20 @@ constexpr double slow = 0.2;
 
 EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   if (run.engine != Engine::automatic) return {run.engine, false, "as given"};
+  const Engine closed_form = engine_for(EngineRole::closed_form),
+               integrator = engine_for(EngineRole::integrator);
   try {
-    engine_row(Engine::exact).refuse(model, run);
+    engine_row(closed_form).refuse(model, run);
   } catch (const SceneError&) {
-    return {Engine::ida, true, "a law or a load of the scene has no motion in closed form"};
+    return {integrator, true, "a law or a load of the scene has no motion in closed form"};
   }
   const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
-    return {Engine::ida, true,
+    return {integrator, true,
             fmt::format("the fastest decay, {:.3g} 1/{}, is not slow beside the "
                         "fastest oscillation, {:.3g} rad/{}",
                         decay, model.units.time, oscillation, model.units.time)};
-  return {Engine::exact, true, "the laws are linear, and every decay is slow beside the fastest oscillation"};
+  return {closed_form, true, "the laws are linear, and every decay is slow beside the fastest oscillation"};
 }
 
 }  // namespace signorini

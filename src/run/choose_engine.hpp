@@ -18,7 +18,7 @@
 namespace signorini {
 
 struct EngineChoice {
-  Engine engine = Engine::ida;
+  Engine engine = Engine::automatic;
   bool automatic = false;
   std::string reason;  ///< one sentence
 };

@@ -42,6 +42,13 @@ std::vector<Column> drawn_columns(const Model& model) {
   return columns;
 }
 
+std::vector<int> drawn_entries(const Model& model) {
+  std::vector<int> entries;
+  for (const Column& column : drawn_columns(model))
+    if (column.dof >= 0) entries.push_back(column.dof);
+  return entries;
+}
+
 std::size_t most_points_of(std::size_t columns) {
   return std::clamp(most_values / (columns + energy_columns.size() + 1), fewest_points, most_points);
 }
@@ -66,13 +73,6 @@ CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recor
   for (const EnergyColumn& column : energy_columns)
     curves_.push_back({column.name, Kind::energy, -1, unit, none, share.whole()});
   curves_.push_back({balance_column, Kind::balance, -1, unit, none, share.whole()});
-}
-
-std::vector<int> CurveRecord::dofs() const {
-  std::vector<int> list;
-  for (const Curve& curve : curves_)
-    if (curve.dof >= 0) list.push_back(curve.dof);
-  return list;
 }
 
 bool CurveRecord::needs(double t) const { return t - last_ >= closest_rows * t_end_ || t >= t_end_; }

@@ -23,6 +23,9 @@ namespace signorini {
 /// Displacements that a picture shows.
 [[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
 
+/// Entries of u that they are made of, where u is the physical one.
+[[nodiscard]] std::vector<int> drawn_entries(const Model& model);
+
 /// Points of a curve, at most, of so many displacements.
 [[nodiscard]] std::size_t most_points_of(std::size_t columns);
 
@@ -32,8 +35,6 @@ class CurveRecord {
   CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
   [[nodiscard]] bool wanted() const { return wanted_; }
-  /// Entries of u that rows are made of, where u is the physical one.
-  [[nodiscard]] std::vector<int> dofs() const;
   /// Does a line need a row at t, where nothing happens?
   [[nodiscard]] bool needs(double t) const;
   /// How close rows must be, as the last three tell (row_spacing.hpp).

@@ -150,10 +150,11 @@ Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
 
 std::unique_ptr<Stepper> make_exact(const EngineParts& p) {
   if (choose_flow(p.model, p.run).modal)
-    return std::make_unique<ModalEngine>(p.model, p.structure, p.systems, p.run.t_end, p.share, p.peaks,
-                                         p.step_seed);
+    return std::make_unique<ModalEngine>(
+        p.model, p.structure, p.systems, p.run.t_end,
+        ModalUse{p.needs.modal, p.needs.peaks, p.needs.step_seed, p.watched});
   return std::make_unique<ExactEngine>(p.model, p.structure, p.systems, p.run.t_end,
-                                       SeriesUse{p.alone, p.step_seed});
+                                       SeriesUse{p.alone, p.needs.step_seed});
 }
 
 std::unique_ptr<Stepper> make_ida(const EngineParts& p) {
@@ -169,12 +170,50 @@ std::unique_ptr<Stepper> make_friction_iteration(const EngineParts& p) {
   return std::make_unique<FrictionIteration>(p.model, p.structure, p.systems, p.run);
 }
 
+bool always(const RunSpec& /*run*/) { return true; }
+bool never(const RunSpec& /*run*/) { return false; }
+bool unless_interpolated(const RunSpec& run) { return run.refine != Refine::linear; }
+bool all_flights(const Model& /*model*/) { return true; }
+bool no_flights(const Model& /*model*/) { return false; }
+
 constexpr std::array rows_of_engines = {
-    EngineRow{Engine::exact, refuse_long_polynomials_too, closed_flow, make_exact, effort_of_exact},
-    EngineRow{Engine::ida, refuse_nothing, bdf, make_ida, effort_of_bdf},
-    EngineRow{Engine::newmark, refuse_laws_that_are_not_linear, fixed_steps, make_newmark,
+    EngineRow{Engine::exact,
+              EngineRole::closed_form,
+              {.closed_flow = true,
+               .follow_orbits = true,
+               .laws_at_ends = true,
+               .locates_events = always,
+               .knows_low_flights = all_flights},
+              refuse_long_polynomials_too,
+              closed_flow,
+              make_exact,
+              effort_of_exact},
+    EngineRow{Engine::ida,
+              EngineRole::integrator,
+              {.follow_orbits = true,
+               .laws_at_ends = true,
+               .locates_events = always,
+               .knows_low_flights = IdaEngine::follows_low_flights},
+              refuse_nothing,
+              bdf,
+              make_ida,
+              effort_of_bdf},
+    EngineRow{Engine::newmark,
+              EngineRole::fixed_steps,
+              {.discrete_derivatives = true,
+               .laws_at_ends = true,
+               .locates_events = unless_interpolated,
+               .knows_low_flights = no_flights},
+              refuse_laws_that_are_not_linear,
+              fixed_steps,
+              make_newmark,
               effort_of_fixed_steps},
-    EngineRow{Engine::friction_iteration, refuse_rigid_contacts_too, fixed_steps, make_friction_iteration,
+    EngineRow{Engine::friction_iteration,
+              EngineRole::none,
+              {.locates_events = never, .knows_low_flights = no_flights},
+              refuse_rigid_contacts_too,
+              fixed_steps,
+              make_friction_iteration,
               effort_of_fixed_steps},
 };
 static_assert(rows_of_engines.size() == all_engines.size());
@@ -190,6 +229,19 @@ UnfitEngine::UnfitEngine(const RunSpec& run, const std::string& what, const std:
 const EngineRow& engine_row(Engine engine) {
   return *std::find_if(rows_of_engines.begin(), rows_of_engines.end(),
                        [&](const EngineRow& row) { return row.engine == engine; });
+}
+
+Engine engine_for(EngineRole role) {
+  return std::find_if(rows_of_engines.begin(), rows_of_engines.end(),
+                      [&](const EngineRow& row) { return row.role == role; })
+      ->engine;
+}
+
+std::string engines_that(bool EngineAbilities::*can) {
+  std::string names;
+  for (const EngineRow& row : rows_of_engines)
+    if (row.can.*can) names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", to_string(row.engine));
+  return names;
 }
 
 }  // namespace signorini

@@ -18,7 +18,7 @@ double rough(double value) {
 }
 
 RunSpec by_exact(RunSpec run) {
-  run.engine = Engine::exact;
+  run.engine = engine_for(EngineRole::closed_form);
   return run;
 }
 
@@ -43,7 +43,8 @@ Expected expected(const Model& model, const RunSpec& run) {
 
 bool exact_takes(const Model& model, const RunSpec& run) {
   try {
-    engine_row(Engine::exact).refuse(model, by_exact(run));
+    const RunSpec exact = by_exact(run);
+    engine_row(exact.engine).refuse(model, exact);
   } catch (const SceneError&) {
     return false;
   }
@@ -51,7 +52,7 @@ bool exact_takes(const Model& model, const RunSpec& run) {
 }
 
 std::optional<double> exact_instead(const Model& model, const RunSpec& run) {
-  if (run.engine != Engine::ida || !exact_takes(model, run)) return std::nullopt;
+  if (engine_row(run.engine).role != EngineRole::integrator || !exact_takes(model, run)) return std::nullopt;
   const Effort effort = expected(model, by_exact(run)).effort;
   return effort.seconds > 0.0 ? std::optional(effort.seconds) : std::nullopt;
 }

@@ -70,7 +70,7 @@ void join(const PartModel& part, const Testimony& own, Testimony& all) {
 
 }  // namespace
 
-double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<Ending>& endings,
+double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<RunEnd>& endings,
             Report& report) {
   report.audit.energy_scale = 0.0;
   report.audit.friction_work.resize(whole.contacts.size());

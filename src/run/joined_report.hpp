@@ -13,8 +13,8 @@
 namespace signorini {
 
 /// Adds what the parts have found to `report`, which has outcome, method, events and jumps of loads of the whole.
-/// Returns the sum of Ending::energy_rounding.
-double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<Ending>& endings,
+/// Returns the sum of RunEnd::energy_rounding.
+double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<RunEnd>& endings,
             Report& report);
 
 }  // namespace signorini

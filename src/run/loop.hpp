@@ -1,136 +1,98 @@
 // loop.hpp: the loop of signorini/simulate.hpp, in the units of its model, which may be a part of one.
 //
-//   Loop loop(model, spec, engine, method, recorder, company);
-//   loop.begin();   loop.on(t_1);   loop.on(t_2); ...   loop.end()
+//   Loop loop(model, spec, engine, method, recorder, hooks);
+//   loop.begin();   loop.advance_to(t_1);   loop.advance_to(t_2); ...   loop.end()
 //
-// Where on() pauses changes nothing: the stretch that is under way goes on with its next step.
+// It advances, decides, applies and notifies: listeners in their order (run_listener.hpp), the last of them its
+// record (run_record.hpp). Where advance_to() pauses changes nothing: the stretch that is under way goes on with its next
+// step.
 #pragma once
 
 #include <memory>
 #include <optional>
 
 #include "decide/decider.hpp"
-#include "run/audit.hpp"
 #include "run/breakpoints.hpp"
-#include "run/curve_record.hpp"
 #include "run/engines.hpp"
-#include "run/event_log.hpp"
-#include "run/large_motions.hpp"
 #include "run/last_touch.hpp"
-#include "run/meddler.hpp"
-#include "run/motion_record.hpp"
-#include "run/observer.hpp"
-#include "run/part_share.hpp"
-#include "run/response.hpp"
-#include "run/run_witness.hpp"
-#include "run/samples.hpp"
+#include "run/run_record.hpp"
 #include "run/standstill.hpp"
 #include "run/steering.hpp"
-#include "run/zero_since.hpp"
 
 namespace signorini {
 
-/// Who follows a run from inside; nobody: null, or empty.
-struct Company {
-  RoundListener listener = {};
-  MotionObserver* observer = nullptr;
-  Meddler* meddler = nullptr;
-
-  [[nodiscard]] bool none() const { return !listener && observer == nullptr && meddler == nullptr; }
-};
-
 /// What a loop has found, in the units of its model. Times are said in those of the scene.
-struct Ending {
+struct RunEnd {
   Report report;
   /// What a double leaves of the energy stored, whose terms may be far greater than their sum.
   double energy_rounding = 0.0;
-  bool grave = false;  ///< it stopped for what its witness found
+  bool law_violated = false;  ///< it stopped for what its witness found
 };
 
 class Loop {
  public:
   /// All that is referred to must outlive it.
   Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
-       const Company& company, const PartShare& share = {});
+       RunHooks hooks, const PartShare& share = {});
+  /// Its listeners refer to it.
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
 
   /// Decides the states at 0. Once, before all else.
   void begin();
   /// Whether they could be decided.
   [[nodiscard]] bool begun() const { return begun_; }
   /// To the first step that ends at `until` or later, to t_end at most, or to where the run stops.
-  void on(double until);
-  [[nodiscard]] double t() const { return t_; }
+  void advance_to(double until);
+  [[nodiscard]] double t() const { return state_.t; }
   [[nodiscard]] const Outcome& outcome() const { return report_.outcome; }
-  /// Whether on() has more to do.
-  [[nodiscard]] bool goes_on() const { return going_ && t_ < spec_.t_end; }
+  /// Whether advance_to() has more to do.
+  [[nodiscard]] bool is_running() const { return running_ && state_.t < spec_.t_end; }
   /// Of a run that goes no further. Once, after all else.
-  [[nodiscard]] Ending end();
+  [[nodiscard]] RunEnd end();
 
  private:
-  const Model& corrected();
   bool stop(std::string reason, Outcome::Kind kind = Outcome::Kind::stopped);
   bool refuse(const Refusal& refusal);
-  void watch();
   bool start();
-  void open_stretch(double end);
   bool step();
+  void advanced(const Step& step);
   bool steer();
   bool steered();
-  void pass(const Step& step);
-  void pass_turns(const std::vector<Stepper::ContactTurn>& turns);
   bool instant(std::vector<Fired> fired, std::optional<Mode> adopted = std::nullopt);
-  bool witnessed();
-  void meddle(Instant now, Decision& decided);
-  [[nodiscard]] std::vector<std::size_t> concerned(const Instant& now,
-                                                   const std::optional<Mode>& adopted) const;
-  bool pass_breakpoints(Instant& now);
-  [[nodiscard]] Point decided_point() const;
-  void take_decision(const std::optional<std::vector<std::size_t>>& changed);
-  void add_curves(double t, double to);
-  void emit(double t, Point& point);
-  void warn_of_decision();
-  [[nodiscard]] double rounding_of_energy() const;
+  [[nodiscard]] bool lawful();
+  [[nodiscard]] Instant instant_now(std::vector<Fired> fired) const;
+  [[nodiscard]] Point decided_point(const Decision& decision) const;
+  [[nodiscard]] RunPoint here() const {
+    return {state_.t, state_.forcing, state_.decision.mode, state_.point};
+  }
 
-  const Model& model_;
+  Model& model_;
   const RunSpec& spec_;
   Recorder& recorder_;
-  MotionObserver* observer_;  // null: nobody
-  Meddler* meddler_;          // null: nobody
+  RunHooks hooks_;
   Report report_;
   Structure structure_;
   ModeSystems systems_;
-  Tolerance tolerance_;
   Decider decider_;
   std::unique_ptr<Stepper> engine_;
-  std::unique_ptr<Model> truth_;  // null: model_
-  RunWitness witness_;
-  Auditor auditor_;
-  EventLog log_;
-  Samples samples_;
-  MotionRecord motion_;
-  CurveRecord curves_;
-  ResponseWatch response_;
+  RunRecord record_;
   LastTouch touches_;
-  LargeMotions large_;
-  ZeroSince zero_since_;
   Standstill standstill_;
-  std::vector<Breakpoint> breakpoints_;
-  Forcing forcing_;  // after t_
-  Decision decision_;
-  Point point_;
-  Works works_{model_.contacts.size()};
-  Energy last_energy_;
-  double t_ = 0.0, resolution_ = 0.0;
-  std::size_t next_breakpoint_ = 0;
+  BreakpointQueue breakpoints_;
   LoadChanges changes_;
-  LoadChanges::Change change_;  // of the loads, at t_
-  bool shares_ = false;         // it was said
-  int gains_ = 0, releases_ = 0, at_limit_ = 0;
-  bool begun_ = false, going_ = false;
-  double stretch_end_ = 0.0;  // of the stretch that is under way
-  bool under_way_ = false;
-  bool same_forcing_ = false;  // the last instant has changed none
-  bool residual_due_ = false;  // at the end of the step: once for every row
+  struct State {
+    Forcing forcing;  // after t
+    Decision decision = {};
+    Point point = {};
+    double t = 0.0, resolution = 0.0;
+  } state_;
+  struct Stretch {
+    double end = 0.0;
+    bool open = false;
+    bool same_forcing = false;  // the last instant has changed none
+  } stretch_;                   // that is under way
+  bool begun_ = false, running_ = false;
 };
 
 }  // namespace signorini

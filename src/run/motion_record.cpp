@@ -38,7 +38,7 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
     for (const std::size_t k : parts[i]) tracks_[k].part = i;
 }
 
-void MotionRecord::step(double begin, double end, const std::vector<double>& turning_points) {
+void MotionRecord::step(double begin, double end, std::span<const double> turning_points) {
   at_ = begin;
   end_ = std::min(end, t_end_);  // that of a motion that overflows may be anywhere
   turn_ = 0;

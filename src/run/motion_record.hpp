@@ -15,6 +15,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/thinned.hpp"
@@ -35,7 +36,7 @@ class MotionRecord {
     bool turns = false;  ///< a turning point
   };
   /// A step: its turning points, ascending, and as many times between as a line needs are its moments.
-  void step(double begin, double end, const std::vector<double>& turning_points);
+  void step(double begin, double end, std::span<const double> turning_points);
   /// They ascend; nothing: there is no other.
   [[nodiscard]] std::optional<Moment> next();
   /// At t, the time of the last row: how close rows must be for curves; with those of the contacts it is how close they are.

@@ -45,8 +45,8 @@ std::vector<Swing> swings_given(const Model& model) {
 
 }  // namespace
 
-Reach reach_of(const Stepper& engine, const Output& linear) {
-  return {engine.reach(linear.u), engine.reach(linear.v), engine.reach(linear.a)};
+Reach reach_of(const FastModes& modes, const Output& linear) {
+  return {modes.form_norm(linear.u), modes.form_norm(linear.v), modes.form_norm(linear.a)};
 }
 
 double added(const Ripple& ripple, const Reach& reach, const Output& linear, const ForceLayout& layout) {
@@ -84,18 +84,18 @@ void Pace::loads_changed() {
   }
 }
 
-double Pace::of_all(const Stepper& engine, double begin, double end) {
+double Pace::of_all(double radians, double begin, double end) {
   given_ = 1.0 / t_end_;
   auto next = std::upper_bound(changes_.begin(), changes_.end(), begin);
   do given_ = std::max(given_, fastest_[static_cast<std::size_t>(next - changes_.begin())]);
   while (next != changes_.end() && *next++ < end);
-  return std::max(given_, std::min(model_.omega_max, engine.turns() / (end - begin)));
+  return std::max(given_, std::min(model_.omega_max, radians / (end - begin)));
 }
 
-double Pace::of_what_counts(const Stepper& engine, double all,
+double Pace::of_what_counts(const FastModes& modes, double all,
                             const std::function<bool(const Ripple&)>& is_rounding) const {
   const auto quiet_above = [&](double omega) {
-    const auto ripple = engine.ripple(omega);
+    const auto ripple = modes.fast_mode_bound(omega);
     return ripple && is_rounding(*ripple);
   };
   double from = given_, to = all;

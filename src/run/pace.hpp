@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-#include "engine/stepper.hpp"
+#include "engine/dense_output.hpp"
 
 namespace signorini {
 
@@ -19,7 +19,7 @@ namespace signorini {
 struct Reach {
   double u = 0.0, v = 0.0, a = 0.0;
 };
-[[nodiscard]] Reach reach_of(const Stepper& engine, const Output& linear);
+[[nodiscard]] Reach reach_of(const FastModes& modes, const Output& linear);
 /// What a ripple may add to it.
 [[nodiscard]] double added(const Ripple& ripple, const Reach& reach, const Output& linear,
                            const ForceLayout& layout);
@@ -32,10 +32,10 @@ class Pace {
 
   /// The model's loads are others from here on.
   void loads_changed();
-  /// Of structure and loads, in the last step.
-  [[nodiscard]] double of_all(const Stepper& engine, double begin, double end);
+  /// Of structure and loads, in a step whose motion turns by so many radians (StepFacts::radians).
+  [[nodiscard]] double of_all(double radians, double begin, double end);
   /// In the step that of_all() was asked about. No more than `all`, and no less than loads ask for.
-  [[nodiscard]] double of_what_counts(const Stepper& engine, double all,
+  [[nodiscard]] double of_what_counts(const FastModes& modes, double all,
                                       const std::function<bool(const Ripple&)>& is_rounding) const;
   /// At which a run turns by so many radians.
   [[nodiscard]] double fastest(double radians) const { return radians / t_end_; }

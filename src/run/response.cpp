@@ -115,7 +115,7 @@ void ResponseWatch::row(double t, Side side, const Point& point, const std::vect
   }
 }
 
-void ResponseWatch::inside(Stepper& engine, double begin, double end) {
+void ResponseWatch::inside(DenseOutput& motion, double begin, double end) {
   if (!any() || !(end > begin)) return;
   std::vector<char> open, at_end(model_.outputs.size(), 0);
   for (const Watched& watched : watched_) {
@@ -128,13 +128,13 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
     if (!between && !loss) at_end[watched.output] = 1;
   }
   if (std::find(at_end.begin(), at_end.end(), 1) != at_end.end()) {
-    engine.evaluate(end, point_);
-    engine.accelerate(end, point_);
+    motion.evaluate(end, point_);
+    motion.accelerate(end, point_);
     for (std::size_t i = 0; i < at_end.size(); ++i)
       if (at_end[i] != 0)
         see(i, end, reading_of(model_.outputs[i], end, Side::before, point_, model_.layout, none_));
   }
-  radian_ = 1.0 / turning(engine, {begin, end, open});
+  radian_ = 1.0 / turning(motion, {begin, end, open});
   const double pieces = std::max(1.0, std::ceil((end - begin) / (longest * radian_)));
   double from = begin;
   for (double k = 1.0; k <= pieces; ++k) {
@@ -144,7 +144,7 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
     while (!parts.empty()) {
       Part part = std::move(parts.back());
       parts.pop_back();
-      if (!look(engine, part, begin)) continue;
+      if (!look(motion, part, begin)) continue;
       const double middle = 0.5 * (part.begin + part.end);
       // The earlier half first: the first of equal extremes counts.
       parts.push_back({middle, part.end, part.open});
@@ -154,16 +154,18 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
 }
 
 /// How fast what outputs show of a step turns. Its ranges are those at the points of the whole step at least.
-double ResponseWatch::turning(Stepper& engine, const Part& step) {
-  double omega = pace_.of_all(engine, step.begin, step.end);
-  if (omega * (step.end - step.begin) > longest && engine.ripple(omega)) {
-    for (std::size_t j = 0; j < Chebyshev::count; ++j) sample(engine, step, step.begin, j);
+double ResponseWatch::turning(DenseOutput& motion, const Part& step) {
+  const StepFacts facts = motion.facts();
+  double omega = pace_.of_all(facts.radians, step.begin, step.end);
+  const FastModes* modes = facts.fast_modes;
+  if (omega * (step.end - step.begin) > longest && modes != nullptr && modes->fast_mode_bound(omega)) {
+    for (std::size_t j = 0; j < Chebyshev::count; ++j) sample(motion, step, step.begin, j);
     for (std::size_t k = 0; k < watched_.size(); ++k)
       if (step.open[k] != 0 && watched_[k].stretch >= 0) see_samples(watched_[k], step, 1);
     for (std::size_t i = reaches_.size(); i < forms_.size(); ++i)
-      reaches_.push_back(reach_of(engine, *forms_[i]));
-    const Ripple whole = engine.whole();
-    omega = pace_.of_what_counts(engine, omega, [&](const Ripple& r) { return is_rounding(r, whole); });
+      reaches_.push_back(reach_of(*modes, *forms_[i]));
+    const Ripple whole = modes->term_sizes();
+    omega = pace_.of_what_counts(*modes, omega, [&](const Ripple& r) { return is_rounding(r, whole); });
   }
   // A step that is one part costs no more than others.
   const double most = std::max(pace_.fastest(most_pieces * longest), longest / (step.end - step.begin));
@@ -213,11 +215,11 @@ std::span<const Chebyshev::Values> ResponseWatch::samples_of(const Watched& watc
   return std::span(samples_).subspan(watched.first, watched.count);
 }
 
-void ResponseWatch::sample(Stepper& engine, const Part& part, double begin, std::size_t point) {
+void ResponseWatch::sample(DenseOutput& motion, const Part& part, double begin, std::size_t point) {
   const double x = Chebyshev::nodes()[point];
   const double t =
       point + 1 == Chebyshev::count ? part.end : part.begin + 0.5 * (x + 1.0) * (part.end - part.begin);
-  engine.interpolate(t, point_);
+  motion.interpolate(t, point_);
   const Side side = t == begin ? Side::after : Side::before;
   for (std::size_t k = 0; k < watched_.size(); ++k) {
     if (part.open[k] == 0) continue;
@@ -232,25 +234,26 @@ void ResponseWatch::sample(Stepper& engine, const Part& part, double begin, std:
   }
 }
 
-bool ResponseWatch::look(Stepper& engine, Part& part, double begin) {
-  for (const std::size_t point : {0U, 8U, 16U}) sample(engine, part, begin, point);
+bool ResponseWatch::look(DenseOutput& motion, Part& part, double begin) {
+  for (const std::size_t point : {0U, 8U, 16U}) sample(motion, part, begin, point);
   for (const std::size_t stride : {4U, 2U, 1U}) {
-    for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride) sample(engine, part, begin, j);
+    for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride) sample(motion, part, begin, j);
     bool left = false;
     for (std::size_t k = 0; k < watched_.size(); ++k) {
       if (part.open[k] == 0) continue;
-      if (settled(watched_[k], engine, part, stride)) part.open[k] = 0;
+      if (settled(watched_[k], motion, part, stride)) part.open[k] = 0;
       left = left || part.open[k] != 0;
     }
     if (!left) return false;
   }
   if (part.end - part.begin > radian_) return true;
   for (std::size_t k = 0; k < watched_.size(); ++k)
-    if (part.open[k] != 0) sharpen(watched_[k], engine, part, 1);
+    if (part.open[k] != 0) sharpen(watched_[k], motion, part, 1);
   return false;
 }
 
-bool ResponseWatch::settled(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride) {
+bool ResponseWatch::settled(const Watched& watched, DenseOutput& motion, const Part& part,
+                            std::size_t stride) {
   const std::span<const Chebyshev::Values> all = samples_of(watched);
   double error = 0.0;
   for (const Chebyshev::Values& values : all)
@@ -271,19 +274,20 @@ bool ResponseWatch::settled(const Watched& watched, Stepper& engine, const Part&
     magnitude = std::max(magnitude, magnitudes_[i]);
   const double asked = resolved(stride, at.greatest - at.least, located * size);
   if (error > std::max(asked, rounding::of_elimination * magnitude)) return false;
-  sharpen(watched, engine, part, stride);
+  sharpen(watched, motion, part, stride);
   return true;
 }
 
-void ResponseWatch::sharpen(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride) {
+void ResponseWatch::sharpen(const Watched& watched, DenseOutput& motion, const Part& part,
+                            std::size_t stride) {
   if (watched.stretch < 0)
-    sharpen_output(watched, engine, part, stride);
+    sharpen_output(watched, motion, part, stride);
   else
-    sharpen_stretch(watched, engine, part, stride);
+    sharpen_stretch(watched, motion, part, stride);
 }
 
-void ResponseWatch::see_motion(const Watched& watched, Stepper& engine, double t) {
-  engine.interpolate(t, point_);
+void ResponseWatch::see_motion(const Watched& watched, DenseOutput& motion, double t) {
+  motion.interpolate(t, point_);
   const Output& output = model_.outputs[watched.output];
   Along::Values values{};
   for (std::size_t i = 0; i < watched.count; ++i)
@@ -293,7 +297,7 @@ void ResponseWatch::see_motion(const Watched& watched, Stepper& engine, double t
                           : along_stretch(output, static_cast<std::size_t>(watched.stretch), values));
 }
 
-void ResponseWatch::sharpen_output(const Watched& watched, Stepper& engine, const Part& part,
+void ResponseWatch::sharpen_output(const Watched& watched, DenseOutput& motion, const Part& part,
                                    std::size_t stride) {
   const Chebyshev::Values& values = samples_[watched.first];
   const Chebyshev::Values& nodes = Chebyshev::nodes();
@@ -306,11 +310,11 @@ void ResponseWatch::sharpen_output(const Watched& watched, Stepper& engine, cons
     const OutputExtremes& known = extremes_[watched.output];
     const double rest = located * std::max(std::abs(known.maximum), std::abs(known.minimum));
     if (p + rest <= known.maximum && p - rest >= known.minimum) continue;
-    see_motion(watched, engine, part.begin + half * (x + 1.0));
+    see_motion(watched, motion, part.begin + half * (x + 1.0));
   }
 }
 
-void ResponseWatch::sharpen_stretch(const Watched& watched, Stepper& engine, const Part& part,
+void ResponseWatch::sharpen_stretch(const Watched& watched, DenseOutput& motion, const Part& part,
                                     std::size_t stride) {
   const std::span<const Chebyshev::Values> all = samples_of(watched);
   const double half = 0.5 * (part.end - part.begin);
@@ -318,9 +322,9 @@ void ResponseWatch::sharpen_stretch(const Watched& watched, Stepper& engine, con
   const OutputExtremes& known = extremes_[watched.output];
   const double rest = located * std::max(std::abs(known.maximum), std::abs(known.minimum));
   for (const double x : peaks_along(all, stride, 1.0, known.maximum + rest))
-    see_motion(watched, engine, part.begin + half * (x + 1.0));
+    see_motion(watched, motion, part.begin + half * (x + 1.0));
   for (const double x : peaks_along(all, stride, -1.0, known.minimum - rest))
-    see_motion(watched, engine, part.begin + half * (x + 1.0));
+    see_motion(watched, motion, part.begin + half * (x + 1.0));
 }
 
 }  // namespace signorini

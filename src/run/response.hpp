@@ -43,7 +43,7 @@ class ResponseWatch {
   /// Keeps the side before an instant at which something happens; `row` after it writes both.
   void before(double t, const Point& point, const std::vector<double>& losses);
   /// The inside of a step.
-  void inside(Stepper& engine, double begin, double end);
+  void inside(DenseOutput& motion, double begin, double end);
   /// Greatest |sum of reactions - loads + inertia| of the rows.
   [[nodiscard]] const Extreme& reactions() const { return reactions_; }
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
@@ -66,19 +66,20 @@ class ResponseWatch {
                 std::vector<OutputReading>& readings) const;
   void write(double t, const std::vector<OutputReading>& readings);
   void see(std::size_t output, double t, const OutputReading& reading);
-  [[nodiscard]] double turning(Stepper& engine, const Part& step);
+  [[nodiscard]] double turning(DenseOutput& motion, const Part& step);
   [[nodiscard]] bool is_rounding(const Ripple& ripple, const Ripple& whole) const;
   void see_samples(const Watched& watched, const Part& part, std::size_t stride);
   [[nodiscard]] std::span<const Chebyshev::Values> samples_of(const Watched& watched) const;
   /// Closes what is settled; false: nothing is left.
-  [[nodiscard]] bool look(Stepper& engine, Part& part, double begin);
-  void sample(Stepper& engine, const Part& part, double begin, std::size_t point);
-  [[nodiscard]] bool settled(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
-  void sharpen(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
-  void sharpen_output(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
-  void sharpen_stretch(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
+  [[nodiscard]] bool look(DenseOutput& motion, Part& part, double begin);
+  void sample(DenseOutput& motion, const Part& part, double begin, std::size_t point);
+  [[nodiscard]] bool settled(const Watched& watched, DenseOutput& motion, const Part& part,
+                             std::size_t stride);
+  void sharpen(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
+  void sharpen_output(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
+  void sharpen_stretch(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
   /// The engine's own values there.
-  void see_motion(const Watched& watched, Stepper& engine, double t);
+  void see_motion(const Watched& watched, DenseOutput& motion, double t);
 
   const Model& model_;
   Recorder& recorder_;

@@ -16,23 +16,23 @@
 namespace signorini {
 
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
-  return simulate(model, settings, recorder, {});
+  return simulate(model, settings, recorder, RoundListener());
 }
 
 namespace {
 
-Ending run_whole(Model& model, const RunSpec& spec, const EngineRow& engine, Method method,
-                 Recorder& recorder, const Company& company) {
-  Loop loop(model, spec, engine, std::move(method), recorder, company);
+RunEnd run_whole(Model& model, const RunSpec& spec, const EngineRow& engine, Method method,
+                 Recorder& recorder, RunHooks hooks) {
+  Loop loop(model, spec, engine, std::move(method), recorder, std::move(hooks));
   loop.begin();
-  loop.on(spec.t_end);
+  loop.advance_to(spec.t_end);
   return loop.end();
 }
 
 /// In the units of the scene, with what is said of a run when it is over.
-Report concluded(Ending ending, const Model& computed, const RunSpec& spec) {
+Report concluded(RunEnd ending, const Model& computed, const RunSpec& spec) {
   Report report = physical(std::move(ending.report), computed);
-  if (report.witness.violated > 0 && !ending.grave)
+  if (report.witness.violated > 0 && !ending.law_violated)
     report.warnings.push_back(sentence_of(report.witness, computed));
   const double rounding = ending.energy_rounding * factor_of(unit::energy, computed.unit);
   if (const auto sentence = energy_lost(report.audit, report.method, rounding, exact_takes(computed, spec)))
@@ -40,7 +40,7 @@ Report concluded(Ending ending, const Model& computed, const RunSpec& spec) {
   return report;
 }
 
-Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder, const Company& company) {
+Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder, RunHooks hooks) {
   const EngineChoice choice = choose_engine(model, settings);
   RunSpec spec = settings;
   spec.engine = choice.engine;
@@ -53,12 +53,11 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
   Model computed = rescaled(model, to_machine);
   spec = rescaled(std::move(spec), to_machine);
   PhysicalRecorder in_scene(computed, recorder);
-  const RoundListener listener = physical(company.listener, computed);
+  hooks.rounds = physical(hooks.rounds, computed);
   const auto clock = std::chrono::steady_clock::now();
-  std::vector<PartModel> parts = parts_to_run(computed, spec, method, recorder, company);
-  Ending ending = parts.empty()
-                      ? run_whole(computed, spec, engine, std::move(method), in_scene,
-                                  {listener, company.observer, company.meddler})
+  std::vector<PartModel> parts = parts_to_run(computed, method, recorder, hooks);
+  RunEnd ending = parts.empty()
+                      ? run_whole(computed, spec, engine, std::move(method), in_scene, std::move(hooks))
                       : run_apart(computed, std::move(parts), spec, engine, std::move(method), in_scene);
   Report report = concluded(std::move(ending), computed, spec);
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
@@ -69,15 +68,24 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
 
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                 const RoundListener& listener) {
-  return simulated(model, settings, recorder, {listener});
+  RunHooks hooks;
+  hooks.rounds = listener;
+  return simulated(model, settings, recorder, std::move(hooks));
 }
 
-Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, MotionObserver& observer) {
-  return simulated(model, settings, recorder, {{}, &observer});
+Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, RunListener& listener,
+                const ListenerNeeds& needs, EventShift* event_shift) {
+  RunHooks hooks;
+  hooks.listeners.add(listener);
+  hooks.needs = needs;
+  hooks.event_shift = event_shift;
+  return simulated(model, settings, recorder, std::move(hooks));
 }
 
-Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, Meddler& meddler) {
-  return simulated(model, settings, recorder, {{}, nullptr, &meddler});
+Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, FaultInjector& faults) {
+  RunHooks hooks;
+  hooks.faults = &faults;
+  return simulated(model, settings, recorder, std::move(hooks));
 }
 
 Result simulate(const Model& model, const RunSpec& settings) {

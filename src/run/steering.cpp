@@ -39,11 +39,11 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
           if (given.load == found->name) given.history = found->history.scaled(given.factor);
       });
   engine_.refuse(model_, run_);
-  if (method_.engine == Engine::exact && method_.flow == "modal" && !choose_flow(model_, run_).modal)
+  if (method_.flow == "modal" && !choose_flow(model_, run_).modal)
     throw SceneError(run_.place, "set_load",
                      "the flow in modes follows loads that change in jumps only; use run.flow = \"taylor\"");
-  change_.any = true;
-  change_.jump = change_.jump || before != after;
+  asked_.any = true;
+  asked_.jump = asked_.jump || before != after;
 }
 
 }  // namespace signorini

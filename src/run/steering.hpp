@@ -20,11 +20,14 @@ class LoadChanges final : public Steering {
 
   /// The present instant, machine's time.
   void at(double t) { t_ = t; }
-  /// Whether anything has been changed since the last call, and whether a value has jumped.
+  /// Whether anything is changed, and whether a value jumps.
   struct Change {
     bool any = false, jump = false;
   };
-  [[nodiscard]] Change take() { return std::exchange(change_, {}); }
+  /// What was asked for since the last call is in force now.
+  void apply() { change_ = std::exchange(asked_, {}); }
+  /// In force at the present instant.
+  [[nodiscard]] const Change& change() const { return change_; }
 
  private:
   Model& model_;
@@ -32,7 +35,7 @@ class LoadChanges final : public Steering {
   const EngineRow& engine_;
   const Method& method_;
   double t_ = 0.0;
-  Change change_;
+  Change asked_, change_;
   std::vector<History> past_;
 };
 

@@ -1,4 +1,5 @@
 #include "run/trial.hpp"
+#include "run/engines.hpp"
 
 #include <fmt/core.h>
 
@@ -81,7 +82,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double p
 
 std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
                           const std::vector<double>& cutoffs, double patience) {
-  std::vector<Engine> engines{Engine::exact, Engine::ida};
+  std::vector<Engine> engines{engine_for(EngineRole::closed_form), engine_for(EngineRole::integrator)};
   if (std::find(engines.begin(), engines.end(), own) == engines.end()) engines.push_back(own);
   std::vector<Trial> list;
   const auto add = [&](const Model& tried, double cutoff) {

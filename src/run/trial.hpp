@@ -17,7 +17,7 @@
 namespace signorini {
 
 struct Trial {
-  Engine engine = Engine::ida;
+  Engine engine = Engine::automatic;
   double cutoff = 0.0;   ///< of [reduction], as a frequency; 0: the model as it is
   double seconds = 0.0;  ///< of the whole run
 };

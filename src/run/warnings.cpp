@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/listed.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "engine/newmark/short_pulse.hpp"
 #include "model/said.hpp"
+#include "run/engines.hpp"
 
 namespace signorini {
 namespace {
@@ -19,6 +21,7 @@ constexpr double most_turned = 1.0;
 constexpr double much_energy = 1e-3;   // of what is exchanged, that the balance may miss without a word
 constexpr double least_energy = 1e-9;  // of the scene's scales, or of what is stored: at rest nothing is
                                        // exchanged but rounding
+constexpr int most_of_a_kind = 5;      // warnings of a run
 
 }  // namespace
 
@@ -63,6 +66,10 @@ std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& 
   }
   return sentences;
 }
+
+namespace {
+
+// t: in the scene's unit.
 
 std::string impact_gain(double t, double gain) {
   return fmt::format(
@@ -112,6 +119,23 @@ std::string rest_at_limit(const Model& model, const AtLimit& found, double t) {
       c.friction.drops() ? ", and there friction drops to the kinetic one" : "");
 }
 
+}  // namespace
+
+void DecisionWarnings::add(double t, const Decision& decision, std::vector<std::string>& warnings) {
+  const double at = said_time(model_, t);
+  for (const std::size_t c : decision.released)
+    if (++releases_ <= most_of_a_kind) warnings.push_back(left_at_once(model_, c, at));
+  if (!shares_)
+    if (auto sentence = shared_motion(model_, decision, at)) {
+      warnings.push_back(std::move(*sentence));
+      shares_ = true;
+    }
+  for (const AtLimit& found : decision.at_limit)
+    if (++at_limit_ <= most_of_a_kind) warnings.push_back(rest_at_limit(model_, found, at));
+  if (decision.impact_gains && ++gains_ <= most_of_a_kind)
+    warnings.push_back(impact_gain(at, said(model_, -decision.impact_loss, unit::energy)));
+}
+
 std::optional<std::string> energy_lost(const Audit& audit, const Method& method, double rounding,
                                        bool other) {
   const double off = audit.energy.value;
@@ -124,11 +148,11 @@ std::optional<std::string> energy_lost(const Audit& audit, const Method& method,
           : fmt::format("{:.2g} of what was exchanged", off / audit.energy_scale);
   const std::string told =
       fmt::format("the energy balance has an error of {} (at t = {:.6g}); ", much, audit.energy.t);
-  if (method.engine == Engine::exact)
+  if (name_of(method.engine).accuracy == Accuracy::rounding)
     return told + "signorini verify compares this run with two other engines";
   const bool steps = name_of(method.engine).accuracy == Accuracy::step;
   return told + (steps ? "use a smaller run.dt" : "use a smaller rtol, or an atol that fits the motion") +
-         (other ? fmt::format(", or engine \"{}\"", to_string(Engine::exact)) : "");
+         (other ? fmt::format(", or engine \"{}\"", to_string(engine_for(EngineRole::closed_form))) : "");
 }
 
 }  // namespace signorini

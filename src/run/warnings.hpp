@@ -15,18 +15,20 @@ namespace signorini {
 /// as they need.
 [[nodiscard]] std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& run);
 
-/// An impact that gains energy.
-[[nodiscard]] std::string impact_gain(double t, double gain);
+/// Warnings about the decisions of a run, some of each kind: impacts that gain energy, contacts that parts without mass leave
+/// at once, contacts that hold one motion together, rest at a limit of friction that rounding hides.
+class DecisionWarnings {
+ public:
+  /// The model must outlive this.
+  explicit DecisionWarnings(const Model& model) : model_(model) {}
+  /// t: in the units of the model.
+  void add(double t, const Decision& decision, std::vector<std::string>& warnings);
 
-/// Parts without mass have left contact c at once. t: in the scene's unit.
-[[nodiscard]] std::string left_at_once(const Model& model, std::size_t c, double t);
-
-/// Rounding cannot tell whether a contact sticks. t: in the scene's unit.
-[[nodiscard]] std::string rest_at_limit(const Model& model, const AtLimit& found, double t);
-
-/// Contacts hold one motion together, if some do. t: in the scene's unit.
-[[nodiscard]] std::optional<std::string> shared_motion(const Model& model, const Decision& decision,
-                                                       double t);
+ private:
+  const Model& model_;
+  bool shares_ = false;  // it has warned of it
+  int gains_ = 0, releases_ = 0, at_limit_ = 0;
+};
 
 /// The balance of a finished audit is off by more than 1e-3 of what was exchanged, and by more than `rounding`, what a
 /// double leaves of the energy stored. other: `exact` takes the scene.

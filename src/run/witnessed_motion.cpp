@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "run/engines.hpp"
 
 namespace signorini {
 namespace {
@@ -20,8 +21,9 @@ WitnessedEngine witnessed_engine(const RunSpec& run, const Tolerance& tolerance,
   WitnessedEngine engine;
   const Accuracy accuracy = name_of(run.engine).accuracy;
   engine.sums_over_modes = flow == "modal";
-  engine.follows = run.engine != Engine::friction_iteration;
-  engine.located = engine.follows && !(run.engine == Engine::newmark && run.refine == Refine::linear);
+  const EngineAbilities& can = engine_row(run.engine).can;
+  engine.follows = can.laws_at_ends;
+  engine.located = can.locates_events(run);
   WitnessLimits& limits = engine.limits;
   limits.capture_velocity = tolerance.capture_velocity();
   limits.knows_low_flights = low_flights && !engine.sums_over_modes;

@@ -45,7 +45,7 @@ class WitnessedMotion {
   /// WitnessedSide::a_reach.
   [[nodiscard]] std::array<double, 2> of_accelerations(const Witness& witness, const Vector& a,
                                                        double dependence) const;
-  /// dependence: Stepper::dependence() of the motion up to t.
+  /// dependence: StepFacts::eigenvector_condition of the motion up to t.
   [[nodiscard]] WitnessedSide side(const Forcing& forcing, double t, double dependence) const;
   /// The same into one that is there, whose memory is used again: one of this motion, whose contacts that nothing drives
   /// stay as they are; or one without `driven`.

@@ -53,7 +53,7 @@ void DiscreteRun::stop(const std::string& reason, double t) {
     }
 }
 
-void DiscreteRun::begin(const ObservedInstant& start) {
+void DiscreteRun::begin(const RunInstant& start) {
   for (TangentState& state : states_) {
     const ModelDerivative& d = state.derivative;
     Moved& moved = moved_.emplace_back();
@@ -166,7 +166,7 @@ DiscreteRun::Moved DiscreteRun::advance(std::size_t p, const Forcing& forcing, c
 }
 
 /// How the end of a step moves.
-double DiscreteRun::end_of(std::size_t p, const ObservedStep& step, const Ends& ends) {
+double DiscreteRun::end_of(std::size_t p, const RunStep& step, const Ends& ends) {
   if (step.step.kind != Step::Kind::event) {
     const auto jumps = breakpoints_at(model_, states_[p].derivative, ends.to.t, step.step.resolution);
     if (!jumps.empty()) return jumps.front().rate;
@@ -190,7 +190,7 @@ double DiscreteRun::end_of(std::size_t p, const ObservedStep& step, const Ends& 
 }
 
 /// A row between nodes: the step redone to there, at a time that does not move.
-void DiscreteRun::row(const ObservedStep& step, double t) {
+void DiscreteRun::row(const RunStep& step, double t) {
   const Node at = redone(step.forcing, t);
   TangentSample sample{t, step.forcing, mode_, point_of(at.point), {}, {}, {}, {}};
   for (std::size_t p = 0; p < states_.size(); ++p) {
@@ -207,7 +207,7 @@ void DiscreteRun::row(const ObservedStep& step, double t) {
   listener_.sample(sample, true, false);
 }
 
-void DiscreteRun::step(const ObservedStep& step) {
+void DiscreteRun::step(const RunStep& step) {
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_) row(step, grid_[next_]);
   const Node end = redone(step.forcing, step.step.end);
   std::vector<Moved> next = moved_;
@@ -222,7 +222,7 @@ void DiscreteRun::step(const ObservedStep& step) {
 }
 
 /// Velocities after a hit.
-void DiscreteRun::hit(std::size_t p, const ObservedInstant& now) {
+void DiscreteRun::hit(std::size_t p, const RunInstant& now) {
   impulse_n_[p].clear();
   impulse_t_[p].clear();
   const auto& impulses = now.after.impulses;
@@ -241,7 +241,7 @@ void DiscreteRun::hit(std::size_t p, const ObservedInstant& now) {
 }
 
 /// Anchors that are dropped, as TangentEvents::move_anchors.
-void DiscreteRun::hold(std::size_t p, const ObservedInstant& now) {
+void DiscreteRun::hold(std::size_t p, const RunInstant& now) {
   const ForcingRatesSeries series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
@@ -254,7 +254,7 @@ void DiscreteRun::hold(std::size_t p, const ObservedInstant& now) {
   }
 }
 
-void DiscreteRun::fill(std::size_t p, const ObservedInstant& now, const Node& before, const Moved& was) {
+void DiscreteRun::fill(std::size_t p, const RunInstant& now, const Node& before, const Moved& was) {
   TangentState& state = states_[p];
   const ForcingRatesSeries series = forcing_at(p, now.t);
   const Moved& is = moved_[p];
@@ -280,7 +280,7 @@ void DiscreteRun::fill(std::size_t p, const ObservedInstant& now, const Node& be
   }
 }
 
-void DiscreteRun::pass(const ObservedInstant& now) {
+void DiscreteRun::pass(const RunInstant& now) {
   const Node before = node_;
   const std::vector<Moved> was = moved_;
   for (std::size_t p = 0; p < states_.size(); ++p) {
@@ -315,13 +315,13 @@ void DiscreteRun::pass(const ObservedInstant& now) {
   listener_.at_instant(motion, states_);
 }
 
-void DiscreteRun::instant(const ObservedInstant& instant) {
+void DiscreteRun::instant(const RunInstant& instant) {
   pass(instant);
   rows_at(instant);
 }
 
 /// A row asked for at the instant itself shows what is just after.
-void DiscreteRun::rows_at(const ObservedInstant& instant) {
+void DiscreteRun::rows_at(const RunInstant& instant) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{grid_[next_], instant.forcing_after, mode_, point_of(node_.point), {}, {}, {}, {}};
     for (std::size_t p = 0; p < states_.size(); ++p) {

@@ -19,15 +19,17 @@
 
 namespace signorini {
 
-class DiscreteRun final : public MotionObserver {
+class DiscreteRun final : public RunListener {
  public:
   /// As TangentRun.
   DiscreteRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
               const std::vector<double>& sizes, TangentListener& listener);
 
-  void begin(const ObservedInstant& start) override;
-  void step(const ObservedStep& step) override;
-  void instant(const ObservedInstant& instant) override;
+  /// Of the engine it asks nothing.
+  [[nodiscard]] static ListenerNeeds needs() { return {}; }
+  void begin(const RunInstant& start) override;
+  void step(const RunStep& step) override;
+  void instant(const RunInstant& instant) override;
 
   [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
 
@@ -59,13 +61,13 @@ class DiscreteRun final : public MotionObserver {
   [[nodiscard]] ContactMotion along(std::size_t parameter, std::size_t contact, const Forcing& forcing,
                                     const Node& at, const Moved& moved,
                                     const ForcingRatesSeries& series) const;
-  [[nodiscard]] double end_of(std::size_t parameter, const ObservedStep& step, const Ends& ends);
-  void row(const ObservedStep& step, double t);
-  void hit(std::size_t parameter, const ObservedInstant& instant);
-  void hold(std::size_t parameter, const ObservedInstant& instant);
-  void pass(const ObservedInstant& instant);
-  void rows_at(const ObservedInstant& instant);
-  void fill(std::size_t parameter, const ObservedInstant& instant, const Node& before, const Moved& was);
+  [[nodiscard]] double end_of(std::size_t parameter, const RunStep& step, const Ends& ends);
+  void row(const RunStep& step, double t);
+  void hit(std::size_t parameter, const RunInstant& instant);
+  void hold(std::size_t parameter, const RunInstant& instant);
+  void pass(const RunInstant& instant);
+  void rows_at(const RunInstant& instant);
+  void fill(std::size_t parameter, const RunInstant& instant, const Node& before, const Moved& was);
 
   const Model& model_;
   Structure structure_;

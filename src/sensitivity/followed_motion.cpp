@@ -53,13 +53,13 @@ SeriesPoint FollowedMotion::at(double t) {
   engine.start({t, &stretch_, &*forcing_});
   for (;;) {
     const Step step = engine.advance();
-    const Expansion e = engine.expansion();
+    const Expansion e = engine.dense_output().facts().expansion;
     if (step.kind == Step::Kind::failed || step.end >= t)
       return point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
   }
 }
 
-std::optional<double> FollowedMotion::time_of(const ObservedInstant& instant, const MotionAt& at) const {
+std::optional<double> FollowedMotion::time_of(const RunInstant& instant, const MotionAt& at) const {
   if (instant.breakpoint) return instant.t;
   if (instant.fired.empty()) {  // the end, or states that the engine found itself
     if (same_states(instant.mode_before, instant.after.mode)) return instant.t;
@@ -89,14 +89,14 @@ std::optional<double> FollowedMotion::time_of(const ObservedInstant& instant, co
   return std::nullopt;
 }
 
-ObservedInstant FollowedMotion::take(const ObservedInstant& instant) {
+RunInstant FollowedMotion::take(const RunInstant& instant) {
   ++taken_;
   now_ = instant.after;
   touches_.instant(instant.t, instant.mode_before, instant.after);
   return instant;
 }
 
-ObservedInstant FollowedMotion::pass(const ObservedInstant& instant, double t, const SeriesPoint& before) {
+RunInstant FollowedMotion::pass(const RunInstant& instant, double t, const SeriesPoint& before) {
   Instant at;
   at.t = t;
   at.resolution = instant.resolution;

@@ -16,7 +16,7 @@
 #include "decide/decider.hpp"
 #include "engine/exact/modal/modal_engine.hpp"
 #include "run/last_touch.hpp"
-#include "run/observer.hpp"
+#include "run/run_listener.hpp"
 #include "sensitivity/tangent_series.hpp"
 
 namespace signorini {
@@ -43,11 +43,11 @@ class FollowedMotion {
   [[nodiscard]] SeriesPoint at(double t);
 
   /// When the instant is; nothing: its guard does not fall there.
-  [[nodiscard]] std::optional<double> time_of(const ObservedInstant& instant, const MotionAt& at) const;
+  [[nodiscard]] std::optional<double> time_of(const RunInstant& instant, const MotionAt& at) const;
   /// The instant at t, where the motion is u and v; the engine's own where that is taken. It lives as long as this.
-  [[nodiscard]] ObservedInstant pass(const ObservedInstant& instant, double t, const SeriesPoint& before);
+  [[nodiscard]] RunInstant pass(const RunInstant& instant, double t, const SeriesPoint& before);
   /// The engine's own instant, and its state.
-  [[nodiscard]] ObservedInstant take(const ObservedInstant& instant);
+  [[nodiscard]] RunInstant take(const RunInstant& instant);
 
   [[nodiscard]] long taken() const { return taken_; }
   /// Greatest |t_k - the engine's time|.

@@ -16,7 +16,7 @@ struct LossRates::Sides {
 };
 
 void LossRates::add_impact(const Sides& s, WorkRates& works) const {
-  const ObservedInstant& now = s.motion.instant;
+  const RunInstant& now = s.motion.instant;
   if (s.after.impulse_n.empty()) return;
   const WorkTangent energy(model_, derivative_);
   double driven = 0.0;
@@ -48,7 +48,7 @@ std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
 
 /// Of P . (u+ - u-) on parts without mass, which jump under loads that stay.
 double LossRates::driven_by(const Sides& s) const {
-  const ObservedInstant& now = s.motion.instant;
+  const RunInstant& now = s.motion.instant;
   ForcingRatesSeries rates;
   ForcingRates(model_, derivative_, now.t, Side::after).expand(now.t, 1.0, 1, rates);
   Vector load = Vector::Zero(model_.size()), rate = rates.load.col(0);
@@ -63,7 +63,7 @@ double LossRates::driven_by(const Sides& s) const {
 }
 
 void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
-  const ObservedInstant& now = s.motion.instant;
+  const RunInstant& now = s.motion.instant;
   const InstantMotion& m = s.motion;
   double released = 0.0, lost = 0.0, dropped = 0.0;
   if (massless_) {
@@ -113,7 +113,7 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
 
 WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, const TangentAfter& after,
                           WorkTangent& works) const {
-  const ObservedInstant& now = m.instant;
+  const RunInstant& now = m.instant;
   std::vector<double> dt_of;
   Sides s{m, before, after, {}, {}, {}, {}, {}, {}};
   s.Du_before = before.point.u + after.dt * m.before.v;

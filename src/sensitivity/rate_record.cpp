@@ -35,7 +35,7 @@ EventRates in_scene(const EventRates& rates, const Factors& of) {
 
 RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives,
                        Recorder* recorder, Sensitivities& result, bool losses)
-    : Relay(recorder), model_(computed), derivatives_(derivatives), result_(result) {
+    : ForwardingRecorder(recorder), model_(computed), derivatives_(derivatives), result_(result) {
   for (const Column& column : model_.columns) result_.columns.push_back(column.name);
   for (const Contact& contact : model_.contacts) {
     result_.contacts.push_back(contact.name);
@@ -51,7 +51,7 @@ RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>
 }
 
 void RateRecord::event(const Event& event) {
-  Relay::event(event);
+  ForwardingRecorder::event(event);
   result_.events.push_back(event);
   std::vector<EventRates>& row = result_.event_rates.emplace_back();
   for (const TangentState& state : *states_) {
@@ -65,7 +65,7 @@ void RateRecord::event(const Event& event) {
 }
 
 void RateRecord::sample(const Sample& s) {
-  Relay::sample(s);
+  ForwardingRecorder::sample(s);
   result_.times.push_back(s.t);
   std::vector<double>& row = result_.values.emplace_back();
   for (const Column& column : model_.columns) row.push_back(column.of(*s.u, *s.v));

@@ -6,13 +6,13 @@
 
 #include <limits>
 
+#include "run/forwarding_recorder.hpp"
 #include "run/physical.hpp"
-#include "run/relay.hpp"
 #include "sensitivity/landing_rates.hpp"
 
 namespace signorini {
 
-class RateRecord final : public TangentListener, public Relay {
+class RateRecord final : public TangentListener, public ForwardingRecorder {
  public:
   /// computed: in the machine's units. Both must outlive it; recorder: may be null.
   RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,

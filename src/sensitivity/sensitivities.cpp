@@ -5,6 +5,7 @@
 
 #include "model/build.hpp"
 #include "model/rescale.hpp"
+#include "run/engines.hpp"
 #include "scene/key_path.hpp"
 #include "scene/scene_text.hpp"
 #include "sensitivity/discrete_run.hpp"
@@ -26,11 +27,11 @@ void check_path(const std::string& path) {
 
 void check_options(const RunSpec& run, const SensitivityOptions& options) {
   if (!options.discrete) return;
-  if (run.engine != Engine::newmark)
+  if (!engine_row(run.engine).can.discrete_derivatives)
     throw UsageError(
-        fmt::format("discrete derivatives are of engine newmark: found engine {}, expected "
-                    "run.engine = \"newmark\"",
-                    to_string(run.engine)));
+        fmt::format("discrete derivatives are those of fixed steps: found engine {}, expected "
+                    "run.engine = {}",
+                    to_string(run.engine), engines_that(&EngineAbilities::discrete_derivatives)));
   if (options.losses) throw UsageError("discrete derivatives: losses are followed along the motion only");
 }
 
@@ -102,7 +103,7 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
   RateRecord record(computed, derivatives, recorder, result, options.losses);
   const RunSpec inside = rescaled(run, to_machine);
   const auto follow = [&](auto& tangents) {
-    result.report = simulate(model, run, record, tangents);
+    result.report = simulate(model, run, record, tangents, tangents.needs());
     record.finish();
     for (std::size_t p = 0; p < paths.size(); ++p)
       if (const TangentState& state = tangents.states()[p]; !state.alive) {

@@ -28,8 +28,8 @@ Vector force_bends(const Series& series, std::size_t degree, double x) {
   return sum;
 }
 
-std::vector<double> pressing_turns(const Model& model, const ObservedStep& step) {
-  const Expansion& e = step.expansion;
+std::vector<double> pressing_turns(const Model& model, const RunStep& step) {
+  const Expansion& e = step.facts.expansion;
   std::vector<double> turns;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (model.contacts[c].normal_force_given() || step.decision.mode[c].is_open()) continue;
@@ -65,9 +65,9 @@ ModeSystemPtr SeriesTangents::system_at(const ModeSystem& system, const Series& 
 }
 
 /// Works over [from, to] of the step; the tangent's own series begins at `begin`.
-void SeriesTangents::integrate(TangentState& state, const ObservedStep& step, double begin, double from,
+void SeriesTangents::integrate(TangentState& state, const RunStep& step, double begin, double from,
                                double to) const {
-  const Expansion& e = step.expansion;
+  const Expansion& e = step.facts.expansion;
   const GaussRule& rule = gauss_rule();
   const ForcingRatesSeries& forcing = state.series.forcing();
   const double h = (to - from) / work_parts;
@@ -98,10 +98,9 @@ void SeriesTangents::integrate(TangentState& state, const ObservedStep& step, do
 }
 
 /// One tangent to the end of the step, part by part.
-void SeriesTangents::advance(TangentState& state, const ObservedStep& step,
-                             const std::vector<WantedPlace>& wanted, std::vector<TangentSample>& samples,
-                             std::size_t p) const {
-  const Expansion& e = step.expansion;
+void SeriesTangents::advance(TangentState& state, const RunStep& step, const std::vector<WantedPlace>& wanted,
+                             std::vector<TangentSample>& samples, std::size_t p) const {
+  const Expansion& e = step.facts.expansion;
   const ModeSystem* system = e.system != nullptr ? e.system : step.decision.system.get();
   ModeSystemPtr own;
   const int levels = std::max(fewest_tangent_levels, static_cast<int>(step.forcing.greatest_degree()) + 2);

@@ -6,7 +6,7 @@
 // Works over a part of a step take Gauss's ten places for each half of a step.
 #pragma once
 
-#include "run/observer.hpp"
+#include "run/run_listener.hpp"
 #include "sensitivity/tangent_state.hpp"
 
 namespace signorini {
@@ -20,7 +20,7 @@ struct WantedPlace {
 /// Second derivatives of the contact forces at x.
 [[nodiscard]] Vector force_bends(const Series& series, std::size_t degree, double x);
 /// Where a contact presses hardest for a while: N' falls through zero and rises.
-[[nodiscard]] std::vector<double> pressing_turns(const Model& model, const ObservedStep& step);
+[[nodiscard]] std::vector<double> pressing_turns(const Model& model, const RunStep& step);
 
 class SeriesTangents {
  public:
@@ -29,12 +29,12 @@ class SeriesTangents {
                  bool losses);
 
   /// To the end of the step; into samples, one for each place that is wanted, what the parameter has there.
-  void advance(TangentState& state, const ObservedStep& step, const std::vector<WantedPlace>& wanted,
+  void advance(TangentState& state, const RunStep& step, const std::vector<WantedPlace>& wanted,
                std::vector<TangentSample>& samples, std::size_t parameter) const;
 
  private:
   [[nodiscard]] ModeSystemPtr system_at(const ModeSystem& system, const Series& series) const;
-  void integrate(TangentState& state, const ObservedStep& step, double begin, double from, double to) const;
+  void integrate(TangentState& state, const RunStep& step, double begin, double from, double to) const;
 
   const Model& model_;
   ModeSystems& systems_;

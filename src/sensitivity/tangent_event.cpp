@@ -70,7 +70,7 @@ struct TangentEvents::Course {
 
 /// dt/dp from the guard of a contact, if it is one that fell by itself.
 std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) const {
-  const ObservedInstant& now = course.m.instant;
+  const RunInstant& now = course.m.instant;
   const Contact& contact = model_.contacts[c];
   const ContactState& state = now.mode_before[c];
   const auto forms = guards(contact, state);
@@ -124,7 +124,7 @@ bool TangentEvents::drops_anchor(const Course& course, std::size_t c) const {
 }
 
 void TangentEvents::find_times(Course& course) const {
-  const ObservedInstant& now = course.m.instant;
+  const RunInstant& now = course.m.instant;
   std::vector<double> times;
   if (!now.fired.empty() || now.breakpoint)
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -148,7 +148,7 @@ void TangentEvents::find_times(Course& course) const {
 /// The tangent of the state just after.
 void TangentEvents::move_state(Course& course) const {
   const InstantMotion& m = course.m;
-  const ObservedInstant& now = m.instant;
+  const RunInstant& now = m.instant;
   const SeriesPoint& w = course.before.point;
   const double dt = course.after.dt;
   const Vector Du = w.u + dt * m.before.v;

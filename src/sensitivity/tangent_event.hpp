@@ -15,14 +15,14 @@
 
 #include <optional>
 
-#include "run/observer.hpp"
+#include "run/run_listener.hpp"
 #include "sensitivity/contact_rates.hpp"
 
 namespace signorini {
 
 /// What the motion has just before, and what the instant made of it.
 struct InstantMotion {
-  const ObservedInstant& instant;
+  const RunInstant& instant;
   const SeriesPoint &before, &after;
   const Series& series_after;  ///< about the instant, of scale 1
   std::vector<ContactMotion> motion_before, rate_before, motion_after, rate_after;  ///< one a contact

@@ -5,6 +5,7 @@
 
 #include "base/rounding.hpp"
 #include "run/audit.hpp"
+#include "run/engines.hpp"
 
 namespace signorini {
 namespace {
@@ -53,7 +54,7 @@ TangentRun::TangentRun(const Model& model, const RunSpec& run,
       losses_(losses),
       series_(model, systems_, data_, losses),
       followed_(model, structure_, systems_, run),
-      engine_(run.engine) {
+      closed_flow_(engine_row(run.engine).can.closed_flow) {
   states_.reserve(derivatives.size());
   for (std::size_t p = 0; p < derivatives.size(); ++p) {
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
@@ -66,7 +67,7 @@ TangentRun::TangentRun(const Model& model, const RunSpec& run,
     modal_.emplace(model, data_, run.output_dt.value_or(0.0));
 }
 
-void TangentRun::begin(const ObservedInstant& start) {
+void TangentRun::begin(const RunInstant& start) {
   end_.u = model_.u0;
   end_.v = model_.v0;
   end_.a = Vector::Zero(model_.size());
@@ -100,7 +101,7 @@ void TangentRun::begin(const ObservedInstant& start) {
 }
 
 /// The stretch that begins here, in modes, if they can follow it.
-bool TangentRun::starts_in_modes(const ObservedStep& step) {
+bool TangentRun::starts_in_modes(const RunStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
   ModalSystem* modes = share_->modes != nullptr ? share_->modes : followed_.modes();
   if (modes == nullptr) return false;
@@ -115,8 +116,8 @@ bool TangentRun::starts_in_modes(const ObservedStep& step) {
 }
 
 /// Of tangents by the state alone.
-bool TangentRun::crosses(const ObservedStep& step) {
-  if (flow_ == nullptr || engine_ != Engine::exact || !flow_->knows(step.decision.mode)) return false;
+bool TangentRun::crosses(const RunStep& step) {
+  if (flow_ == nullptr || !closed_flow_ || !flow_->knows(step.decision.mode)) return false;
   crossed_ = step.decision.mode;
   foreign_ = false;
   return true;
@@ -130,16 +131,16 @@ void TangentRun::cross(double t) {
   begin_ = t;
 }
 
-TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
+TangentRun::Way TangentRun::way_of(const RunStep& step) {
   if (crosses(step)) return Way::closed;
   const bool knew = !foreign_;
-  foreign_ = share_->modes == nullptr && step.expansion.series == nullptr;
+  foreign_ = share_->modes == nullptr && step.facts.expansion.series == nullptr;
   // Stretches that the engine's own series told of have passed by the motion that is followed.
   if (foreign_ && knew) followed_.begin(step.decision);
   if (foreign_) followed_.start(step.forcing);
   const bool modes = starts_in_modes(step);
   if (modes && !foreign_) return Way::modes;
-  if (!modes && step.expansion.series != nullptr) return Way::series;
+  if (!modes && step.facts.expansion.series != nullptr) return Way::series;
   if (!foreign_) {
     followed_.begin(step.decision);
     followed_.start(step.forcing);
@@ -147,7 +148,7 @@ TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
   return modes ? Way::own_modes : Way::own_series;
 }
 
-void TangentRun::step(const ObservedStep& step) {
+void TangentRun::step(const RunStep& step) {
   if (way_ == Way::unknown) {
     way_ = way_of(step);
     const bool in_modes = way_ == Way::modes || way_ == Way::own_modes || way_ == Way::closed;
@@ -157,7 +158,7 @@ void TangentRun::step(const ObservedStep& step) {
   if (way_ == Way::series || way_ == Way::modes) observe(step);
 }
 
-void TangentRun::observe(const ObservedStep& step) {
+void TangentRun::observe(const RunStep& step) {
   if (way_ == Way::series || way_ == Way::own_series)
     observe_series(step);
   else
@@ -179,7 +180,8 @@ void TangentRun::follow(double t) {
         }
       return;
     }
-    observe({step, engine.expansion(), followed_.stretch(), followed_.forcing(), engine.turning_points()});
+    const StepFacts facts = engine.dense_output().facts();
+    observe({step, facts, followed_.stretch(), followed_.forcing(), engine.dense_output()});
     if (step.end >= t) return;
   }
 }
@@ -202,7 +204,7 @@ void TangentRun::arrive(double t) {
 }
 
 /// Of an engine that was followed: what it knows itself, with the forces of the mode.
-SeriesPoint TangentRun::just_before(const ObservedInstant& instant) {
+SeriesPoint TangentRun::just_before(const RunInstant& instant) {
   const ModeSystemPtr system = systems_.of(instant.mode_before);
   if (!system) return end_;
   Taylor taylor(systems_);
@@ -213,17 +215,17 @@ SeriesPoint TangentRun::just_before(const ObservedInstant& instant) {
   return point_at(series.u, series.forces, 1.0, 2, 0.0);
 }
 
-std::vector<WantedPlace> TangentRun::wanted(const ObservedStep& step) {
+std::vector<WantedPlace> TangentRun::wanted(const RunStep& step, std::span<const double> turns) {
   std::vector<WantedPlace> list;
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_)
     list.push_back({grid_[next_], 0.0, true, false});
-  for (const double t : step.turns) list.push_back({t, 0.0, false, true});
+  for (const double t : turns) list.push_back({t, 0.0, false, true});
   std::sort(list.begin(), list.end(), [](const WantedPlace& a, const WantedPlace& b) { return a.t < b.t; });
   return list;
 }
 
 /// Newton's method on the rate, from where the engine saw it turn: it sees no more than what is slow.
-double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const ObservedStep& step) const {
+double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const RunStep& step) const {
   double at = t;
   for (int i = 0; i < most_turn_steps; ++i) {
     const TangentsAt here = modal_->motion(at);
@@ -239,9 +241,9 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const O
 }
 
 /// Where something turns beyond all before.
-std::vector<double> TangentRun::turns_in_modes(const ObservedStep& step) const {
+std::vector<double> TangentRun::turns_in_modes(const RunStep& step) const {
   std::vector<double> turns;
-  for (const double t : step.turns) {
+  for (const double t : step.facts.turning_points) {
     if (t < step.step.begin || t > step.step.end) continue;
     const TangentsAt here = modal_->motion(t);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -256,9 +258,9 @@ std::vector<double> TangentRun::turns_in_modes(const ObservedStep& step) const {
   return turns;
 }
 
-void TangentRun::observe_modes(const ObservedStep& step) {
+void TangentRun::observe_modes(const RunStep& step) {
   const std::vector<double> turns = turns_in_modes(step);
-  for (const WantedPlace& output : wanted({step.step, step.expansion, step.decision, step.forcing, turns})) {
+  for (const WantedPlace& output : wanted(step, turns)) {
     TangentsAt at = modal_->at(output.t, false);
     TangentSample sample{output.t,
                          step.forcing,
@@ -276,14 +278,14 @@ void TangentRun::observe_modes(const ObservedStep& step) {
   }
 }
 
-void TangentRun::observe_series(const ObservedStep& step) {
-  const Expansion& e = step.expansion;
-  std::vector<double> turns = step.turns;
+void TangentRun::observe_series(const RunStep& step) {
+  const Expansion& e = step.facts.expansion;
+  std::vector<double> turns(step.facts.turning_points.begin(), step.facts.turning_points.end());
   if (losses_) {
     const std::vector<double> more = pressing_turns(model_, step);
     turns.insert(turns.end(), more.begin(), more.end());
   }
-  std::vector<WantedPlace> places = wanted({step.step, step.expansion, step.decision, step.forcing, turns});
+  std::vector<WantedPlace> places = wanted(step, turns);
   for (WantedPlace& output : places)
     output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
   std::vector<TangentSample> samples;
@@ -303,7 +305,7 @@ void TangentRun::observe_series(const ObservedStep& step) {
   end_ = point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
 }
 
-void TangentRun::instant(const ObservedInstant& instant) {
+void TangentRun::instant(const RunInstant& instant) {
   if (foreign_) {
     follow_instant(instant);
   } else {
@@ -315,7 +317,7 @@ void TangentRun::instant(const ObservedInstant& instant) {
 }
 
 /// Of an engine that makes no series: where and as the motion that is followed has it.
-void TangentRun::follow_instant(const ObservedInstant& instant) {
+void TangentRun::follow_instant(const RunInstant& instant) {
   std::optional<double> t;
   if (is_followed())
     t = followed_.time_of(instant, [&](double at) {
@@ -323,7 +325,7 @@ void TangentRun::follow_instant(const ObservedInstant& instant) {
     });
   const bool moves = is_followed() && t.value_or(instant.t) > followed_.t();
   if (moves) arrive(t.value_or(instant.t));
-  const ObservedInstant seen = moves && t ? followed_.pass(instant, *t, end_) : followed_.take(instant);
+  const RunInstant seen = moves && t ? followed_.pass(instant, *t, end_) : followed_.take(instant);
   if (moves) end_ = just_before(seen);
   pass(seen);
 }
@@ -335,12 +337,12 @@ Stretches TangentRun::stretches() const {
   return all;
 }
 
-void TangentRun::end(double t) {
-  follow(t);
-  cross(t);
+void TangentRun::end(const RunPoint& last, const StepperReport& /*engine*/) {
+  follow(last.t);
+  cross(last.t);
 }
 
-void TangentRun::pass(const ObservedInstant& instant) {
+void TangentRun::pass(const RunInstant& instant) {
   const Jet& jet = instant.after.jet;
   const SeriesPoint after{instant.after.u, instant.after.v, jet.a(), jet.forces.col(0), jet.forces.col(1)};
   const Series series = series_of(jet, instant.forcing_after);
@@ -383,7 +385,7 @@ void TangentRun::pass(const ObservedInstant& instant) {
 }
 
 /// A row asked for at the instant itself shows what is just after.
-void TangentRun::rows_at(const ObservedInstant& instant, const SeriesPoint& after) {
+void TangentRun::rows_at(const RunInstant& instant, const SeriesPoint& after) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{grid_[next_], instant.forcing_after, instant.after.mode, after, {}, {}, {}, {}};
     for (const TangentState& state : states_) {

@@ -24,7 +24,7 @@
 
 namespace signorini {
 
-class TangentRun final : public MotionObserver {
+class TangentRun final : public RunListener {
  public:
   /// model, run: in the machine's units. All but sizes must outlive it.
   TangentRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
@@ -39,11 +39,12 @@ class TangentRun final : public MotionObserver {
     for (TangentState& state : states_) state.events.cross_smooth_grazes();
   }
 
-  ModalShare* modal() override { return &own_share_; }
-  void begin(const ObservedInstant& start) override;
-  void step(const ObservedStep& step) override;
-  void instant(const ObservedInstant& instant) override;
-  void end(double t) override;
+  /// The engine of the run is asked for this.
+  [[nodiscard]] ListenerNeeds needs() { return {&own_share_}; }
+  void begin(const RunInstant& start) override;
+  void step(const RunStep& step) override;
+  void instant(const RunInstant& instant) override;
+  void end(const RunPoint& last, const StepperReport& engine) override;
 
   [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
   [[nodiscard]] Stretches stretches() const;
@@ -51,24 +52,23 @@ class TangentRun final : public MotionObserver {
  private:
   /// What the stretch after an instant is followed by; the last two: once its end is known.
   enum class Way { unknown, series, modes, own_series, own_modes, closed };
-  [[nodiscard]] Way way_of(const ObservedStep& step);
-  [[nodiscard]] bool starts_in_modes(const ObservedStep& step);
-  void observe(const ObservedStep& step);
-  void observe_modes(const ObservedStep& step);
-  void observe_series(const ObservedStep& step);
-  [[nodiscard]] bool crosses(const ObservedStep& step);
+  [[nodiscard]] Way way_of(const RunStep& step);
+  [[nodiscard]] bool starts_in_modes(const RunStep& step);
+  void observe(const RunStep& step);
+  void observe_modes(const RunStep& step);
+  void observe_series(const RunStep& step);
+  [[nodiscard]] bool crosses(const RunStep& step);
   void follow(double t);
   void cross(double t);
   void arrive(double t);
   [[nodiscard]] bool is_followed() const { return way_ == Way::own_series || way_ == Way::own_modes; }
-  void follow_instant(const ObservedInstant& instant);
-  [[nodiscard]] SeriesPoint just_before(const ObservedInstant& instant);
-  [[nodiscard]] std::vector<WantedPlace> wanted(const ObservedStep& step);
-  [[nodiscard]] std::vector<double> turns_in_modes(const ObservedStep& step) const;
-  [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which,
-                                 const ObservedStep& step) const;
-  void pass(const ObservedInstant& instant);
-  void rows_at(const ObservedInstant& instant, const SeriesPoint& after);
+  void follow_instant(const RunInstant& instant);
+  [[nodiscard]] SeriesPoint just_before(const RunInstant& instant);
+  [[nodiscard]] std::vector<WantedPlace> wanted(const RunStep& step, std::span<const double> turns);
+  [[nodiscard]] std::vector<double> turns_in_modes(const RunStep& step) const;
+  [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which, const RunStep& step) const;
+  void pass(const RunInstant& instant);
+  void rows_at(const RunInstant& instant, const SeriesPoint& after);
 
   const Model& model_;
   Structure structure_;
@@ -91,7 +91,7 @@ class TangentRun final : public MotionObserver {
   StateFlow* flow_ = nullptr;
   Mode crossed_;        ///< of the stretch that flow_ crosses
   double begin_ = 0.0;  ///< of the stretch
-  Engine engine_;
+  bool closed_flow_;    ///< EngineAbilities::closed_flow of the run's engine
 };
 
 }  // namespace signorini

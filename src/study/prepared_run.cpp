@@ -32,7 +32,7 @@ Report PreparedRun::ends(Recorder& recorder) const {
   return simulate(model, without_rows(scene.run), recorder);
 }
 
-KeptRun PreparedRun::keep(RunDirectory& directory, Relay& watch,
+KeptRun PreparedRun::keep(RunDirectory& directory, ForwardingRecorder& watch,
                           const std::optional<CertifyOptions>& certified) const {
   KeptRun kept;
   try {

@@ -2,7 +2,7 @@
 //
 //   file + overrides -read-> Scene -cutoff of [reduction] tolerance-> Scene -build-> Model
 //   in memory: run.ends(recorder), or simulate(run.model, run.scene.run, recorder)
-//   on disk:   RunDirectory directory(...);  Relay watch(&directory);  run.keep(directory, watch)
+//   on disk:   RunDirectory directory(...);  ForwardingRecorder watch(&directory);  run.keep(directory, watch)
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "result/run_directory.hpp"
-#include "run/relay.hpp"
+#include "run/forwarding_recorder.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
@@ -32,7 +32,7 @@ struct PreparedRun {
   Report ends(Recorder& recorder) const;
   /// Into `directory`, to which `watch` passes all on; certified where options are given. Where a file cannot be
   /// written the directory says how far the run came. Errors: as of ends(); FileError.
-  KeptRun keep(RunDirectory& directory, Relay& watch,
+  KeptRun keep(RunDirectory& directory, ForwardingRecorder& watch,
                const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 

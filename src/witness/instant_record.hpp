@@ -79,7 +79,7 @@ struct InstantRecord {
   bool load_jumps = false;
   bool located = true;  ///< the engine finds the time at which a guard is zero
   double dependence =
-      1.0;  ///< Stepper::dependence() of the motion before; 1: of no modes, or of orthogonal ones
+      1.0;  ///< StepFacts::eigenvector_condition of the motion before; 1: of no modes, or of orthogonal ones
   double forgiven = 0.0;  ///< by how many of their roundings states fail that were said to be undecided
 };
 

@@ -8,7 +8,7 @@
 
 #include "behaviour/halves.hpp"
 #include "behaviour/scene_parts.hpp"
-#include "run/observer.hpp"
+#include "run/run_listener.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/simulate.hpp"
 
@@ -64,12 +64,7 @@ std::string scene(const Seen& seen) {
 }
 
 /// Asks for whole jets, as whoever observes a run does.
-class Onlooker final : public MotionObserver {
- public:
-  void begin(const ObservedInstant&) override {}
-  void step(const ObservedStep&) override {}
-  void instant(const ObservedInstant&) override {}
-};
+class Onlooker final : public RunListener {};
 
 }  // namespace
 

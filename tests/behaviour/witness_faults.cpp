@@ -16,7 +16,7 @@ TEST_SUITE_BEGIN("behaviour/witness_faults");
 namespace {
 
 /// Changes the first decision that it can.
-class Once : public Meddler {
+class Once : public FaultInjector {
  public:
   bool done = false;
   bool change(const Mode& mode, const Vector& v, Decision& decided) override {
@@ -28,7 +28,7 @@ class Once : public Meddler {
   virtual bool plant(const Mode& mode, const Vector& v, Decision& decided) = 0;
 };
 
-class Nothing final : public Meddler {};
+class Nothing final : public FaultInjector {};
 
 /// The hit happens, and leaves no impulse in the record.
 class ImpulseLeftOut final : public Once {
@@ -52,7 +52,7 @@ class HitSwallowed final : public Once {
   }
 };
 
-class RestitutionIgnored final : public Meddler {
+class RestitutionIgnored final : public FaultInjector {
  public:
   void correct(Model& model) override { model.contacts[0].restitution = 0.8; }
 };
@@ -79,7 +79,7 @@ class NeighbourStuck final : public Once {
 };
 
 /// An event of the compliant foot is found too late. In the units that are computed in.
-class Late final : public Meddler {
+class Late final : public FaultInjector {
  public:
   double at = 0.0, by = 0.0;
   double late(const Step& step, const Decision&) override {
@@ -97,14 +97,14 @@ class AnchorReset final : public Once {
   }
 };
 
-class Skipped final : public Meddler {
+class Skipped final : public FaultInjector {
  public:
   void watch(std::vector<GuardStart>& guards) override {
     for (std::size_t i = 3; i < guards.size(); ++i) guards[i].kind = Guard::none;
   }
 };
 
-class PeaksAtEnds final : public Meddler {
+class PeaksAtEnds final : public FaultInjector {
   bool forgets_peaks_inside() override { return true; }
 };
 
@@ -137,7 +137,7 @@ class OtherWay final : public Once {
 };
 
 /// The guards of the second contact are not seen.
-class SecondSkipped final : public Meddler {
+class SecondSkipped final : public FaultInjector {
  public:
   void watch(std::vector<GuardStart>& guards) override {
     for (std::size_t i = 3; i < 6; ++i) guards[i].kind = Guard::none;

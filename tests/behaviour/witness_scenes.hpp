@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "run/meddler.hpp"
+#include "run/fault_injector.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini::tests::witnessed {
@@ -227,17 +227,19 @@ inline constexpr Way ways[] = {{Engine::exact, Flow::taylor},
                                {Engine::ida, Flow::automatic},
                                {Engine::newmark, Flow::automatic}};
 
-inline Result run_of(const char* text, const Way& way, Meddler& meddler) {
+inline Result run_of(const char* text, const Way& way, FaultInjector& faults) {
   Scene scene = parse_scene(text, "planted.toml");
   scene.run.engine = way.engine;
   scene.run.flow = way.flow;
   scene.run.certify = Certify::no;
   Result result;
-  result.report = simulate(build_model(scene), scene.run, result, meddler);
+  result.report = simulate(build_model(scene), scene.run, result, faults);
   return result;
 }
 
-inline Report run_with(const Way& way, Meddler& meddler) { return run_of(scene_text, way, meddler).report; }
+inline Report run_with(const Way& way, FaultInjector& faults) {
+  return run_of(scene_text, way, faults).report;
+}
 
 inline void tell(const Testimony& witness) {
   for (const Violation& v : witness.violations)

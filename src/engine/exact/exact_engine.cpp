@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
@@ -56,6 +57,7 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
   weights_ = scales_;
   if (use.pieces && model.size() >= large_structure && follows_from_motion(model)) beside_.emplace(systems);
   if (use.step_seed != 0) chance_.emplace(use.step_seed);
+  knows_low_flights = true;
 }
 
 void ExactEngine::start(const Segment& segment) {
@@ -466,22 +468,22 @@ void ExactEngine::evaluate(double t, Point& point) {
     motion_.evaluate_at(x_of(t), point);
 }
 
-void ExactEngine::glimpse(double t, Point& point) {
+void ExactEngine::evaluate_watched(double t, std::optional<std::size_t> contact, Point& point) {
   if (t == t_ && end_.u.size() > 0) return evaluate(t, point);
   point.a.resize(0);
-  motion_.place_at(x_of(t), point);
+  if (contact)
+    motion_.place_at(x_of(t), *contact, point);
+  else
+    motion_.place_at(x_of(t), point);
 }
 
-void ExactEngine::glimpse(double t, std::size_t contact, Point& point) {
-  if (t == t_ && end_.u.size() > 0) return evaluate(t, point);
-  point.a.resize(0);
-  motion_.place_at(x_of(t), contact, point);
-}
-
-std::optional<std::vector<Stepper::ContactTurn>> ExactEngine::contact_turns() const {
-  std::vector<ContactTurn> result;
-  for (const TurningPoints::Turn& turn : turns_.turns()) result.push_back({turn.contact(), turn.time});
-  return result;
+StepFacts ExactEngine::facts() const {
+  StepFacts facts;
+  facts.turning_points = turns_.times();
+  facts.contact_turns = &turns_.turns();
+  facts.expansion = {&motion_.whole, motion_.degree(), end_x_, taylor_.system().get()};
+  facts.radians = std::numbers::pi * static_cast<double>(motion_.degree());
+  return facts;
 }
 
 void ExactEngine::integrate(double from, double to, Works& works) {

@@ -13,7 +13,6 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <random>
 
@@ -33,11 +32,11 @@ inline constexpr int most_levels = 30;
 
 /// What its steps are used for.
 struct SeriesUse {
-  bool pieces = false;  ///< the motion may be put together from pieces, since nobody asks for expansion()
+  bool pieces = false;  ///< the motion may be put together from pieces, since nobody asks for its series
   std::uint64_t step_seed = 0;  ///< not 0: steps are shorter by chance (share_of_step)
 };
 
-class ExactEngine final : public Stepper {
+class ExactEngine final : public Stepper, public DenseOutput {
  public:
   /// All but t_end must outlive it.
   ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
@@ -45,25 +44,17 @@ class ExactEngine final : public Stepper {
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
+  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
   void evaluate(double t, Point& point) override;
   /// Without accelerations.
-  void glimpse(double t, Point& point) override;
-  void glimpse(double t, std::size_t contact, Point& point) override;
-  [[nodiscard]] std::optional<std::vector<ContactTurn>> contact_turns() const override;
+  void evaluate_watched(double t, std::optional<std::size_t> contact, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
   /// The guard is exact but for rounding, which the decision knows.
   [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
-  [[nodiscard]] bool knows_low_flights() const override { return true; }
-  [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
-  [[nodiscard]] double turns() const override {
-    return std::numbers::pi * static_cast<double>(motion_.degree());
-  }
-  [[nodiscard]] Expansion expansion() const override {
-    return {&motion_.whole, motion_.degree(), end_x_, taylor_.system().get()};
-  }
+  [[nodiscard]] StepFacts facts() const override;
 
  private:
   [[nodiscard]] double few_flights() const;

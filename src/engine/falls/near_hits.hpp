@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "decide/decision.hpp"
+#include "engine/falls/graze.hpp"
 #include "engine/falls/step_history.hpp"
-#include "engine/graze.hpp"
 
 namespace signorini {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "contact/friction.hpp"
@@ -46,6 +47,11 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
     accelerations_ = accelerations_ || contact.normal_damping > 0.0;
+  knows_low_flights = follows_low_flights(model);
+}
+
+bool IdaEngine::follows_low_flights(const Model& model) {
+  return std::none_of(model.contacts.begin(), model.contacts.end(), friction_varies);
 }
 
 /// Guards, powers, and what contacts show at the end of a step, for its polynomials.
@@ -80,12 +86,6 @@ bool IdaEngine::follows_at_once() const {
   if (!consistent_.massless()) return false;
   const std::vector<DofKind>& kinds = segment_.decision->system->kinds();
   return std::find(kinds.begin(), kinds.end(), DofKind::damped) == kinds.end();
-}
-
-/// Short flights are taken by their series where friction is linear while they last.
-bool IdaEngine::knows_low_flights() const {
-  return std::none_of(model_.contacts.begin(), model_.contacts.end(),
-                      [](const Contact& contact) { return friction_varies(contact); });
 }
 
 void IdaEngine::start(const Segment& segment) {
@@ -156,15 +156,19 @@ void IdaEngine::accelerate(double t, Point& point) {
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
 }
 
-const std::vector<double>& IdaEngine::turning_points() const {
-  return flight_ ? flights_.turning_points() : turns_.times();
-}
-
-std::optional<std::vector<Stepper::ContactTurn>> IdaEngine::contact_turns() const {
-  if (flight_) return std::nullopt;
-  std::vector<ContactTurn> result;
-  for (const TurningPoints::Turn& turn : turns_.turns()) result.push_back({turn.contact(), turn.time});
-  return result;
+/// BDF's polynomials have the degree 5 at most.
+StepFacts IdaEngine::facts() const {
+  StepFacts facts;
+  if (flight_) {
+    const StepFacts flight = flights_.motion().facts();
+    facts.turning_points = flight.turning_points;
+    facts.radians = flight.radians;
+    return facts;
+  }
+  facts.turning_points = turns_.times();
+  facts.contact_turns = &turns_.turns();
+  facts.radians = std::numbers::pi * 5.0;
+  return facts;
 }
 
 double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }
@@ -337,10 +341,12 @@ void IdaEngine::integrate(double from, double to, Works& works) {
   }
 }
 
-std::optional<Graze> IdaEngine::graze() const {
-  const auto& first = grazes_.first();
-  if (!first) return std::nullopt;
-  return Graze{first->t, static_cast<int>(contact_of_guard(first->slot)), to_string(first->guard)};
+StepperReport IdaEngine::report() {
+  bdf_.count();
+  StepperReport report{counters, warnings, {}, near_hits_.list()};
+  if (const auto& first = grazes_.first())
+    report.graze = {first->t, static_cast<int>(contact_of_guard(first->slot)), to_string(first->guard)};
+  return report;
 }
 
 /// One tolerance; a guard that started at zero and never clearly rose is seen to fall at minus its level.

@@ -6,8 +6,6 @@
 // Works are integrals of the polynomials through the powers at the ends of steps.
 #pragma once
 
-#include <numbers>
-
 #include "engine/falls/grazes.hpp"
 #include "engine/falls/near_hits.hpp"
 #include "engine/falls/step_history.hpp"
@@ -20,30 +18,26 @@
 
 namespace signorini {
 
-class IdaEngine final : public Stepper {
+class IdaEngine final : public Stepper, public DenseOutput {
  public:
   /// The first three must outlive it.
   IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems, const Tolerance& tolerance,
             int max_order, double t_end, double flight_tolerances);
 
+  /// Short flights are taken by their series where friction is linear while they last.
+  [[nodiscard]] static bool follows_low_flights(const Model& model);
+
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
+  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
   void evaluate(double t, Point& point) override;
   void accelerate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
-  void count() override { bdf_.count(); }
   [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
                                    std::size_t contact) const override;
-  [[nodiscard]] bool knows_low_flights() const override;
-  [[nodiscard]] std::optional<Graze> graze() const override;
-  [[nodiscard]] std::vector<NearHit> near_hits() const override { return near_hits_.list(); }
-  [[nodiscard]] const std::vector<double>& turning_points() const override;
-  [[nodiscard]] std::optional<std::vector<ContactTurn>> contact_turns() const override;
-  /// BDF's polynomials have the degree 5 at most.
-  [[nodiscard]] double turns() const override {
-    return flight_ ? flights_.motion().turns() : std::numbers::pi * 5.0;
-  }
+  [[nodiscard]] StepFacts facts() const override;
+  [[nodiscard]] StepperReport report() override;
 
  private:
   struct Located {

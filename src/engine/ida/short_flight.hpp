@@ -25,7 +25,6 @@ class ShortFlight {
   /// The motion and the works on the step that was taken.
   [[nodiscard]] ExactEngine& motion() { return *series_; }
   [[nodiscard]] const ExactEngine& motion() const { return *series_; }
-  [[nodiscard]] const std::vector<double>& turning_points() const { return series_->turning_points(); }
 
  private:
   const Model& model_;

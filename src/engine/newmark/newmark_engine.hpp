@@ -26,7 +26,7 @@
 
 namespace signorini {
 
-class NewmarkEngine final : public Stepper {
+class NewmarkEngine final : public Stepper, public DenseOutput {
  public:
   /// The first three must outlive it. run.dt must be given.
   NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run,
@@ -34,12 +34,17 @@ class NewmarkEngine final : public Stepper {
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
+  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
   void evaluate(double t, Point& point) override;
   void accelerate(double t, Point& point) override;
   void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   /// Parabolas between its ends.
-  [[nodiscard]] double turns() const override { return 2.0 * std::numbers::pi; }
+  [[nodiscard]] StepFacts facts() const override {
+    StepFacts facts;
+    facts.radians = 2.0 * std::numbers::pi;
+    return facts;
+  }
   [[nodiscard]] double residual() override {
     return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
   }

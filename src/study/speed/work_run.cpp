@@ -10,12 +10,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Ends a run after its time. The clock is asked now and then: asking costs as much as a short step.
-class Deadline : public Relay {
+class Deadline : public ForwardingRecorder {
  public:
-  explicit Deadline(const WorkLimits& limits, Recorder* next = nullptr) : Relay(next), limits_(limits) {}
+  explicit Deadline(const WorkLimits& limits, Recorder* next = nullptr)
+      : ForwardingRecorder(next), limits_(limits) {}
 
   bool progress(double t) override {
-    if (!Relay::progress(t)) return false;
+    if (!ForwardingRecorder::progress(t)) return false;
     constexpr int seldom = 16;
     if (++calls_ % seldom != 0) return true;
     too_slow_ = std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds;

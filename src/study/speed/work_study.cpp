@@ -14,6 +14,7 @@
 #include "engine/tolerance.hpp"
 #include "result/csv_read.hpp"
 #include "run/choose_flow.hpp"
+#include "run/engines.hpp"
 #include "run/expected.hpp"
 #include "scene/components.hpp"
 #include "study/speed/decades.hpp"
@@ -98,6 +99,9 @@ long changes_until(const std::vector<LoggedEvent>& events, double t) {
 }
 
 }  // namespace
+
+const std::array<Engine, 2> WorkStudy::references = {engine_for(EngineRole::closed_form),
+                                                     engine_for(EngineRole::integrator)};
 
 WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
   const auto [scene, model] = prepare_run(request_.scene, request_.settings(""));

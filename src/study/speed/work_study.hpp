@@ -55,7 +55,7 @@ struct WorkReport {
 class WorkStudy {
  public:
   /// The engine that is the reference; and the one that is where the first cannot be.
-  static constexpr std::array references = {Engine::exact, Engine::ida};
+  static const std::array<Engine, 2> references;
 
   /// Reads the scene and builds its model. Errors: SceneError, UsageError, FileError.
   explicit WorkStudy(WorkRequest request);

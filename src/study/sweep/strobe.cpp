@@ -84,12 +84,12 @@ std::vector<StrobeColumn> strobe_columns(const Model& model) {
 }
 
 void StrobeRecorder::event(const Event& event) {
-  Relay::event(event);
+  ForwardingRecorder::event(event);
   if (strobe_.period == 0.0 && strobe_.event.meets(event, model_)) event_ = event.t;
 }
 
 void StrobeRecorder::sample(const Sample& sample) {
-  Relay::sample(sample);
+  ForwardingRecorder::sample(sample);
   if (strobe_.period == 0.0) return;
   const double turns = std::round(sample.t / strobe_.period);
   // Rows are at k times the period as numbers go; the end of the run is a row, too.
@@ -104,11 +104,11 @@ bool StrobeRecorder::steer(const Sample& now, Steering& run) {
     event_.reset();
     add(now);
   }
-  return Relay::steer(now, run);
+  return ForwardingRecorder::steer(now, run);
 }
 
 void StrobeRecorder::response(double t, const std::vector<double>& values) {
-  Relay::response(t, values);
+  ForwardingRecorder::response(t, values);
   t_outputs_ = t;
   outputs_ = values;
   if (!points_.empty() && points_.back().t == t) fill_outputs(points_.back());

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "run/relay.hpp"
+#include "run/forwarding_recorder.hpp"
 #include "study/sweep/event_query.hpp"
 
 namespace signorini {
@@ -43,16 +43,16 @@ struct StrobePoint {
 };
 
 /// Takes the points of a run, and passes all on.
-class StrobeRecorder : public Relay {
+class StrobeRecorder : public ForwardingRecorder {
  public:
   /// All must outlive it.
   StrobeRecorder(const Strobe& strobe, double settle, const Model& model, Recorder& next)
-      : Relay(&next), strobe_(strobe), settle_(settle), model_(model) {}
+      : ForwardingRecorder(&next), strobe_(strobe), settle_(settle), model_(model) {}
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
   void response(double t, const std::vector<double>& values) override;
-  [[nodiscard]] bool steers() const override { return strobe_.period == 0.0 || Relay::steers(); }
+  [[nodiscard]] bool steers() const override { return strobe_.period == 0.0 || ForwardingRecorder::steers(); }
   bool steer(const Sample& now, Steering& run) override;
 
   [[nodiscard]] const std::vector<StrobePoint>& points() const { return points_; }

@@ -40,11 +40,11 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
 }
 
 /// Keeps the last row of a run, from which another one goes on.
-class LastRow : public Relay {
+class LastRow : public ForwardingRecorder {
  public:
-  explicit LastRow(Recorder& next) : Relay(&next) {}
+  explicit LastRow(Recorder& next) : ForwardingRecorder(&next) {}
   void sample(const Sample& sample) override {
-    Relay::sample(sample);
+    ForwardingRecorder::sample(sample);
     last_.rows.clear();
     last_.sample(sample);
   }
@@ -66,7 +66,7 @@ Report run(const RowTask& task, const PreparedRun& prepared, Recorder& heard, co
   if (!task.keep.empty()) {
     remove_run(task.keep);  // what an interrupted sweep left
     RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
-    Relay all(&directory);
+    ForwardingRecorder all(&directory);
     prepared.keep(directory, all);
   }
   return simulate(prepared.model, spec, heard);

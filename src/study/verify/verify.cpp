@@ -24,7 +24,7 @@ class Study {
  public:
   Study(const Model& model, const Model& own, const VerifyRequest& request)
       : model_(model), own_(own), request_(request), run_(request.run) {
-    run_.engine = Engine::ida;
+    run_.engine = engine_for(EngineRole::integrator);
     run_.certify = Certify::yes;
     run_.frames.clear();
     run_.output_dt.reset();
@@ -52,7 +52,7 @@ class Study {
  private:
   [[nodiscard]] RunSpec newmark(double dt) const {
     RunSpec run = run_;
-    run.engine = Engine::newmark;
+    run.engine = engine_for(EngineRole::fixed_steps);
     run.dt = dt;
     run.step = StepControl::fixed;
     run.output_times->insert(run.output_times->end(), peaks_.begin(), peaks_.end());
@@ -91,7 +91,7 @@ class Study {
   /// Before anything is computed.
   void check_newmark() const {
     try {
-      engine_row(Engine::newmark).refuse(model_, newmark(run_.t_end));
+      engine_row(engine_for(EngineRole::fixed_steps)).refuse(model_, newmark(run_.t_end));
     } catch (const UnfitEngine& unfit) {
       throw SceneError(
           run_.place, "verify",
@@ -117,7 +117,7 @@ class Study {
   void watch_exact(Witnesses& witnesses) {
     if (!exact_takes(model_, run_)) return;
     RunSpec run = run_;
-    run.engine = Engine::exact;
+    run.engine = engine_for(EngineRole::closed_form);
     witnesses.exact = observe(model_, run, request_.go_on);
     note(witnesses.exact->report);
   }

@@ -13,6 +13,7 @@
 #include "contact/friction.hpp"
 #include "model/assembly/parts.hpp"
 #include "result/instants.hpp"
+#include "run/engines.hpp"
 #include "run/witnessed_motion.hpp"
 #include "signorini/error.hpp"
 #include "study/prepared_run.hpp"
@@ -38,12 +39,6 @@ PreparedRun prepared_of(const fs::path& directory) {
   return prepare_run(path.string(), {});
 }
 
-bool follows_low_flights(const Model& model, Engine engine) {
-  return engine == Engine::exact ||
-         (engine == Engine::ida &&
-          std::none_of(model.contacts.begin(), model.contacts.end(), friction_varies));
-}
-
 RunSpec spec_of(const Scene& scene, const ToldSummary& told) {
   RunSpec spec = scene.run;
   spec.engine = told.engine;
@@ -59,7 +54,7 @@ class DirectoryWitness {
         result_(result),
         told_(told_summary(directory, model_)),
         engine_(witnessed_engine(spec_of(scene, told_), tolerance_of(model_, scene.run), told_.flow,
-                                 follows_low_flights(model_, told_.engine))),
+                                 engine_row(told_.engine).can.knows_low_flights(model_))),
         witness_(model_, engine_.limits),
         motion_(model_, engine_),
         rows_(model_, engine_, witness_, told_.stopped) {

@@ -14,7 +14,7 @@ namespace signorini {
 class CsvReader;
 
 struct ToldSummary {
-  Engine engine = Engine::ida;
+  Engine engine = Engine::automatic;
   std::string flow;      ///< of exact: "modal" or "taylor"
   bool ended = true;     ///< false: it is still being written, or was killed
   bool stopped = false;  ///< before t_end

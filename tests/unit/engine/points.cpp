@@ -40,27 +40,27 @@ void check_points(Stretch& s, bool smooth, double off) {
       Point inside = p;
       inside.u.setConstant(std::numeric_limits<double>::infinity());
       inside.a.resize(0);
-      s.engine->interpolate(t, inside);
+      s.engine->dense_output().interpolate(t, inside);
       if (!smooth) continue;
       CHECK((inside.u - p.u).norm() < 1e-12);
       CHECK((inside.v - p.v).norm() < 1e-11);
       CHECK((inside.a - p.a).norm() < 1e-9);
       CHECK((inside.forces - p.forces).norm() < 1e-9);
-      Point glimpse;
-      s.engine->glimpse(t, glimpse);
+      Point watched;
+      s.engine->dense_output().evaluate_watched(t, std::nullopt, watched);
       for (const int dof : {0, 1, 2, 3, 4}) {
-        CHECK(std::abs(glimpse.u[dof] - p.u[dof]) < 1e-12);
-        CHECK(std::abs(glimpse.v[dof] - p.v[dof]) < 1e-11);
+        CHECK(std::abs(watched.u[dof] - p.u[dof]) < 1e-12);
+        CHECK(std::abs(watched.v[dof] - p.v[dof]) < 1e-11);
       }
       if (x == 0.0 || x == 1.0) continue;
       const double d = 0.01 * std::min(h, 0.02);
       Point before, after;
-      s.engine->evaluate(t - d, before);
-      s.engine->evaluate(t + d, after);
+      s.engine->dense_output().evaluate(t - d, before);
+      s.engine->dense_output().evaluate(t + d, after);
       CHECK((after.u - before.u - 2.0 * d * p.v).norm() < 1e3 * d * d * d + 1e-15);
       CHECK((after.v - before.v - 2.0 * d * p.a).norm() < 1e5 * d * d * d + 1e-14);
     }
-    CHECK(s.engine->residual() < off);
+    CHECK(s.engine->dense_output().residual() < off);
   });
   REQUIRE(last.kind != Step::Kind::failed);
   CHECK(last.end > 0.05);
@@ -85,14 +85,15 @@ TEST_CASE(
       CAPTURE(engine);
       CAPTURE(flow);
       CAPTURE(more);
-      Stretch s(text, {{"run.engine", engine},
-                       {"run.flow", flow},
-                       {"run.rtol", "1e-8"},
-                       {"run.dt", "3e-3"},
-                       {"contacts.c.gap", more}});
+      Stretch s(text,
+                {{"run.engine", engine},
+                 {"run.flow", flow},
+                 {"run.rtol", "1e-8"},
+                 {"run.dt", "3e-3"},
+                 {"contacts.c.gap", more}},
+                std::vector{0, 1, 2, 3, 4});
       REQUIRE(s.decision.consistent);
       CHECK(s.decision.mode[2].is_open() == (more == "5.0"));
-      s.engine->watch({0, 1, 2, 3, 4});
       check_points(s, std::string(engine) == "exact", off);
     }
 }

@@ -18,10 +18,13 @@ namespace signorini::tests {
 
 class Stretch {
  public:
-  explicit Stretch(const std::string& text, const std::vector<Override>& changes = {})
-      : Stretch(parse_scene(text, "test.toml", changes)) {}
-  explicit Stretch(const Scene& scene) : Stretch(build_model(scene), scene.run) {}
-  Stretch(Model of, const RunSpec& as)
+  explicit Stretch(const std::string& text, const std::vector<Override>& changes = {},
+                   std::optional<std::vector<int>> watched = {})
+      : Stretch(parse_scene(text, "test.toml", changes), std::move(watched)) {}
+  explicit Stretch(const Scene& scene, std::optional<std::vector<int>> watched = {})
+      : Stretch(build_model(scene), scene.run, std::move(watched)) {}
+  /// watched: EngineParts::watched.
+  Stretch(Model of, const RunSpec& as, std::optional<std::vector<int>> watched = {})
       : model(std::move(of)),
         run(as),
         structure(model),
@@ -30,7 +33,15 @@ class Stretch {
         decider(systems, 100, tolerance.capture_velocity()),
         forcing(model, 0.0, Side::after),
         row(engine_row(run.engine)),
-        engine(row.make({model, structure, systems, run, tolerance, row.method(model, run).max_order})),
+        engine(row.make({model,
+                         structure,
+                         systems,
+                         run,
+                         tolerance,
+                         row.method(model, run).max_order,
+                         {},
+                         false,
+                         std::move(watched)})),
         decision(begun()) {
     engine->start({run.t_end, &decision, &forcing});
   }
@@ -50,8 +61,8 @@ class Stretch {
   [[nodiscard]] Point at(double t) {
     const Vector nothing = Vector::Constant(model.size(), std::numeric_limits<double>::quiet_NaN());
     Point point{nothing, nothing, nothing, nothing};
-    engine->evaluate(t, point);
-    engine->accelerate(t, point);
+    engine->dense_output().evaluate(t, point);
+    engine->dense_output().accelerate(t, point);
     return point;
   }
 
@@ -104,7 +115,7 @@ class Stretch {
     Instant now;
     now.t = t;
     now.resolution = resolution;
-    now.knows_low_flights = engine->knows_low_flights();
+    now.knows_low_flights = engine->knows_low_flights;
     return now;
   }
   Decision begun() {

@@ -18,8 +18,8 @@ void check_works(const std::string& text, const std::string& engine, const std::
   long steps = 0;
   const Step last = stretch.go([&](const Step& step) {
     const double middle = step.begin + 0.3 * (step.end - step.begin);
-    stretch.engine->integrate(step.begin, middle, found);
-    stretch.engine->integrate(middle, step.end, found);
+    stretch.engine->dense_output().integrate(step.begin, middle, found);
+    stretch.engine->dense_output().integrate(middle, step.end, found);
     stretch.add_powers(step.begin, step.end, engine == "ida" ? 1 : 6, expected);
     ++steps;
   });

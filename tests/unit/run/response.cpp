@@ -19,9 +19,7 @@ struct Rows : Recorder {
 };
 
 /// u = e^-t/10 sin 3 t and N = 1e8 cos 5 t on both contacts, off by some roundings of it.
-struct Known : Stepper {
-  void start(const Segment&) override {}
-  Step advance() override { return {}; }
+struct Known : DenseOutput {
   void evaluate(double t, Point& p) override {
     ++asked;
     p.u = Vector::Constant(1, std::exp(-0.1 * t) * std::sin(3.0 * t));
@@ -34,23 +32,28 @@ struct Known : Stepper {
   }
   void integrate(double, double, Works&) override {}
   double residual() override { return 0.0; }
-  double guard_error(const Form&, const ContactMotion&, std::size_t) const override { return 0.0; }
+  StepFacts facts() const override { return {}; }
   long asked = 0;
 };
 
 /// u = sin 3 t + fast sin 1e4 t, as an engine that knows both.
-struct Rippled : Known {
+struct Rippled : Known, FastModes {
   explicit Rippled(double of_fast) : fast(of_fast) {}
   void evaluate(double t, Point& p) override {
     Known::evaluate(t, p);
     p.u = Vector::Constant(1, std::sin(3.0 * t) + fast * std::sin(1e4 * t));
   }
-  std::optional<Ripple> ripple(double omega) const override {
+  StepFacts facts() const override {
+    StepFacts facts;
+    facts.fast_modes = this;
+    return facts;
+  }
+  std::optional<Ripple> fast_mode_bound(double omega) const override {
     const double u = (omega < 1e4 ? fast : 0.0) + (omega < 3.0 ? 1.0 : 0.0);
     return Ripple{u, 1e4 * u, 1e8 * u, Vector::Zero(4)};
   }
-  Ripple whole() const override { return Ripple{1.0, 3.0, 9.0, Vector::Zero(4)}; }
-  double reach(const Combination& form) const override { return form.magnitude(Vector::Ones(1)); }
+  Ripple term_sizes() const override { return Ripple{1.0, 3.0, 9.0, Vector::Zero(4)}; }
+  double form_norm(const Combination& form) const override { return form.magnitude(Vector::Ones(1)); }
   double fast;
 };
 
@@ -191,7 +194,11 @@ TEST_CASE("polynomials of a step need no parts, whatever frequencies the structu
       Known::evaluate(t, p);
       p.u = Vector::Constant(1, t * (1.5 - t));
     }
-    double turns() const override { return 6.28; }
+    StepFacts facts() const override {
+      StepFacts facts;
+      facts.radians = 6.28;
+      return facts;
+    }
   };
   Output output;
   output.u.terms = {{0, 4.0}};

@@ -25,15 +25,17 @@ constexpr int most_corrections = 4;  // of the time of a fall; one is enough but
 }  // namespace
 
 ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-                         ModalShare* share, bool peaks, std::uint64_t step_seed)
+                         const ModalUse& use)
     : model_(model),
       structure_(structure),
-      kept_(share != nullptr && share->memory != nullptr ? share->memory->of(model, t_end) : nullptr),
+      kept_(use.share != nullptr && use.share->memory != nullptr ? use.share->memory->of(model, t_end)
+                                                                 : nullptr),
       own_basis_(kept_ ? nullptr : std::make_unique<OpenBasis>(model)),
       basis_(kept_ ? kept_->basis : *own_basis_),
-      taylor_(model, structure, systems, t_end, {false, step_seed}),
+      taylor_(model, structure, systems, t_end, {false, use.step_seed}),
       turning_(model.contacts.size()),
-      peaks_(peaks) {
+      peaks_(use.peaks) {
+  knows_low_flights = true;  // a guard that leaves zero is followed by its leading derivative
   if (!basis_.failure().empty()) return;
   if (proportional_refusal(model).empty()) {
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
@@ -43,7 +45,8 @@ ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSys
     flow_ = std::make_unique<DampedFlow>(model, basis_, t_end, kept_ ? kept_->damped.get() : nullptr);
   }
   of_contacts_ = rows_of({});
-  if (share != nullptr) share->modes = flow_->modes();
+  if (use.watched) watched_ = rows_of(*use.watched);
+  if (use.share != nullptr) use.share->modes = flow_->modes();
 }
 
 void ModalEngine::say_fallback(double t, const std::string& why) {
@@ -218,7 +221,7 @@ StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) cons
   return {0.5 * rate.squaredNorm(), 0.5 * basis_.square().dot(q.cwiseAbs2())};
 }
 
-void ModalEngine::know_energy(Point& point) const {
+void ModalEngine::set_energy(Point& point) const {
   if (!flow_) return;
   const bool same = modal_ && q_.size() > 0 && point.u == end_.u && point.v == end_.v;
   point.energy =
@@ -298,11 +301,7 @@ void ModalEngine::evaluate(double t, Point& point) {
   fill(z, motion(z, false), point);
 }
 
-void ModalEngine::watch(const std::vector<int>& dofs) {
-  if (flow_) watched_ = rows_of(dofs);
-}
-
-void ModalEngine::glimpse(double t, Point& point) {
+void ModalEngine::evaluate_watched(double t, std::optional<std::size_t> /*contact*/, Point& point) {
   if (!modal_ || t == t_ || watched_.dofs.empty()) return evaluate(t, point);
   const ModalPoint z = at(t);
   fill_rows(watched_, z, motion(z, false), point);
@@ -328,14 +327,26 @@ void ModalEngine::integrate(double from, double to, Works& works) {
   has_worked_ = true;
 }
 
-std::optional<Ripple> ModalEngine::ripple(double omega) const {
-  if (!modal_ || parts_.empty()) return std::nullopt;
+StepFacts ModalEngine::facts() const {
+  StepFacts facts;
+  if (modal_) {
+    facts.turning_points = turns_;
+    facts.eigenvector_condition = std::max(flow_->dependence(), cancelled_);
+    if (!parts_.empty()) facts.fast_modes = this;
+    return facts;
+  }
+  facts = taylor_.facts();
+  facts.contact_turns = nullptr;  // points are made as a whole
+  return facts;
+}
+
+std::optional<Ripple> ModalEngine::fast_mode_bound(double omega) const {
   return flow_->ripple(parts_.front().at, t_ - parts_.front().begin, omega);
 }
 
 /// Each amplitude is a sum over the whole structure, known to some roundings of |q|, not of itself: velocities and
 /// accelerations with w times and w^2 times that, w the highest frequency. Forces of springs and dashpots.
-Ripple ModalEngine::whole() const {
+Ripple ModalEngine::term_sizes() const {
   const Motion m = motion(parts_.front().at, false);
   const auto norm = [](const Vector& of) { return of.norm(); };
   const double w = model_.omega_max, q = norm(m.q), rate = norm(m.rate);
@@ -356,14 +367,15 @@ double ModalEngine::residual() {
   return imbalance(model_, structure_, *segment_.forcing, t_, end_);
 }
 
-void ModalEngine::count() {
-  counters = taylor_.counters;
-  counters.steps += steps_;
-  counters.restarts += restarts_;
-  counters.contact_states = flow_ ? flow_->states_made() : 0;
-  counters.proof_steps = proofs_;
-  counters.fallbacks = fallbacks_;
-  warnings.insert(warnings.end(), taylor_.warnings.begin(), taylor_.warnings.end());
+StepperReport ModalEngine::report() {
+  StepperReport report{taylor_.counters, warnings, {}, {}};
+  report.counters.steps += steps_;
+  report.counters.restarts += restarts_;
+  report.counters.contact_states = flow_ ? flow_->states_made() : 0;
+  report.counters.proof_steps = proofs_;
+  report.counters.fallbacks = fallbacks_;
+  report.warnings.insert(report.warnings.end(), taylor_.warnings.begin(), taylor_.warnings.end());
+  return report;
 }
 
 }  // namespace signorini

@@ -14,22 +14,28 @@
 
 namespace signorini {
 
-class ModalEngine final : public Stepper {
+/// What its steps are used for.
+struct ModalUse {
+  ModalShare* share = nullptr;                   ///< of a listener, or null
+  bool peaks = true;                             ///< turning points of contacts are looked for
+  std::uint64_t step_seed = 0;                   ///< of steps that are taken in series
+  std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched; nullopt: all
+};
+
+class ModalEngine final : public Stepper, public DenseOutput, private FastModes {
  public:
   /// All but t_end must outlive it. Finds the open modes; without them all is left to the series.
-  /// share: of who observes the run, or null. peaks: turning points of contacts are looked for. step_seed: of steps that are
-  /// taken in series.
   ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-              ModalShare* share = nullptr, bool peaks = true, std::uint64_t step_seed = 0);
+              const ModalUse& use = {});
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
+  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
   /// Without accelerations inside of a step: a third of the work.
   void evaluate(double t, Point& point) override;
-  void watch(const std::vector<int>& dofs) override;
-  void glimpse(double t, Point& point) override;
+  void evaluate_watched(double t, std::optional<std::size_t> contact, Point& point) override;
   void accelerate(double t, Point& point) override;
-  void know_energy(Point& point) const override;
+  void set_energy(Point& point) const override;
   void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
@@ -37,26 +43,17 @@ class ModalEngine final : public Stepper {
                                    std::size_t contact) const override {
     return modal_ ? 0.0 : taylor_.guard_error(form, motion, contact);
   }
-  [[nodiscard]] const std::vector<double>& turning_points() const override {
-    return modal_ ? turns_ : taylor_.turning_points();
-  }
-  /// A guard that leaves zero is followed by its leading derivative.
-  [[nodiscard]] bool knows_low_flights() const override { return true; }
-  [[nodiscard]] Expansion expansion() const override { return modal_ ? Expansion{} : taylor_.expansion(); }
-  [[nodiscard]] double dependence() const override {
-    return modal_ ? std::max(flow_->dependence(), cancelled_) : 1.0;
-  }
-  [[nodiscard]] double turns() const override { return modal_ ? Stepper::turns() : taylor_.turns(); }
-  [[nodiscard]] std::optional<Ripple> ripple(double omega) const override;
-  [[nodiscard]] Ripple whole() const override;
-  [[nodiscard]] double reach(const Combination& form) const override {
-    return basis_.amplitudes_of(form).norm();
-  }
+  [[nodiscard]] StepFacts facts() const override;
   /// The modes that it follows motions in; null: it knows none.
   [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
-  void count() override;
+  [[nodiscard]] StepperReport report() override;
 
  private:
+  [[nodiscard]] std::optional<Ripple> fast_mode_bound(double omega) const override;
+  [[nodiscard]] Ripple term_sizes() const override;
+  [[nodiscard]] double form_norm(const Combination& form) const override {
+    return basis_.amplitudes_of(form).norm();
+  }
   struct Part {
     double begin = 0.0, length = 0.0;
     ModalPoint at;

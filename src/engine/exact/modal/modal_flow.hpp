@@ -60,12 +60,12 @@ class ModalFlow {
   virtual void find_turns(const ModalPoint& from, double begin, double length, bool observed,
                           TurningPoints& turning, LastTurns& turns) = 0;
   virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const = 0;
-  /// As Stepper::ripple, from that point on for some time.
+  /// As FastModes::fast_mode_bound, from that point on for some time.
   [[nodiscard]] virtual std::optional<Ripple> ripple(const ModalPoint& from, double time,
                                                      double omega) const = 0;
   /// The uncoupled modes of contact states; null: they are others.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
-  /// Stepper::dependence() of the segment.
+  /// StepFacts::eigenvector_condition of the segment.
   [[nodiscard]] virtual double dependence() const = 0;
   /// Terms that cancel in the sum over modes.
   [[nodiscard]] virtual SumTerms terms(const ModalPoint& /*at*/) const { return {}; }

@@ -1,6 +1,6 @@
 // modal_memory.hpp: open modes, and complex modes of contact states, kept from run to run of one structure.
 //
-//   ModalMemory memory;      observer.modal()->memory = &memory: run after run, as of orbits and their branches
+//   ModalMemory memory;      ListenerNeeds::modal->memory = &memory: run after run, as of orbits and their branches
 //
 // A state's complex modes cost as much as many periods in them. They depend on the structure alone, but for sums of
 // roots whose pairs are slow beside the run: kept ones are of a run at least as long, and at most 1e4 times so. They cost digits

@@ -25,7 +25,7 @@ struct ModalPoint {
 /// sum of the A_k else.
 class SumOfModes {
  public:
-  /// As Stepper::dependence().
+  /// As StepFacts::eigenvector_condition.
   explicit SumOfModes(double dependence) : orthogonal_(dependence <= 1.0 + 1e-6) {}
   void add(double amplitude) { sum_ += orthogonal_ ? amplitude * amplitude : amplitude; }
   [[nodiscard]] double value() const { return orthogonal_ ? std::sqrt(sum_) : sum_; }

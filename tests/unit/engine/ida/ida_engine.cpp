@@ -76,7 +76,7 @@ TEST_CASE(
       CHECK(std::abs(p.a[1] + 100.0 * p.u[1]) < 1e-12 * 100.0);
       CHECK(std::abs(p.a[0] + 10.0) < 1e-13);
     }
-    CHECK(stretch.engine->residual() < 1e-3);
+    CHECK(stretch.engine->dense_output().residual() < 1e-3);
   });
   CHECK(last.kind == Step::Kind::accepted);
   CHECK(last.end == 0.8);

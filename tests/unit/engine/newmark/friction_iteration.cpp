@@ -31,8 +31,8 @@ TEST_CASE(
     v.push_back(p.v[0]);
     CHECK(std::abs(p.T({}, 0)) <= 2.0 * (1.0 + 1e-12));
     CHECK(p.N({}, 0) == -4.0);
-    s.engine->integrate(step.begin, step.end, works);
-    CHECK(s.engine->residual() < 1e-14);
+    s.engine->dense_output().integrate(step.begin, step.end, works);
+    CHECK(s.engine->dense_output().residual() < 1e-14);
   });
   REQUIRE(ends.size() == 4);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -42,12 +42,12 @@ TEST_CASE("a block that friction stops: the steps are exact, the slip rate falls
       CHECK(p.v[0] == doctest::Approx(1.0 - t).epsilon(1e-12));
       CHECK(p.T({}, 0) == doctest::Approx(2.0).epsilon(1e-14));
       Point curve;
-      s.engine->interpolate(t, curve);
+      s.engine->dense_output().interpolate(t, curve);
       CHECK(curve.u[0] == doctest::Approx(p.u[0]).epsilon(1e-13));
     }
     const double middle = step.begin + 0.4 * (step.end - step.begin);
-    s.engine->integrate(step.begin, middle, works);
-    s.engine->integrate(middle, step.end, works);
+    s.engine->dense_output().integrate(step.begin, middle, works);
+    s.engine->dense_output().integrate(middle, step.end, works);
   });
   CHECK(taken == 4);
   REQUIRE(last.kind == Step::Kind::event);

@@ -1,7 +1,7 @@
-// relay.hpp: a recorder in front of another one. It passes all on, and knows how far the run has come; who derives from
+// forwarding_recorder.hpp: a recorder in front of another one. It passes all on, and knows how far the run has come; who derives from
 // it looks at what it wants to, or asks for a stop.
 //
-//   run -> relay -> next,   reached = t of the last event, row or step that `next` has taken
+//   run -> this -> next,   reached = t of the last event, row or step that `next` has taken
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace signorini {
 
-class Relay : public Recorder {
+class ForwardingRecorder : public Recorder {
  public:
   /// `next` must outlive it; without one nothing is passed on, and nothing is wanted.
-  explicit Relay(Recorder* next = nullptr) : next_(next) {}
+  explicit ForwardingRecorder(Recorder* next = nullptr) : next_(next) {}
 
   void event(const Event& event) override {
     if (next_ != nullptr) next_->event(event);

@@ -1,17 +1,18 @@
-// meddler.hpp: errors that a test plants in a run, to see that its witness notices them.
+// fault_injector.hpp: errors that a test plants in a run, to see that its witness notices them.
 //
 //   engine -> instant (postponed) -> decision (changed) -> record -> witness
 //
-// No scene reaches this; a run without a meddler asks nobody.
+// No scene reaches this; a run without an injector asks nobody.
 #pragma once
 
-#include "run/observer.hpp"
+#include "decide/decider.hpp"
+#include "engine/stepper.hpp"
 
 namespace signorini {
 
-class Meddler {
+class FaultInjector {
  public:
-  virtual ~Meddler() = default;
+  virtual ~FaultInjector() = default;
   /// The model of which the run computes another one, as rescaled for it: the witness is given this.
   virtual void correct(Model& /*model*/) {}
   /// By how much an event is found too late.
@@ -24,10 +25,13 @@ class Meddler {
   }
   /// Peaks are those of the ends of steps.
   virtual bool forgets_peaks_inside() { return false; }
+
+  /// The decision of this instant, and what follows from what was changed in it.
+  void inject(Decider& decider, Instant now, const Forcing& forcing, Decision& decided);
 };
 
 /// signorini/simulate.hpp, with errors planted.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
-                              Meddler& meddler);
+                              FaultInjector& faults);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "run/relay.hpp"
+#include "run/forwarding_recorder.hpp"
 
 #include <doctest/doctest.h>
 
@@ -41,7 +41,7 @@ TEST_SUITE_BEGIN("unit/run/relay");
 
 TEST_CASE("everything that a run tells reaches the recorder behind") {
   Told told;
-  Relay relay(&told);
+  ForwardingRecorder relay(&told);
   NoLoads loads;
   relay.event({});
   relay.sample({});
@@ -61,7 +61,7 @@ TEST_CASE("everything that a run tells reaches the recorder behind") {
 }
 
 TEST_CASE("it has come as far as the last event, row or step; alone it wants nothing and goes on") {
-  Relay relay;
+  ForwardingRecorder relay;
   Event event;
   event.t = 0.25;
   relay.event(event);

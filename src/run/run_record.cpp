@@ -1,0 +1,216 @@
+#include "run/run_record.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/tolerance.hpp"
+
+namespace signorini {
+namespace {
+
+/// Contacts whose guards fell, or whose states have changed.
+std::vector<std::size_t> changed_contacts(const RunInstant& now) {
+  std::vector<std::size_t> contacts = contacts_of(now.fired);
+  for (std::size_t k = 0; k < now.mode_before.size(); ++k)
+    if (now.after.mode[k].state != now.mode_before[k].state) contacts.push_back(k);
+  return contacts;
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const Model& model, const RunSpec& run, const Method& method, const Structure& structure,
+                     const Stepper& engine, Recorder& recorder, Report& report, FaultInjector* faults,
+                     const PartShare& share)
+    : model_(model),
+      engine_(engine),
+      recorder_(recorder),
+      report_(report),
+      faults_(faults),
+      witness_(exact_model(faults),
+               witnessed_engine(run, tolerance_of(model, run), method.flow, engine.knows_low_flights),
+               recorder),
+      auditor_(model, structure),
+      log_(model, recorder, report, share.whole()),
+      samples_(model, run, auditor_, recorder, share.grid),
+      motion_(model, run.t_end, recorder, share),
+      curves_(model, run.t_end, recorder, share),
+      response_(model, run.t_end, recorder, name_of(run.engine).accuracy != Accuracy::step),
+      large_(model),
+      warnings_(model),
+      works_(model.contacts.size()) {}
+
+const Model& RunRecord::exact_model(FaultInjector* faults) {
+  if (faults == nullptr) return model_;
+  exact_model_ = std::make_unique<Model>(model_);
+  faults->correct(*exact_model_);
+  return *exact_model_;
+}
+
+void RunRecord::begin(const RunInstant& start) {
+  const double t = start.t;
+  point_ = *start.point_after;
+  for (std::string& sentence : cut_shears(model_, start.after))
+    report_.warnings.push_back(std::move(sentence));
+  warnings_.add(t, start.after, report_.warnings);
+  auditor_.begin(start.after, start.mode_before, start.forcing_after, *start.point_after);
+  log_.start({t, start.resolution, &start.after, &start.mode_before, false}, engine_);
+  zero_since_.decided(t, start.after, true);
+  const Point given{model_.u0, model_.v0, start.after.jet.forces.col(0)};
+  RunWitness::Instant seen{t,
+                           start.resolution,
+                           &given,
+                           &start.mode_before,
+                           &start.forcing_before,
+                           &start.forcing_after,
+                           &start.after,
+                           &log_.latest()};
+  seen.start = true;
+  witness_.instant(seen);
+  after(start, std::nullopt);
+}
+
+void RunRecord::step(const RunStep& step) {
+  condition_ = step.facts.eigenvector_condition;
+  const double begin = step.step.begin, end = step.step.end;
+  works_.clear();
+  step.motion.integrate(begin, end, works_);
+  auditor_.add(works_);
+  rows(step);
+  response_.inside(step.motion, begin, end);
+  const bool each_alone = step.facts.contact_turns != nullptr && !motion_.wanted() && !curves_.wanted();
+  motion_.step(begin, end, each_alone ? std::span<const double>() : step.facts.turning_points);
+  if (each_alone) turns(step);
+  const Mode& mode = step.decision.mode;
+  while (const auto moment = motion_.next()) {
+    const double t = moment->t;
+    step.motion.evaluate_watched(t, std::nullopt, point_);
+    if (moment->turns && sees_peaks_inside()) auditor_.observe(step.forcing, t, mode, point_);
+    if (moment->turns) witness_.passes(t, step.forcing, point_);
+    motion_.add(t, auditor_, step.forcing, mode, point_);
+    if (curves_.needs(t)) add_curves(t, mode, point_, &step);
+    motion_.adapt(t, curves_.asked());
+  }
+}
+
+/// Those asked for inside a step.
+void RunRecord::rows(const RunStep& step) {
+  for (double t = samples_.next(); t < step.step.end; t = samples_.next()) {
+    Point point;
+    step.motion.evaluate(t, point);
+    works_.clear();
+    step.motion.integrate(t, step.step.end, works_);
+    row(step, t, point);
+    witness_.passes(t, step.forcing, point);
+  }
+}
+
+/// works_: from there to the end of the step.
+void RunRecord::row(const RunStep& step, double t, Point& point) {
+  samples_.emit(t, works_, step.forcing, step.decision.mode, point);
+  if (response_.any()) {
+    step.motion.accelerate(t, point);
+    std::vector<double> losses = auditor_.losses();
+    for (std::size_t k = 0; k < losses.size(); ++k) losses[k] -= works_.friction[k];
+    response_.row(t, Side::before, point, losses);
+  }
+  residual_due_ = true;
+}
+
+/// Nobody draws the motion: each contact is looked at where it turns itself.
+void RunRecord::turns(const RunStep& step) {
+  for (const TurningPoints::Turn& turn : *step.facts.contact_turns) {
+    if (!std::isfinite(turn.time)) continue;
+    const std::size_t contact = turn.contact();
+    step.motion.evaluate_watched(turn.time, contact, point_);
+    if (sees_peaks_inside()) auditor_.observe(contact, step.forcing, turn.time, step.decision.mode, point_);
+    witness_.passes(contact, turn.time, step.forcing, point_);
+  }
+}
+
+void RunRecord::reached(const RunStep& step, const RunPoint& end) {
+  large_.see(end.t, end.forcing, end.point);
+  if (step.step.kind == Step::Kind::event) return;
+  if (motion_.needs(end.t)) motion_.add(end.t, auditor_, end.forcing, end.mode, end.point);
+  if (curves_.needs(end.t)) {
+    add_curves(end.t, end.mode, end.point);
+    motion_.adapt(end.t, curves_.asked());
+  }
+  auditor_.observe(end.forcing, end.t, end.mode, end.point);
+  witness_.between(end.t, end.forcing, end.mode, end.point, condition_);
+  if (std::exchange(residual_due_, false)) auditor_.equilibrium(end.t, step.motion.residual());
+}
+
+void RunRecord::before(const RunPoint& point) {
+  motion_.before(point.t, auditor_, point.forcing, point.mode, point.point);
+  if (curves_.wanted()) add_curves(point.t, point.mode, point.point);
+}
+
+void RunRecord::instant(const RunInstant& now) {
+  const double t = now.t;
+  if (now.breakpoint || now.after.mode != now.mode_before || !now.after.impulses.empty())
+    response_.before(t, *now.point_before, auditor_.losses());
+  auditor_.instant(t, now.after, now.mode_before, *now.point_before, now.forcing_after, now.load_jumps);
+  warnings_.add(t, now.after, report_.warnings);
+  log_.instant(
+      {t, now.resolution, &now.after, &now.mode_before, now.load_jumps, zero_since_.before(t, now.fired)},
+      engine_);
+  zero_since_.decided(t, now.after, now.breakpoint);
+  witness_.instant({t, now.resolution, now.point_before, &now.mode_before, &now.forcing_before,
+                    &now.forcing_after, &now.after, &log_.latest(), false, now.breakpoint, now.load_jumps,
+                    now.adopted, condition_});
+  after(now, now.breakpoint ? std::nullopt : std::optional(changed_contacts(now)));
+}
+
+/// From here on the motion is that of the decision; a row asked for at its time shows it.
+/// changed: contacts whose states or velocities have; absent: perhaps all.
+void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std::size_t>>& changed) {
+  const double t = now.t;
+  const Decision& decision = now.after;
+  const Point& point = *now.point_after;
+  const Forcing& forcing = now.forcing_after;
+  if (decision.undecided) ++report_.undecided;
+  const bool open = decision.forgiven > 0.0 || decision.unresolved || !decision.at_limit.empty();
+  if (open && !report_.forgiven_at) report_.forgiven_at = t;
+  auditor_.observe(forcing, t, decision.mode, point);
+  last_energy_ = auditor_.energy(t, decision.mode, point);
+  if (const double next = samples_.next(); next <= t) {
+    works_.clear();
+    samples_.emit(next, works_, forcing, decision.mode, point);
+    residual_due_ = true;
+  }
+  response_.row(t, Side::after, point, auditor_.losses());
+  motion_.after(t, auditor_, forcing, decision.mode, point, changed);
+  curves_.add(t, point.u, last_energy_);
+}
+
+/// step: one that t lies in, whose works the auditor has to its end.
+void RunRecord::add_curves(double t, const Mode& mode, const Point& point, const RunStep* step) {
+  works_.clear();
+  if (step != nullptr && t < step->step.end) step->motion.integrate(t, step->step.end, works_);
+  curves_.add(t, point.u, auditor_.energy_before(works_, mode, point));
+}
+
+Sample RunRecord::sample(const RunPoint& now) {
+  works_.clear();
+  return samples_.sample(now.t, works_, now.forcing, now.mode, now.point);
+}
+
+void RunRecord::end(const RunPoint& last, const StepperReport& engine) {
+  report_.counters = engine.counters;
+  log_.finish();
+  if (motion_.last() < last.t) motion_.add(last.t, auditor_, last.forcing, last.mode, last.point);
+  if (curves_.last() < last.t) add_curves(last.t, last.mode, last.point);
+  motion_.write(recorder_);
+  curves_.write(recorder_);
+  report_.warnings.insert(report_.warnings.end(), engine.warnings.begin(), engine.warnings.end());
+  auditor_.finish(report_, last_energy_, last.t, last.mode);
+  // Rows of a step that leads to no instant are kept; no peak takes part in it.
+  if (report_.outcome.kind == Outcome::Kind::done) witness_.peaks(last.t, report_.peaks);
+  report_.witness = std::move(witness_.testimony());
+  report_.response = response_.extremes();
+  if (auto sentence = large_.warning()) report_.warnings.push_back(std::move(*sentence));
+  if (response_.coarse()) report_.warnings.push_back(*response_.coarse());
+  if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();
+}
+
+}  // namespace signorini

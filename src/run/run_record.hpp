@@ -1,0 +1,91 @@
+// run_record.hpp: the listener that makes of a run its rows, events, extremes, pictures, audit and witness.
+//
+//   a step     works, whole, so that rows change no digit of what is told at the end; rows inside; extremes of outputs;
+//              times for pictures and peaks; its end
+//   an instant outputs before it, audit, event log, witness; then a row asked for at its time shows the side after it
+//
+// Here is the one list of who records what, and in which order: each point inside a step is evaluated once for all
+// of them.
+#pragma once
+
+#include <memory>
+
+#include "run/audit.hpp"
+#include "run/curve_record.hpp"
+#include "run/event_log.hpp"
+#include "run/fault_injector.hpp"
+#include "run/large_motions.hpp"
+#include "run/motion_record.hpp"
+#include "run/part_share.hpp"
+#include "run/response.hpp"
+#include "run/run_listener.hpp"
+#include "run/run_witness.hpp"
+#include "run/samples.hpp"
+#include "run/warnings.hpp"
+#include "run/zero_since.hpp"
+
+namespace signorini {
+
+class RunRecord final : public RunListener {
+ public:
+  /// All but method and share must outlive it. faults: null, or what a test plants.
+  RunRecord(const Model& model, const RunSpec& run, const Method& method, const Structure& structure,
+            const Stepper& engine, Recorder& recorder, Report& report, FaultInjector* faults,
+            const PartShare& share);
+
+  void begin(const RunInstant& start) override;
+  void step(const RunStep& step) override;
+  void reached(const RunStep& step, const RunPoint& end) override;
+  void before(const RunPoint& point) override;
+  void instant(const RunInstant& instant) override;
+  /// Completes the report.
+  void end(const RunPoint& last, const StepperReport& engine) override;
+
+  /// No states could be decided at this point.
+  void refused(const RunPoint& point) { last_energy_ = auditor_.energy(point.t, point.mode, point.point); }
+  /// The model's loads are others from here on.
+  void loads_changed() { response_.loads_changed(); }
+  /// What steers is handed this. It lives until the next row.
+  [[nodiscard]] Sample sample(const RunPoint& point);
+  /// Why the run ends: a law that what was recorded breaks, and that nothing explains. Empty: there is none.
+  [[nodiscard]] const std::string& law_violated() const { return witness_.grave(); }
+  /// Of the last decision.
+  [[nodiscard]] const Energy& energy() const { return last_energy_; }
+  /// Outputs need accelerations in the points before instants.
+  [[nodiscard]] bool needs_accelerations() const { return response_.any(); }
+
+ private:
+  [[nodiscard]] const Model& exact_model(FaultInjector* faults);
+  [[nodiscard]] bool sees_peaks_inside() const {
+    return faults_ == nullptr || !faults_->forgets_peaks_inside();
+  }
+  void rows(const RunStep& step);
+  void row(const RunStep& step, double t, Point& point);
+  void turns(const RunStep& step);
+  void add_curves(double t, const Mode& mode, const Point& point, const RunStep* step = nullptr);
+  void after(const RunInstant& instant, const std::optional<std::vector<std::size_t>>& changed);
+
+  const Model& model_;
+  const Stepper& engine_;
+  Recorder& recorder_;
+  Report& report_;
+  FaultInjector* faults_;
+  std::unique_ptr<Model> exact_model_;  // null: model_
+  RunWitness witness_;
+  Auditor auditor_;
+  EventLog log_;
+  Samples samples_;
+  MotionRecord motion_;
+  CurveRecord curves_;
+  ResponseWatch response_;
+  LargeMotions large_;
+  ZeroSince zero_since_;
+  DecisionWarnings warnings_;
+  Point point_;  // inside of a step
+  Works works_;
+  Energy last_energy_;
+  double condition_ = 1.0;     // StepFacts::eigenvector_condition of the last step
+  bool residual_due_ = false;  // at the end of the step: once for every row
+};
+
+}  // namespace signorini

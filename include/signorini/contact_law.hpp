@@ -47,6 +47,8 @@ struct LawCapabilities {
   /// Signorini's conditions (6) and Coulomb's (7) are those of the law: they are audited and witnessed, N = kn g + cn g' is its
   /// spring, T = kt (ut - p) that of its anchor, and each state is one of the built-in ones.
   bool signorini_coulomb = true;
+  /// Guards are linear forms; else products of forms may stand in them.
+  bool linear_guards = true;
   /// Its springs are compliance of the structure beside it: results show the motion of the surfaces that touch.
   bool compliance_split = false;
 };

@@ -91,4 +91,10 @@ struct Form {
   }
 };
 
+/// a b, each with its constant.
+struct FormProduct {
+  Form a, b;
+  [[nodiscard]] bool operator==(const FormProduct&) const = default;
+};
+
 }  // namespace signorini

@@ -1,8 +1,8 @@
-// own_law.hpp: a contact law of one's own, beside the built-in ones; for `ida`.
+// own_law.hpp: a contact law of one's own, beside the built-in ones; for `ida` and `exact`.
 //
 //   in state i      normal_i(N, T, g, ut, g', ut', p) = 0     two rows, from which N and T follow
 //                   tangent_i(N, T, g, ut, g', ut', p) = 0
-//   it holds while  guard_ij(N, T, g, ut, g', ut', p) > 0     at most three
+//   it holds while  guard_ij(N, T, g, ut, g', ut', p) > 0     at most three, to which products of forms may be added
 //   where one falls i <- next, p <- memory(N, T, g, ut, g', ut') if given
 //
 // All are linear forms (form.hpp), with a coefficient for the memory p, a length: what an anchor is to friction,
@@ -38,9 +38,10 @@ struct OwnForm {
 };
 
 struct OwnGuard {
-  OwnForm positive;                 ///< while the state holds
-  std::size_t next = 0;             ///< the state after it has fallen
-  std::optional<Form> memory = {};  ///< p from then on; absent: as it was
+  OwnForm positive;                        ///< while the state holds
+  std::size_t next = 0;                    ///< the state after it has fallen
+  std::optional<Form> memory = {};         ///< p from then on; absent: as it was
+  std::vector<FormProduct> products = {};  ///< to be added to `positive`: F^2 - T^2 = (F - T)(F + T)
 };
 
 struct OwnState {

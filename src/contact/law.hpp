@@ -29,9 +29,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <vector>
 
 #include "contact/slots.hpp"
 #include "signorini/contact.hpp"
+#include "signorini/own_law.hpp"
 
 namespace signorini {
 
@@ -59,9 +62,37 @@ enum class Guard : unsigned char {
 /// The unit of a form's value: that of its first term.
 [[nodiscard]] Unit unit_of(const Form& form);
 
+/// G = form + sum a b over its products: all that engines and decisions ask of a guard. Motions are given as derivatives
+/// 0, 1, ... by time, and what counts as zero in them likewise.
 struct GuardForm {
   Guard kind = Guard::none;
   Form form;
+  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;  ///< null: it is linear
+
+  [[nodiscard]] bool is_linear() const { return products == nullptr; }
+  [[nodiscard]] double value(const ContactMotion& m) const {
+    return is_linear() ? form.value(m) : form.value(m) + derivative_of_products(&m, 0);
+  }
+  /// G^(k)
+  [[nodiscard]] double derivative(const ContactMotion* motion, std::size_t k) const {
+    const double d = k == 0 ? form.value(motion[0]) : form.rate(motion[k]);
+    return is_linear() ? d : d + derivative_of_products(motion, k);
+  }
+  /// Rounding of G^(k).
+  [[nodiscard]] double rounding(const ContactMotion* motion, const ContactMotion* noise,
+                                std::size_t k) const {
+    const double r = form.magnitude(noise[k]);
+    return is_linear() ? r : r + rounding_of_products(motion, noise, k);
+  }
+  /// Derivative of G by a parameter, from that of the motion.
+  [[nodiscard]] double change(const ContactMotion& m, const ContactMotion& by) const;
+
+  [[nodiscard]] bool operator==(const GuardForm& other) const;
+
+ private:
+  [[nodiscard]] double derivative_of_products(const ContactMotion* motion, std::size_t k) const;
+  [[nodiscard]] double rounding_of_products(const ContactMotion* motion, const ContactMotion* noise,
+                                            std::size_t k) const;
 };
 
 /// The two residual rows of a contact.

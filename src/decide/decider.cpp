@@ -21,9 +21,10 @@ namespace signorini {
 namespace {
 
 /// How a guard passed through zero, from the motion in the mode that it ended.
-Crossing crossing(const Form& form, const MotionJet& jet) {
-  Crossing result{form, {}, form.magnitude(jet.noise[0])};
-  for (std::size_t k = 1; k < jet.motion.size(); ++k) result.derivatives[k - 1] = form.rate(jet.motion[k]);
+Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
+  Crossing result{guard, {}, guard.rounding(jet.motion.data(), jet.noise.data(), 0)};
+  for (std::size_t k = 1; k < jet.motion.size(); ++k)
+    result.derivatives[k - 1] = guard.derivative(jet.motion.data(), k);
   return result;
 }
 
@@ -31,7 +32,7 @@ Crossing crossing(const Form& form, const MotionJet& jet) {
 bool is_pushed(const Failure& f, const Instant& instant, const ContactMotion& before,
                const ContactMotion& noise) {
   return f.sign.order == 0 && !instant.has_fired(f.contact, f.guard) &&
-         f.form.value(before) > unlucky * f.form.magnitude(noise);
+         f.form.value(before) > unlucky * f.form.rounding(&before, &noise, 0);
 }
 
 std::vector<std::size_t> every_contact(const Model& model) {
@@ -304,7 +305,7 @@ void Decider::note_hits(DecisionCourse& course) const {
   for (std::size_t c = 0; c < d.impulses.size(); ++c)
     if (d.impulses[c].hit)
       d.crossings.try_emplace(
-          c, crossing(guards(model_.contacts[c], course.instant.mode[c])[0].form, course.jets[c]));
+          c, crossing(guards(model_.contacts[c], course.instant.mode[c])[0], course.jets[c]));
 }
 
 /// The next mode, from the guards that failed in the last one.
@@ -402,16 +403,15 @@ void Decider::look_at_start(DecisionCourse& course, std::size_t c, const GuardFo
   const MotionJet* base = course.so_far.empty() ? nullptr
                                                 : rested(model_.contacts[c], c, course.mode[c], guard,
                                                          course.so_far[c], course.instant);
-  const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
-  start.at_zero =
-      known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
+  const Sign sign = sign_of_guard(guard, jet, course.instant, known, base);
+  start.at_zero = known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard, jet, course.instant));
   start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
   if (start.at_zero && start.leading < 0)
     for (std::size_t k = 0; k < start.loose.size(); ++k)
-      start.loose[k] = course.instant.blur * guard.form.magnitude(jet.noise[k + 2]);
+      start.loose[k] = course.instant.blur * guard.rounding(jet.motion.data(), jet.noise.data(), k + 2);
   const bool rests = rests_at_limit(course, c, start);
   d.undecided = d.undecided || rests;
-  const double value = guard.form.value(jet.motion[0]);
+  const double value = guard.value(jet.motion[0]);
   if (rests || (known.zeros == 0 && meets_static_limit(course, c, start)))
     d.at_limit.push_back({c, value, start.noise});
   // What the decision took for zero is rounding to an engine, too.
@@ -442,7 +442,9 @@ void Decider::finish(DecisionCourse& course) {
       // Others may hold its slip rate at zero, whatever rounding makes of it: then it has none.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, course))) continue;
       start.kind = guard.kind;
-      start.noise = course.instant.blur * QuickForm(guard.form).magnitude(jet.noise[0]);
+      start.noise =
+          course.instant.blur * (guard.is_linear() ? QuickForm(guard.form).magnitude(jet.noise[0])
+                                                   : guard.rounding(jet.motion.data(), jet.noise.data(), 0));
       if (!clear) look_at_start(course, c, guard, start);
     }
   }

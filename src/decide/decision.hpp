@@ -32,7 +32,7 @@ struct GuardStart {
 
 /// The guard whose failure changed a contact's state.
 struct Crossing {
-  Form form;
+  GuardForm form;
   std::array<double, MotionJet::orders - 1> derivatives{};  ///< g', g'', ... just before, in the old mode
   double noise = 0.0;                                       ///< rounding of its value
 };
@@ -79,10 +79,12 @@ struct Decision {
   /// rounding and tolerances have left of velocities that are zero is taken out. Empty: none.
   Eigen::VectorXd captures = {};
 
-  /// Of a guard in force.
-  [[nodiscard]] const Form& form(std::size_t slot) const {
-    return forms[contact_of_guard(slot)][guard_within(slot)].form;
+  /// In force.
+  [[nodiscard]] const GuardForm& guard(std::size_t slot) const {
+    return forms[contact_of_guard(slot)][guard_within(slot)];
   }
+  /// Of a guard that is linear.
+  [[nodiscard]] const Form& form(std::size_t slot) const { return guard(slot).form; }
   /// Null: no guard of the contact failed, or it did not fall.
   [[nodiscard]] const Crossing* crossing(std::size_t contact) const {
     const auto found = crossings.find(contact);

@@ -97,7 +97,7 @@ std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, c
       if (guard.kind != Guard::none)
         result.forgiveness =
             std::max(result.forgiveness,
-                     forgiveness(guard.form, motions[c], instant, known[c].of_motion().of(guard.kind).zeros));
+                     forgiveness(guard, motions[c], instant, known[c].of_motion().of(guard.kind).zeros));
   return result;
 }
 

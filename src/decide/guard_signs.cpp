@@ -10,20 +10,42 @@
 namespace signorini {
 namespace {
 
-template <class F>
-double derivative(const F& form, const MotionJet& jet, std::size_t k) {
+/// A guard, or a linear one by a QuickForm of it.
+double derivative(const GuardForm& guard, const MotionJet& jet, std::size_t k) {
+  return guard.derivative(jet.motion.data(), k);
+}
+double derivative(const QuickForm& form, const MotionJet& jet, std::size_t k) {
   return k == 0 ? form.value(jet.motion[0]) : form.rate(jet.motion[k]);
+}
+double noise_of(const GuardForm& guard, const MotionJet& jet, std::size_t k) {
+  return guard.rounding(jet.motion.data(), jet.noise.data(), k);
+}
+double noise_of(const QuickForm& form, const MotionJet& jet, std::size_t k) {
+  return form.magnitude(jet.noise[k]);
 }
 
 /// Below this derivative k is zero.
 template <class F>
-double zero_of(const F& form, const MotionJet& jet, double blur, double resolution, std::size_t k) {
-  double zero = blur * form.magnitude(jet.noise[k]) + std::numeric_limits<double>::min();
-  if (k + 1 < jet.motion.size()) zero += resolution * std::abs(form.rate(jet.motion[k + 1]));
+double zero_of(const F& guard, const MotionJet& jet, double blur, double resolution, std::size_t k) {
+  double zero = blur * noise_of(guard, jet, k) + std::numeric_limits<double>::min();
+  if (k + 1 < jet.motion.size()) zero += resolution * std::abs(derivative(guard, jet, k + 1));
   return zero;
 }
-double zero_of(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t k) {
-  return zero_of(form, jet, instant.blur, instant.resolution, k);
+double zero_of(const GuardForm& guard, const MotionJet& jet, const Instant& instant, std::size_t k) {
+  return zero_of(guard, jet, instant.blur, instant.resolution, k);
+}
+
+/// Do the first `orders` orders tell the sign?
+template <class F>
+bool told_by_orders(const F& guard, const MotionJet& jet, std::size_t first, std::size_t orders, bool fell,
+                    double blur, double resolution) {
+  for (std::size_t k = first; k < orders; ++k) {
+    const double d = derivative(guard, jet, k);
+    if (!(std::abs(d) > zero_of(guard, jet, blur, resolution, k)) || (fell && k == 1 && d > 0.0)) continue;
+    // One that fails is asked for all that it leads to.
+    return !(d < 0.0 && orders == 1);
+  }
+  return false;
 }
 
 /// The guard of a contact that fails soonest.
@@ -38,27 +60,27 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
     // that a rate which is positive all the same is what an integrator's rounding has made of zero.
     const bool fell = before && instant.has_fired(c, guard.kind);
     Known guard_known = known.of(guard.kind);
-    if (fell && guard.form.value(jet.motion[0]) > 0.0)
+    if (fell && guard.value(jet.motion[0]) > 0.0)
       guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
     const MotionJet* base = so_far ? rested(contact, c, state, guard, *so_far, instant) : nullptr;
-    Sign sign = sign_of_guard(guard.form, jet, instant, guard_known, base);
+    Sign sign = sign_of_guard(guard, jet, instant, guard_known, base);
     if (fell && !instant.jump && sign.sign > 0 && sign.order == 1) {
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
-      sign = sign_of_guard(guard.form, jet, instant, guard_known);
+      sign = sign_of_guard(guard, jet, instant, guard_known);
     }
     // The guard that fails soonest counts: a friction limit exceeded at once before a compression that
     // will end. At a tie separation, the first: with N = 0 the friction limit is zero too.
     if (sign.sign >= 0 || (soonest && sign.order >= soonest->sign.order)) continue;
-    soonest = Failure{c, guard.kind, guard.form, sign};
+    soonest = Failure{c, guard.kind, guard, sign};
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
   // Friction limit and compression vanish together in a vertical lift-off: one separation.
   if (is_friction_limit(soonest->guard)) {
     const GuardForm& separation = all[0];
-    if (separation.kind == Guard::separation && starts_at_zero(separation.form, jet, instant) &&
-        separation.form.rate(jet.motion[1]) < 0.0) {
+    if (separation.kind == Guard::separation && starts_at_zero(separation, jet, instant) &&
+        derivative(separation, jet, 1) < 0.0) {
       soonest->guard = Guard::separation;
-      soonest->form = separation.form;
+      soonest->form = separation;
     }
   }
   return soonest;
@@ -69,7 +91,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
 const MotionJet* rested(const Contact& contact, std::size_t c, const ContactState& state,
                         const GuardForm& guard, const MotionJet& so_far, const Instant& instant) {
   const auto rests = [&](const GuardForm& limit) {
-    const bool is_zero = limit.form.value(so_far.motion[0]) <= zero_of(limit.form, so_far, instant, 0);
+    const bool is_zero = limit.value(so_far.motion[0]) <= zero_of(limit, so_far, instant, 0);
     return is_zero && instant.has_rested(c, limit.kind);
   };
   bool any = rests(guard);
@@ -80,7 +102,7 @@ const MotionJet* rested(const Contact& contact, std::size_t c, const ContactStat
   return any ? &so_far : nullptr;
 }
 
-Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first,
+Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant, std::size_t first,
                 const MotionJet* base) {
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
     const double d = derivative(form, jet, k) - (base ? derivative(form, *base, k) : 0.0);
@@ -90,16 +112,16 @@ Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, 
   return {0, static_cast<int>(jet.motion.size()), 0.0};
 }
 
-Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant, const Known& known,
+Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant, const Known& known,
                    const MotionJet* base) {
   const Sign sign = sign_after(form, jet, instant, known.zeros, base);
   if (!known.rises || (sign.sign < 0 && sign.order == static_cast<int>(known.zeros))) return sign;
   return {1, static_cast<int>(known.zeros), sign.order == static_cast<int>(known.zeros) ? sign.excess : 1.0};
 }
 
-bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& instant) {
+bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant) {
   const double zero =
-      instant.blur * form.magnitude(jet.noise[0]) + instant.resolution * std::abs(form.rate(jet.motion[1]));
+      instant.blur * noise_of(form, jet, 0) + instant.resolution * std::abs(derivative(form, jet, 1));
   return std::abs(form.value(jet.motion[0])) <= zero;
 }
 
@@ -121,21 +143,16 @@ bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, s
     if (guard.kind == Guard::none) continue;
     // What fell is zero, and a rate that rises is as well: failure_of().
     const bool fell = instant.has_fired(c, guard.kind);
-    const QuickForm form(guard.form);
-    bool told = false;
-    for (std::size_t k = std::max<std::size_t>(fell ? 1 : 0, known.of(guard.kind).zeros); k < orders && !told;
-         ++k) {
-      const double d = derivative(form, jet, k);
-      told = std::abs(d) > zero_of(form, jet, blur, resolution, k) && !(fell && k == 1 && d > 0.0);
-      // One that fails is asked for all that it leads to.
-      if (told && d < 0.0 && orders == 1) return false;
-    }
-    if (!told) return false;
+    const std::size_t first = std::max<std::size_t>(fell ? 1 : 0, known.of(guard.kind).zeros);
+    if (!(guard.is_linear()
+              ? told_by_orders(QuickForm(guard.form), jet, first, orders, fell, blur, resolution)
+              : told_by_orders(guard, jet, first, orders, fell, blur, resolution)))
+      return false;
   }
   return true;
 }
 
-double forgiveness(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
+double forgiveness(const GuardForm& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
   double most = 0.0;
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
     const double ratio = derivative(form, jet, k) / zero_of(form, jet, instant, k);

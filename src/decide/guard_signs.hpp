@@ -75,14 +75,14 @@ struct Sign {
                                       const Instant& instant);
 /// Sign of the first derivative of the form, from `first` on, that is not zero to working precision.
 /// base: a motion in which the form is zero, whatever rounding has left of it; what counts is the difference.
-[[nodiscard]] Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant,
+[[nodiscard]] Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                               std::size_t first, const MotionJet* base = nullptr);
-[[nodiscard]] bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& instant);
+[[nodiscard]] bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant);
 /// How many times its rounding must be forgiven for the form not to be lexicographically negative; 0: none.
-[[nodiscard]] double forgiveness(const Form& form, const MotionJet& jet, const Instant& instant,
+[[nodiscard]] double forgiveness(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  std::size_t first);
 /// Sign of a guard of which something is known: one that rises is only asked whether it clearly does not.
-[[nodiscard]] Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant,
+[[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
 using GuardsOfState = std::array<GuardForm, guards_per_contact>;
@@ -115,7 +115,7 @@ class GuardsInForce {
 struct Failure {
   std::size_t contact = 0;
   Guard guard = Guard::none;
-  Form form = {};
+  GuardForm form = {};
   Sign sign = {};
 };
 

@@ -52,7 +52,7 @@ class Stepper {
   /// The motion on the last step.
   [[nodiscard]] virtual DenseOutput& dense_output() = 0;
   /// How far off a guard's value may be, from one step's errors. Unit: that of the guard.
-  [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion,
+  [[nodiscard]] virtual double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
   /// Puts the energy of the structure into a point that a decision has made, where the engine knows it better.
   virtual void set_energy(Point& /*point*/) const {}

@@ -29,4 +29,14 @@ double tolerance(const Form& form, const ContactMotion& m, const Tolerance& t) {
          part(form.limit_rate, m.limit_rate, of_limit_rate);
 }
 
+double tolerance(const GuardForm& guard, const ContactMotion& m, const Tolerance& t) {
+  double sum = tolerance(guard.form, m, t);
+  for (std::size_t i = 0; !guard.is_linear() && i < guard.products->size(); ++i) {
+    const auto& [a, b] = (*guard.products)[i];
+    const double da = tolerance(a, m, t), db = tolerance(b, m, t);
+    sum += std::abs(a.value(m)) * db + (std::abs(b.value(m)) + db) * da;
+  }
+  return sum;
+}
+
 }  // namespace signorini

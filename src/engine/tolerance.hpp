@@ -3,6 +3,7 @@
 //   tol(x) = rtol |x| + atol,   atol = rtol * scale of the scene where the scene gives none
 #pragma once
 
+#include "contact/law.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -21,5 +22,7 @@ struct Tolerance {
 
 /// Tolerance of a form's value, from those of the motion's entries.
 [[nodiscard]] double tolerance(const Form& form, const ContactMotion& motion, const Tolerance& tolerance);
+[[nodiscard]] double tolerance(const GuardForm& guard, const ContactMotion& motion,
+                               const Tolerance& tolerance);
 
 }  // namespace signorini

@@ -82,4 +82,36 @@ void ContactSeries::combine(const Form& form, double* out) const {
   out[0] += form.constant;
 }
 
+double ContactSeries::magnitude(const Form& form, double reach) const {
+  factor_.resize(degree_ + 1);
+  combine(form, factor_.data());
+  double sum = 0.0;
+  for (std::size_t k = degree_ + 1; k-- > 0;) sum = sum * reach + std::abs(factor_[k]);
+  return sum;
+}
+
+ContactSeries::GuardSeries ContactSeries::expand(const GuardForm& guard, double reach,
+                                                 std::size_t most_degree, double* out) const {
+  combine(guard.form, out);
+  GuardSeries result{degree_};
+  if (guard.is_linear()) return result;
+  result.degree = std::min(2 * degree_, most_degree);
+  std::fill(out + degree_ + 1, out + result.degree + 1, 0.0);
+  other_factor_.resize(degree_ + 1);
+  for (const auto& [a, b] : *guard.products) {
+    result.terms += magnitude(a, reach) * magnitude(b, reach);
+    combine(a, factor_.data());
+    combine(b, other_factor_.data());
+    for (std::size_t i = 0; i <= degree_; ++i)
+      for (std::size_t j = 0; j <= degree_; ++j) {
+        const double c = factor_[i] * other_factor_[j];
+        if (i + j <= result.degree)
+          out[i + j] += c;
+        else
+          result.cut += std::abs(c) * std::pow(reach, static_cast<double>(i + j));
+      }
+  }
+  return result;
+}
+
 }  // namespace signorini

@@ -9,6 +9,7 @@
 #include <array>
 #include <limits>
 
+#include "contact/law.hpp"
 #include "motion/taylor.hpp"
 
 namespace signorini {
@@ -54,6 +55,16 @@ class ContactSeries {
   [[nodiscard]] double rate(Field field) const { return rates_[field]; }
   /// out[0 .. degree]: coefficients of the form, about the origin.
   void combine(const Form& form, double* out) const;
+  /// The guard's polynomial, about the origin.
+  struct GuardSeries {
+    std::size_t degree = 0;
+    double cut = 0.0;    ///< at most what its terms of higher orders amount to
+    double terms = 0.0;  ///< sum of the magnitudes of those that products are made of
+  };
+  /// out[0 .. most_degree]: its coefficients; reach: the greatest distance from the origin.
+  GuardSeries expand(const GuardForm& guard, double reach, std::size_t most_degree, double* out) const;
+  /// Sum of the magnitudes of the form's terms there.
+  [[nodiscard]] double magnitude(const Form& form, double reach) const;
   [[nodiscard]] double value(Field field, double x) const {
     return value_at(of(field), degree_, x - origin_);
   }
@@ -82,7 +93,8 @@ class ContactSeries {
   std::array<double, fields> rates_ = unbounded();
   std::size_t slide_row_ = slide;  // ut's, where the body's is the same
   mutable std::vector<double> values_;
-  mutable std::array<bool, fields> there_{};  // of values_
+  mutable std::array<bool, fields> there_{};           // of values_
+  mutable std::vector<double> factor_, other_factor_;  // of a product
 };
 
 }  // namespace signorini

@@ -41,7 +41,6 @@ void refuse_own_laws(const Model& model, const RunSpec& run) {
 }
 
 void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
-  refuse_own_laws(model, run);
   for (const Contact& contact : model.contacts) {
     if (contact.curved_surface())
       refuse(
@@ -56,6 +55,11 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
                          contact.name, contact.friction.by_force() ? "normal force" : "slip rate"),
              ida_instead);
   }
+}
+
+void refuse_own_and_nonlinear_laws(const Model& model, const RunSpec& run) {
+  refuse_own_laws(model, run);
+  refuse_laws_that_are_not_linear(model, run);
 }
 
 void refuse_functions(const Model& model, const RunSpec& run) {
@@ -73,7 +77,7 @@ void refuse_functions(const Model& model, const RunSpec& run) {
 
 /// What iterates on friction takes no impulses.
 void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
-  refuse_laws_that_are_not_linear(model, run);
+  refuse_own_and_nonlinear_laws(model, run);
   refuse_functions(model, run);
   for (const Contact& contact : model.contacts) {
     if (contact.takes_impulses())
@@ -204,7 +208,7 @@ constexpr std::array rows_of_engines = {
                .laws_at_ends = true,
                .locates_events = unless_interpolated,
                .knows_low_flights = no_flights},
-              refuse_laws_that_are_not_linear,
+              refuse_own_and_nonlinear_laws,
               fixed_steps,
               make_newmark,
               effort_of_fixed_steps},

@@ -76,9 +76,9 @@ std::optional<double> FollowedMotion::time_of(const RunInstant& instant, const M
   for (int i = 0; i < most_corrections; ++i) {
     const SeriesPoint point = at(t);
     const ContactMotion m = motion_of(model_.contacts[fell.contact], fell.contact, *forcing_, t, point);
-    const double rate = guard->form.rate(time_rate(model_.layout, fell.contact, m, point));
+    const double rate = guard->change(m, time_rate(model_.layout, fell.contact, m, point));
     if (!(rate < 0.0)) return std::nullopt;
-    const double off = -guard->form.value(m) / rate;
+    const double off = -guard->value(m) / rate;
     if (!(t + off > now_.jet.t)) return std::nullopt;
     // sharper than instants are told apart, or than the guard's rounding
     if (std::abs(off) <= std::max(instant.resolution, -4.0 * noise / rate)) return t + off;

@@ -11,7 +11,9 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
     const Contact& c = model.contacts[k];
     const bool rises = c.friction.rises();
     const bool remembers = c.law->has_memory();
+    const bool multiplies = !c.law->capabilities.linear_guards;
     const char* what = remembers                    ? "a law of contact with a memory"
+                       : multiplies                 ? "a law of contact whose guards hold products"
                        : c.curved_surface()         ? "a pendulum whose normal force varies"
                        : rises && c.sliding_point() ? "friction that rises with the slip rate beside a "
                                                       "tangential_stiffness"
@@ -22,7 +24,7 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
                            : nullptr;
     if (what != nullptr)
       throw SceneError(scene.contacts[k].place,
-                       scene.contacts[k].key(remembers || c.compliance_split() ? "law"
+                       scene.contacts[k].key(remembers || multiplies || c.compliance_split() ? "law"
                                              : c.curved_surface()              ? "radius"
                                                                                : "friction"),
                        fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));

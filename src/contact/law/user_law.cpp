@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "base/unit.hpp"
 #include "contact/conditions.hpp"
 #include "contact/law.hpp"
@@ -17,10 +19,20 @@ Form with_memory(const OwnForm& own, double memory) {
   return form;
 }
 
+/// No guard holds products of forms.
+bool has_linear_guards(const OwnLaw& law) {
+  for (const OwnState& state : law.states)
+    for (const OwnGuard& guard : state.guards)
+      if (!guard.products.empty()) return false;
+  return true;
+}
+
 class UserLaw final : public ContactLaw {
  public:
   explicit UserLaw(std::shared_ptr<const OwnLaw> data)
-      : ContactLaw({.normal_spring = true, .signorini_coulomb = false}), data_(std::move(data)) {}
+      : ContactLaw(
+            {.normal_spring = true, .signorini_coulomb = false, .linear_guards = has_linear_guards(*data)}),
+        data_(std::move(data)) {}
 
   [[nodiscard]] std::string name() const override {
     return is_named() ? data_->name : to_string(Law::compliant);
@@ -38,7 +50,7 @@ class UserLaw final : public ContactLaw {
     Guards result;
     const OwnState& in = at(state.state);
     for (std::size_t i = 0; i < in.guards.size(); ++i)
-      result[i] = {kinds[i], with_memory(in.guards[i].positive, state.anchor)};
+      result[i] = {kinds[i], with_memory(in.guards[i].positive, state.anchor), products_of(in.guards[i])};
     return result;
   }
 
@@ -110,6 +122,12 @@ class UserLaw final : public ContactLaw {
     return {own_state(i, data_->states[i].kind), memory};
   }
 
+  /// Products of a guard; they live as long as the law.
+  [[nodiscard]] std::shared_ptr<const std::vector<FormProduct>> products_of(const OwnGuard& guard) const {
+    if (guard.products.empty()) return nullptr;
+    return {data_, &guard.products};
+  }
+
   std::shared_ptr<const OwnLaw> data_;
 };
 
@@ -148,6 +166,7 @@ std::string refusal_of(const OwnState& state, std::size_t states) {
   for (const OwnGuard& guard : state.guards) {
     forms.push_back(guard.positive.form);
     if (guard.memory) forms.push_back(*guard.memory);
+    for (const FormProduct& p : guard.products) forms.insert(forms.end(), {p.a, p.b});
     if (guard.next >= states)
       return refuse(fmt::format("found next state {}, expected 0 to {}", guard.next, states - 1));
   }
@@ -177,7 +196,10 @@ bool acts_along_tangent(const OwnLaw& law) {
         tangent.constant != 0.0 || state.tangent.memory != 0.0 || depends(state.normal.form))
       return true;
     for (const OwnGuard& guard : state.guards)
-      if (depends(guard.positive.form) || (guard.memory && depends(*guard.memory))) return true;
+      if (depends(guard.positive.form) || (guard.memory && depends(*guard.memory)) ||
+          std::any_of(guard.products.begin(), guard.products.end(),
+                      [&](const FormProduct& p) { return depends(p.a) || depends(p.b); }))
+        return true;
   }
   return false;
 }
@@ -189,6 +211,8 @@ std::shared_ptr<const OwnLaw> visited(OwnLaw law, const ContactLaw::VisitConstan
     for (OwnGuard& guard : state.guards) {
       visit_form(guard.positive, visit);
       if (guard.memory) visit_form(*guard.memory, unit::length, visit);
+      for (FormProduct& p : guard.products)
+        for (Form* factor : {&p.a, &p.b}) visit_form(*factor, unit_of(*factor), visit);
     }
   }
   return std::make_shared<const OwnLaw>(std::move(law));

@@ -49,7 +49,7 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
       reached_(model.contacts.size()),
       falls_(guard_count(model.contacts.size())),
       sizes_(most_levels + 3),
-      guard_(most_levels + 1),
+      guard_(std::max<std::size_t>(most_levels, most_fall_degree) + 1),
       works_(model, structure),
       turns_(model.contacts.size()) {
   for (const Dof& dof : model.dofs)
@@ -258,6 +258,18 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
          std::abs(form.an) * rate * rate * gap;
 }
 
+/// |a b - p q| <= |p| db + (|q| + db) da where p, q are the polynomials of a, b
+double ExactEngine::rest_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
+  double sum = rest_of(guard.form, c, x, rest);
+  const ContactSeries& contact = motion_.contacts()[c];
+  for (std::size_t i = 0; !guard.is_linear() && i < guard.products->size(); ++i) {
+    const auto& [a, b] = (*guard.products)[i];
+    const double reach = reach_ - contact.origin(), da = rest_of(a, c, x, rest), db = rest_of(b, c, x, rest);
+    sum += contact.magnitude(a, reach) * db + (contact.magnitude(b, reach) + db) * da;
+  }
+  return sum;
+}
+
 /// GuardStart::drift up to the place x of the step.
 double ExactEngine::drift_of(const GuardStart& guard, double x) const {
   return guard.drift(t_ + x * motion_.whole.scale - segment_.decision->jet.t);
@@ -268,30 +280,31 @@ FirstFall ExactEngine::fall_of(std::size_t slot) {
   const GuardStart& guard = segment_.decision->guards[slot];
   const std::size_t c = contact_of_guard(slot);
   const ContactSeries& contact = motion_.contacts()[c];
-  const Form& form = segment_.decision->form(slot);
-  contact.combine(form, guard_.data());
+  const GuardForm& form = segment_.decision->guard(slot);
+  const auto [degree, cut, products] =
+      contact.expand(form, reach_ - contact.origin(), most_fall_degree, guard_.data());
   const double from = begin_x_ - contact.origin(), x = reach_ - begin_x_;
-  double power = 1.0, terms = 0.0;
+  double power = 1.0, terms = products;
   if (from > 0.0) {  // terms about the origin bound those about where the step begins
-    for (std::size_t k = 0; k <= degree_; ++k, power *= reach_ - contact.origin())
+    for (std::size_t k = 0; k <= degree; ++k, power *= reach_ - contact.origin())
       terms += std::abs(guard_[k]) * power;
-    shift(guard_.data(), degree_, from);
+    shift(guard_.data(), degree, from);
     power = 1.0;
-    for (std::size_t k = 0; k <= degree_; ++k, power *= x) guard_[k] *= power;
+    for (std::size_t k = 0; k <= degree; ++k, power *= x) guard_[k] *= power;
   } else {
-    for (std::size_t k = 0; k <= degree_; ++k, power *= x) {
+    for (std::size_t k = 0; k <= degree; ++k, power *= x) {
       guard_[k] *= power;
       terms += std::abs(guard_[k]);
     }
   }
   const double rounding = (from > 0.0 ? rounding::of_many : rounding::of_few) * terms;
   const double slack =
-      rest_of(form, c, reached_[c].x, reached_[c].rest) + rounding + rounding_of_guard * guard.noise;
-  if (arming_.armed(slot)) return first_fall(guard_.data(), degree_, slack);
+      rest_of(form, c, reached_[c].x, reached_[c].rest) + cut + rounding + rounding_of_guard * guard.noise;
+  if (arming_.armed(slot)) return first_fall(guard_.data(), degree, slack);
   if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found what is below to be zero
-    return first_fall(guard_.data() + m, degree_ - m, rounding::of_few * std::abs(guard_[m]));
+    return first_fall(guard_.data() + m, degree - m, rounding::of_few * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack + drift_of(guard, x);
-  return first_fall(guard_.data(), degree_, 0.0);
+  return first_fall(guard_.data(), degree, 0.0);
 }
 
 Step ExactEngine::failed(std::string reason) {
@@ -406,8 +419,9 @@ void ExactEngine::see_unarmed(double x) {
     if (arming_.idle(slot) || arming_.armed(slot)) continue;
     const GuardStart& guard = segment_.decision->guards[slot];
     const ContactSeries& contact = motion_.contacts()[contact_of_guard(slot)];
-    contact.combine(segment_.decision->form(slot), guard_.data());
-    arming_.see(slot, value_at(guard_.data(), degree_, x - contact.origin()),
+    const auto polynomial =
+        contact.expand(segment_.decision->guard(slot), x - contact.origin(), most_fall_degree, guard_.data());
+    arming_.see(slot, value_at(guard_.data(), polynomial.degree, x - contact.origin()),
                 4.0 * (guard.noise + drift_of(guard, x)));
   }
 }

@@ -51,7 +51,7 @@ class ExactEngine final : public Stepper, public DenseOutput {
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
   /// The guard is exact but for rounding, which the decision knows.
-  [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
+  [[nodiscard]] double guard_error(const GuardForm&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
   [[nodiscard]] StepFacts facts() const override;
@@ -72,6 +72,7 @@ class ExactEngine final : public Stepper, public DenseOutput {
   [[nodiscard]] double reach_near(const NearSeries::Made& near, double x);
   [[nodiscard]] double rest_near(const NearSeries::Made& near, double x);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
+  [[nodiscard]] double rest_of(const GuardForm& guard, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double rest_of_series(double x);
   [[nodiscard]] double drift_of(const GuardStart& guard, double x) const;
   [[nodiscard]] FirstFall fall_of(std::size_t slot);

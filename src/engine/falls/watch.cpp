@@ -19,10 +19,10 @@ void Watch::wait(std::size_t slot, double level) {
   levels_[slot] = std::max(levels_[slot], level);
 }
 
-double Watch::leeway(std::size_t contact, const Form& form) const {
+double Watch::leeway(std::size_t contact, const GuardForm& guard) const {
   const std::size_t end = std::min(guard_slot(contact + 1, 0), arming_.size());
   for (std::size_t slot = guard_slot(contact, 0); slot < end; ++slot)
-    if (!arming_.idle(slot) && forms_[contact][guard_within(slot)].form == form)
+    if (!arming_.idle(slot) && forms_[contact][guard_within(slot)] == guard)
       return arming_.armed(slot) ? 0.0 : levels_[slot];
   return 0.0;
 }

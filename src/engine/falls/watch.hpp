@@ -31,8 +31,8 @@ class Watch {
   [[nodiscard]] bool armed(std::size_t slot) const { return arming_.armed(slot); }
   /// It fell and was taken not to: waits again, an event once it has sunk below `level`, and no less.
   void wait(std::size_t slot, double level);
-  /// How far below zero the contact's guard of this form may sink before it is an event: 0 once it is armed.
-  [[nodiscard]] double leeway(std::size_t contact, const Form& form) const;
+  /// How far below zero this guard of the contact may sink before it is an event: 0 once it is armed.
+  [[nodiscard]] double leeway(std::size_t contact, const GuardForm& guard) const;
   /// All falls in the part [0, limit] of the last step, where scalars 0.. of the history are the guards.
   /// Guards that have risen enough are armed by it.
   [[nodiscard]] std::vector<Fall> check(const StepHistory& history, double limit);

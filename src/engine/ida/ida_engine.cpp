@@ -64,7 +64,8 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
     const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
     const double ut = contact.body_tangent().dot(point.u) - still;      // history_turns.hpp
     for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // as TurningPoints::watched
-    for (const GuardForm& guard : decision.forms[k]) *out++ = QuickForm(guard.form).value(m);
+    for (const GuardForm& guard : decision.forms[k])
+      *out++ = guard.is_linear() ? QuickForm(guard.form).value(m) : guard.value(m);
   }
   powers_.at(*segment_.forcing, t, decision.mode, point, out);
 }
@@ -102,9 +103,9 @@ void IdaEngine::start(const Segment& segment) {
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
     const ContactMotion& motion = decision.after[contact_of_guard(slot)];
-    double level = guard.noise + re_arm_tolerances * tolerance(decision.form(slot), motion, tolerance_);
+    double level = guard.noise + re_arm_tolerances * tolerance(decision.guard(slot), motion, tolerance_);
     // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
-    if (guard.at_zero) level += 2.0 * std::abs(decision.form(slot).value(motion));
+    if (guard.at_zero) level += 2.0 * std::abs(decision.guard(slot).value(motion));
     levels.push_back(level);
     if (guard.at_zero && guard.kind != Guard::closing) add_touchable(slot);
   }
@@ -264,7 +265,7 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
     return false;
   const double rate = -history_.polynomial(slip.slot).derivative().value(x) / h;
   return (opening.time - slip.time) * rate <=
-         tolerance(segment_.decision->form(slip.slot), ContactMotion{}, tolerance_);
+         tolerance(segment_.decision->guard(slip.slot), ContactMotion{}, tolerance_);
 }
 
 /// A guard that started at zero comes back to zero where the motion keeps its energy (a contact that sticks
@@ -286,11 +287,12 @@ bool IdaEngine::only_touches(std::size_t slot, double x) const {
 void IdaEngine::add_touchable(std::size_t slot) {
   const Decision& decision = *segment_.decision;
   const std::size_t contact = contact_of_guard(slot);
-  const Form& form = decision.form(slot);
+  const GuardForm& guard = decision.guard(slot);
+  const Form& form = guard.form;
   const bool by_velocity = form.vn != 0.0 || form.vt != 0.0;
-  const bool known = form.limit == 0.0 && form.limit_rate == 0.0 && form.an == 0.0 && form.at == 0.0 &&
-                     !(by_velocity && carries_massless(model_, model_.contacts[contact]));
-  touchable_.push_back({slot, tolerance(form, decision.after[contact], tolerance_), known, 0.0});
+  const bool known = guard.is_linear() && form.limit == 0.0 && form.limit_rate == 0.0 && form.an == 0.0 &&
+                     form.at == 0.0 && !(by_velocity && carries_massless(model_, model_.contacts[contact]));
+  touchable_.push_back({slot, tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
 
 /// Adds the correction of each guard that began at zero. A step keeps its tolerance, so one tolerance is the most, and it
@@ -350,8 +352,9 @@ StepperReport IdaEngine::report() {
 }
 
 /// One tolerance; a guard that started at zero and never clearly rose is seen to fall at minus its level.
-double IdaEngine::guard_error(const Form& form, const ContactMotion& motion, std::size_t contact) const {
-  return tolerance(form, motion, tolerance_) + (flight_ ? 0.0 : watch_.leeway(contact, form));
+double IdaEngine::guard_error(const GuardForm& guard, const ContactMotion& motion,
+                              std::size_t contact) const {
+  return tolerance(guard, motion, tolerance_) + (flight_ ? 0.0 : watch_.leeway(contact, guard));
 }
 
 }  // namespace signorini

@@ -34,7 +34,7 @@ class IdaEngine final : public Stepper, public DenseOutput {
   void accelerate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
-  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+  [[nodiscard]] double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                    std::size_t contact) const override;
   [[nodiscard]] StepFacts facts() const override;
   [[nodiscard]] StepperReport report() override;

@@ -305,7 +305,9 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
       const double unit = kind == Guard::closing ? scale.displacement
                           : of_rate              ? scale.velocity
                                                  : scale.force;
-      g[slot] = QuickForm(form).value(m) / unit;
+      g[slot] = forms[i].is_linear()
+                    ? QuickForm(form).value(m) / unit
+                    : forms[i].value(m) * tolerance_.rtol / tolerance(forms[i], m, tolerance_);
     }
   }
 }

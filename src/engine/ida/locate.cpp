@@ -10,7 +10,7 @@ namespace signorini {
 double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& segment, const Model& model,
               std::size_t slot, double begin, double end, double time, double resolution) {
   const std::size_t contact = contact_of_guard(slot);
-  const Form& guard = segment.decision->form(slot);
+  const GuardForm& guard = segment.decision->guard(slot);
   const Forcing& forcing = *segment.forcing;
   Point point;
   const std::function<double(double)> value = [&](double t) {

@@ -42,7 +42,7 @@ class FrictionIteration final : public Stepper, public DenseOutput {
   [[nodiscard]] double residual() override {
     return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
   }
-  [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
+  [[nodiscard]] double guard_error(const GuardForm&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
 

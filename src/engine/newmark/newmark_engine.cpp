@@ -424,7 +424,8 @@ void NewmarkEngine::integrate(double from, double to, Works& works) {
 }
 
 /// Of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
-double NewmarkEngine::guard_error(const Form& form, const ContactMotion&, std::size_t k) const {
+double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, std::size_t k) const {
+  const Form& form = guard.form;
   if (begin_.a.size() == 0) return 0.0;  // at the start, before any step
   const Contact& contact = model_.contacts[k];
   const auto errors = [&](const Combination& c, double& u, double& v) {

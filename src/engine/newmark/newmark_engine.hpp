@@ -48,7 +48,7 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   [[nodiscard]] double residual() override {
     return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
   }
-  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+  [[nodiscard]] double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                    std::size_t contact) const override;
 
  private:

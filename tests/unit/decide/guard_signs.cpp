@@ -16,11 +16,7 @@ MotionJet gap_of(std::array<double, MotionJet::orders> derivatives, double noise
   return jet;
 }
 
-Form gap() {
-  Form form;
-  form.gap = 1.0;
-  return form;
-}
+GuardForm gap() { return {Guard::closing, {.gap = 1.0}}; }
 
 }  // namespace
 
@@ -89,8 +85,7 @@ TEST_CASE("a guard is told by the first order from which it is asked, though zer
   const auto told = [](std::array<double, MotionJet::orders> derivatives, std::size_t orders,
                        std::size_t zeros, const Instant& instant = {}, Guard kind = Guard::sliding) {
     GuardsOfState all{};
-    all[0].kind = kind;
-    all[0].form = gap();
+    all[0] = {kind, {.gap = 1.0}};
     KnownGuards known;
     known.sliding.zeros = zeros;
     return told_by(all, 0, gap_of(derivatives, 1.0), orders, instant, known, 16.0);

@@ -125,6 +125,7 @@ std::size_t most_state_terms(const Model& model) {
 std::string damped_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
   for (const Contact& contact : model.contacts) {
+    if (!contact.obeys_coulomb()) return "laws of one's own";
     if (contact.sliding_point()) return "shear elements";
     if (friction_varies(contact)) return named_friction(contact);
   }

@@ -39,9 +39,9 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
   void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
-  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+  [[nodiscard]] double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                    std::size_t contact) const override {
-    return modal_ ? 0.0 : taylor_.guard_error(form, motion, contact);
+    return modal_ ? 0.0 : taylor_.guard_error(guard, motion, contact);
   }
   [[nodiscard]] StepFacts facts() const override;
   /// The modes that it follows motions in; null: it knows none.

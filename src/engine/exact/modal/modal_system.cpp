@@ -24,6 +24,7 @@ constexpr double most_lost = 1e-12;
 std::string coupling_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
   for (const Contact& contact : model.contacts) {
+    if (!contact.obeys_coulomb()) return "laws of one's own";
     if (contact.takes_impulses()) return "rigid contacts";
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.sliding_point()) return "shear elements";

@@ -53,11 +53,11 @@ TEST_CASE("an event is late by the level of a guard that has not risen, and of n
   GuardForms forms(2);
   forms.set(1, of_second);
   Watch watch;
-  CHECK(watch.leeway(1, of_second[0].form) == 0.0);  // before any segment
+  CHECK(watch.leeway(1, of_second[0]) == 0.0);  // before any segment
   watch.start(guards, forms, std::vector<double>(guards.size(), 1e-6));
-  CHECK(watch.leeway(1, of_second[0].form) == 1e-6);
-  CHECK(watch.leeway(0, of_second[0].form) == 0.0);
-  CHECK(watch.leeway(1, of_second[1].form) == 0.0);
+  CHECK(watch.leeway(1, of_second[0]) == 1e-6);
+  CHECK(watch.leeway(0, of_second[0]) == 0.0);
+  CHECK(watch.leeway(1, of_second[1]) == 0.0);
   StepHistory history(guards.size());
   double* start = history.restart(0.0);
   std::fill_n(start, guards.size(), 1.0);
@@ -65,7 +65,7 @@ TEST_CASE("an event is late by the level of a guard that has not risen, and of n
   std::fill_n(history.push(1.0), guards.size(), 1.0);  // rises above its level
   history.prepare(1);
   CHECK(watch.check(history, 1.0).empty());
-  CHECK(watch.leeway(1, of_second[0].form) == 0.0);
+  CHECK(watch.leeway(1, of_second[0]) == 0.0);
 }
 
 TEST_CASE("a guard that starts at zero and rises fires only after it has clearly risen") {

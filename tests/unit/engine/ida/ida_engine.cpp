@@ -86,8 +86,8 @@ TEST_CASE(
   Form gap;
   gap.gap = 1.0;
   const double error = stretch.tolerance.rtol * 3.0 + stretch.tolerance.displacement;
-  CHECK(stretch.engine->guard_error(gap, m, 0) >= error);
-  CHECK(stretch.engine->guard_error(gap, m, 0) < 1e3 * error);
+  CHECK(stretch.engine->guard_error({Guard::closing, gap}, m, 0) >= error);
+  CHECK(stretch.engine->guard_error({Guard::closing, gap}, m, 0) < 1e3 * error);
 }
 
 TEST_CASE("a friction force within its own error opens from stick; one beyond it slips first") {

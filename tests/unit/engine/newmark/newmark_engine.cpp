@@ -59,7 +59,7 @@ TEST_CASE("a block that friction stops: the steps are exact, the slip rate falls
   // Constant acceleration: what a step leaves out is nothing.
   Form rate;
   rate.vt = 1.0;
-  CHECK(s.engine->guard_error(rate, {}, 0) < 1e-14);
+  CHECK(s.engine->guard_error({Guard::sliding, rate}, {}, 0) < 1e-14);
   REQUIRE(s.pass(last));
   CHECK(s.go().end == 3.0);
   CHECK(s.at(3.0).u[0] == doctest::Approx(0.5).epsilon(1e-13));
@@ -102,10 +102,10 @@ TEST_CASE("what a step leaves out of a guard: h^2/12 of the change of u'', and h
     CAPTURE(i);
     (void)s.engine->advance();
     const auto a = [&](int j) { return -4.0 * std::cos(angle * j); };
-    CHECK(s.engine->guard_error(gap, {}, 0) ==
+    CHECK(s.engine->guard_error({Guard::closing, gap}, {}, 0) ==
           doctest::Approx(h * h / 12.0 * std::abs(a(i) - a(i - 1))).epsilon(1e-9));
     const double before = i > 1 ? a(i - 1) - a(i - 2) : 0.0;
-    CHECK(s.engine->guard_error(rate, {}, 0) ==
+    CHECK(s.engine->guard_error({Guard::sliding, rate}, {}, 0) ==
           doctest::Approx(h / 12.0 * std::abs(a(i) - a(i - 1) - before)).epsilon(1e-9));
   }
 }

@@ -74,6 +74,12 @@ Unit unit_of(const Form& form) {
   return unit::acceleration;
 }
 
+Unit unit_of(const GuardForm& guard) {
+  if (guard.is_linear()) return unit_of(guard.form);
+  const Unit a = unit_of(guard.products->front().a), b = unit_of(guard.products->front().b);
+  return {a.force + b.force, a.length + b.length, a.time + b.time};
+}
+
 namespace {
 
 /// C(k, j) of j = 0, 1, ... in turn.

@@ -95,6 +95,9 @@ struct GuardForm {
                                             std::size_t k) const;
 };
 
+/// The unit of a guard's value.
+[[nodiscard]] Unit unit_of(const GuardForm& guard);
+
 /// The two residual rows of a contact.
 struct Rows {
   Form normal, tangent;

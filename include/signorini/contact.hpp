@@ -91,7 +91,7 @@ struct Contact {
 
   [[nodiscard]] bool has_friction() const { return friction.any(); }
 
-  // What the rest of the program asks of a contact.
+  // The rest of the program asks a contact these things, never which law it has.
 
   /// N = -normal_force(t) is a datum, and the contact has no gap. Else N is an unknown, g >= 0 and N <= 0.
   [[nodiscard]] bool normal_force_given() const { return law->capabilities.normal_force_given; }

@@ -53,7 +53,7 @@ struct LawCapabilities {
   bool compliance_split = false;
 };
 
-/// Of the laws that a scene names.
+/// The laws that a scene names differ in these.
 [[nodiscard]] constexpr LawCapabilities capabilities_of(Law law) {
   switch (law) {
     case Law::compliant:

@@ -14,7 +14,7 @@ namespace signorini {
 [[nodiscard]] inline double bowl_force(const Contact& contact, double N, double ut) {
   return contact.bowl ? (-N - contact.bowl->carried) / contact.bowl->radius * ut : 0.0;
 }
-/// A term of its series: |N_i| ut_j / R; the constant N_K stands in that of i = 0, of which bowl_force is.
+/// A later term of its series, -N_i ut_j / R: the constant N_K counts in the first term alone, which is bowl_force.
 [[nodiscard]] inline double bowl_product(const Contact& contact, double N, double ut) {
   return -N / contact.bowl->radius * ut;
 }

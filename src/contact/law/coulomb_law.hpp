@@ -42,10 +42,10 @@ class CoulombLaw : public ContactLaw {
   virtual void set_normal_guards(const Contact& contact, const ContactState& state, Guards& result) const;
   /// N' as a form, times `factor`, added to the rate of slip of an anchor's spring.
   virtual void add_normal_rate(const Contact& contact, double factor, Form& form) const = 0;
-  /// Work that springs along the normal hold.
+  /// Energy stored along the normal.
   [[nodiscard]] virtual double normal_energy(const Contact& contact, State state,
                                              const ContactMotion& m) const;
-  /// What the gap and N violate.
+  /// Adds by how much gap and N violate (6).
   virtual void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
                                      Violations& v) const;
 

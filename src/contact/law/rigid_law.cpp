@@ -15,7 +15,7 @@ class RigidLaw final : public CoulombLaw {
  private:
   [[nodiscard]] Form closed_normal_row(const Contact& /*contact*/) const override { return {.an = 1.0}; }
   void add_normal_rate(const Contact& /*contact*/, double factor, Form& form) const override {
-    form.pressing_rate = -factor;  // the rate of N is that of an unknown; a rigid contact has no kt
+    form.pressing_rate = -factor;  // a rigid contact has no kt, so nothing asks for this
   }
   void add_normal_violations(const Contact& /*contact*/, State state, const ContactMotion& m,
                              Violations& v) const override {

@@ -8,7 +8,7 @@
 
 namespace signorini {
 
-/// What the data of a law may not say; empty: nothing.
+/// The first mistake in the data of a law; empty: there is none.
 [[nodiscard]] std::string refusal_of(const OwnLaw& law);
 /// Does it take part along the tangent? Else its tangent rows say T = 0, and nothing depends on ut.
 [[nodiscard]] bool acts_along_tangent(const OwnLaw& law);

@@ -15,7 +15,7 @@ namespace signorini {
 
 [[nodiscard]] OwnLaw yielding_pad(double normal_stiffness, double yield_force);
 
-/// As scenes name it, with its constant yield_force.
+/// The law that scenes name, with its constant yield_force.
 [[nodiscard]] const DataLaw& yielding_law();
 
 }  // namespace signorini

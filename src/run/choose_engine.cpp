@@ -26,8 +26,8 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
     return {integrator, true, "a law or a load of the scene has no motion in closed form"};
   }
   if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                  [](const Contact& c) { return c.own != nullptr; }))
-    return {Engine::ida, true, "a law or a load of the scene has no motion in closed form"};
+                  [](const Contact& c) { return !c.obeys_coulomb(); }))
+    return {integrator, true, "a law or a load of the scene has no motion in closed form"};
   const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
     return {integrator, true,

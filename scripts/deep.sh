@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [tests] [sanitize] [alone] [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [wheel] [calculix] [install] [cluster];
+# What is too long to run at every change. deep.sh [tests] [sanitize] [alone] [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [wheel] [calculix] [install] [cluster] [pairs];
 # without arguments all of them.
 #   tests    the suites deep/...: longer studies of claims that .ci/run tests with less, and a test that waits for a minute
 #   sanitize all tests but slow and deep ones under ASan and UBSan, their own code and what .ci/run leaves out of it included
@@ -16,6 +16,7 @@
 #   wheel    the wheel on a bare Debian 12 without a compiler (needs root)
 #   calculix CalculiX computes the matrices of models/calculix again, and its frequencies are compared with ours
 #   install  the Debian package on a bare Debian 12 (needs root)
+#   pairs    ten minutes of every pair of features (validation/differential); `PAIRS_MINUTES=60` for all of it
 #   cluster  sweeps under GNU parallel, mpirun, and an array of a Slurm of one node that is started for it (needs root)
 set -euo pipefail
 
@@ -123,8 +124,13 @@ cluster() {
   tests/install/cluster.sh build/release/signorini
 }
 
+pairs() {
+  build_program signorini_differential
+  build/release/signorini_differential --pairs --minutes "${PAIRS_MINUTES:-10}" --shrink --keep build/pairs
+}
+
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- tests sanitize alone clang tidy threads kill names fuzz schema page python wheel calculix install cluster
+[[ $# -gt 0 ]] || set -- tests sanitize alone clang tidy threads kill names fuzz schema page python wheel calculix install cluster pairs
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
@@ -143,7 +149,8 @@ for what in "$@"; do
     calculix) calculix ;;
     install) installed ;;
     cluster) cluster ;;
-    *) echo "deep.sh: no part is called '$what': tests, sanitize, alone, clang, tidy, threads, kill, names, fuzz, schema, page, python, wheel, calculix, install, cluster" >&2; exit 2 ;;
+    pairs) pairs ;;
+    *) echo "deep.sh: no part is called '$what': tests, sanitize, alone, clang, tidy, threads, kill, names, fuzz, schema, page, python, wheel, calculix, install, cluster, pairs" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

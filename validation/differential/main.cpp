@@ -12,6 +12,7 @@
 //   signorini_differential --relations --structures --from 1 --count 1000 (draw_structure.cpp)
 //   signorini_differential --landings --from 1 --count 1000               (landings.hpp)
 //   signorini_differential --witness --coupled --from 1 --count 1000      (witnessed.hpp)
+//   signorini_differential --pairs --minutes 60                           (pairs.hpp)
 //
 // One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
 // has another answer, 2 for a wrong command line.
@@ -30,6 +31,7 @@
 #include "differential/judge.hpp"
 #include "differential/landings.hpp"
 #include "differential/metamorphic.hpp"
+#include "differential/pairs.hpp"
 #include "differential/relations.hpp"
 #include "differential/shrink.hpp"
 #include "differential/witnessed.hpp"
@@ -45,8 +47,10 @@ struct Asked {
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
   bool shrink = false, print = false, coupled = false, flows = false, loaded = false, structures = false,
-       relations = false, landings = false, verbose = false, witness = false;
-  std::string relation;  ///< the only one
+       relations = false, landings = false, verbose = false, witness = false, pairs = false;
+  double minutes = 60.0;              ///< --pairs
+  std::vector<std::string> features;  ///< --pairs: with one of these
+  std::string relation;               ///< the only one
   std::string keep, scene;
   std::string transformed;  ///< engine that computes scenes written in other ways
   std::uint64_t seed_of_ways = 1;
@@ -330,6 +334,29 @@ void look_at_relations(const std::string& name, const std::string& text, const A
   campaign_of_relations(text, name, settings, {asked.keep, asked.shrink, asked.verbose}, tally);
 }
 
+int look_at_pairs(const Asked& asked) {
+  PairSettings settings;
+  settings.from = asked.from;
+  settings.minutes = asked.minutes;
+  settings.only = asked.features;
+  settings.keep = asked.keep;
+  settings.shrink = asked.shrink;
+  settings.verbose = asked.verbose;
+  if (asked.print && asked.features.size() == 2) {
+    const std::vector<Feature>& all = all_features();
+    const auto called = [&](const std::string& name) {
+      return std::find_if(all.begin(), all.end(), [&](const Feature& f) { return f.name == name; });
+    };
+    const auto a = called(asked.features[0]), b = called(asked.features[1]);
+    if (a == all.end() || b == all.end()) return 2;
+    fmt::print("{}\n", draw_pair(all, *a, *b, asked.from, 0).text);
+    return 0;
+  }
+  const PairTable table = examine_pairs(settings);
+  table.print();
+  return table.exit_code();
+}
+
 /// A scene of the seed, of the kind that is asked for.
 std::string drawn(const Asked& asked, std::uint64_t seed) {
   if (asked.structures) return draw_structure_scene(seed);
@@ -380,9 +407,16 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
                "draw stiff bodies that fall on rigid contacts late, and look at each landing")
       ->excludes("--coupled")
       ->excludes("--relations");
+  app.add_flag("--pairs", asked.pairs, "every pair of features in random scenes, and a table of them")
+      ->excludes("--coupled")
+      ->excludes("--relations");
+  app.add_option("--minutes", asked.minutes, "of --pairs: no scene begins later");
+  app.add_option("--feature", asked.features, "of --pairs: pairs with this feature; of two, this pair")
+      ->allow_extra_args(false);
   app.add_option("--relation", asked.relation, "of --relations: this one only")
       ->check(CLI::IsMember(names_of_relations()));
-  app.add_flag("--verbose", asked.verbose, "of --relations: a line for each that is explained, too");
+  app.add_flag("--verbose", asked.verbose,
+               "of --relations and --pairs: a line for each that is explained, too");
   app.add_option("--ways", asked.seed_of_ways, "seed of angles, orders and scales");
   app.parse(argc, argv);
   if (*one) {
@@ -403,6 +437,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  if (asked.pairs) return look_at_pairs(asked);
   Tally tally;
   Ways ways;
   Decisions decisions;

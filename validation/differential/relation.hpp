@@ -58,6 +58,12 @@ struct RelationKind {
 [[nodiscard]] std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed);
 /// Runs the first part into a directory of its own, which is removed again.
 [[nodiscard]] std::optional<Related> related_going_on(const Scene& scene, std::uint64_t seed);
+/// The same at a given time; nothing where the run does not come so far.
+[[nodiscard]] std::optional<Related> related_going_on_at(const Scene& scene, double at);
+/// At the very time of an event.
+[[nodiscard]] std::optional<Related> related_split_at_event(const Scene& scene, std::uint64_t seed);
+/// The scene from a state at time `at` on.
+[[nodiscard]] Scene going_on_from(Scene scene, double at, SavedState state);
 /// Where atol and all capture velocities are given: else both follow from scales of the scene.
 [[nodiscard]] std::optional<Related> related_in_units(const Scene& scene, std::uint64_t seed);
 [[nodiscard]] std::optional<Related> related_split_contact(const Scene& scene, std::uint64_t seed);

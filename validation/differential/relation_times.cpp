@@ -142,10 +142,16 @@ Scene with_captures_told(Scene scene) {
 
 }  // namespace
 
-std::optional<Related> related_going_on(const Scene& as_drawn, std::uint64_t seed) {
-  Random draw(seed);
+Scene going_on_from(Scene scene, double at, SavedState state) {
+  scene.run.t_end -= at;
+  scene.initial = {};
+  scene.initial.saved = std::move(state);
+  shift_histories(scene, -at);
+  return scene;
+}
+
+std::optional<Related> related_going_on_at(const Scene& as_drawn, double at) {
   const Scene scene = with_captures_told(as_drawn);
-  const double at = scene.run.t_end * draw.real(0.1, 0.9);
   // The whole run keeps the state: scales follow from t_end, and with them what a rebound is that rests.
   Scene whole = scene;
   whole.run.certify = Certify::no;
@@ -160,16 +166,26 @@ std::optional<Related> related_going_on(const Scene& as_drawn, std::uint64_t see
   Scene first = whole;
   first.run.frames.clear();
   first.run.t_end = first.run.output_dt.emplace(at);
-  Related result{fmt::format("going on at {:.6g}", at), scene};
+  Related result{fmt::format("going on at {:.6g}", at), going_on_from(scene, at, kept.state(at))};
   result.later = -at;
   result.from = at;
   result.extremes_before = simulate(build_model(first), first.run).report.response;
-  Scene& second = result.scene;
-  second.run.t_end -= at;
-  second.initial = {};
-  second.initial.saved = kept.state(at);
-  shift_histories(second, -at);
   return result;
+}
+
+std::optional<Related> related_going_on(const Scene& scene, std::uint64_t seed) {
+  return related_going_on_at(scene, scene.run.t_end * Random(seed).real(0.1, 0.9));
+}
+
+std::optional<Related> related_split_at_event(const Scene& scene, std::uint64_t seed) {
+  RunSpec plain = scene.run;
+  plain.certify = Certify::no;
+  std::vector<double> times;
+  for (const Event& event : simulate(build_model(scene), plain).events)
+    if (event.contact >= 0 && event.t > 0.0 && event.t < plain.t_end) times.push_back(event.t);
+  if (times.empty()) return std::nullopt;
+  const int place = Random(seed).integer(0, static_cast<int>(times.size()) - 1);
+  return related_going_on_at(scene, times[static_cast<std::size_t>(place)]);
 }
 
 }  // namespace signorini::differential

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "differential/track.hpp"
+#include "run/meddler.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/scene.hpp"
 
@@ -49,5 +50,7 @@ struct SeenRun {
 
 [[nodiscard]] SeenRun see(const Scene& scene, const Bounds& bounds);
 [[nodiscard]] SeenRun see_plainly(const Scene& scene, const Bounds& bounds);
+/// Without a companion, with errors that a test plants.
+[[nodiscard]] SeenRun see_meddled(const Scene& scene, const Bounds& bounds, Meddler& meddler);
 
 }  // namespace signorini::differential

@@ -265,8 +265,7 @@ std::string Draft::text() {
   }
   load.name("name", "push");
   if (!load.has("amplitude")) load.set("amplitude", draw.rounded(10.0, 40.0, 1));
-  if (history.empty())
-    history = fmt::format("{{ type = \"harmonic\", omega = {} }}", rounded(draw.real(8.0, 40.0) / t_end, 2));
+  if (history.empty()) history = fmt::format("{{ type = \"harmonic\", omega = {} }}", omega(2, 9));
   load.set("history", history);
   std::string all = top.text() + run.text();
   if (!stages.empty()) {

@@ -15,6 +15,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <deque>
 #include <initializer_list>
 #include <string>
@@ -76,6 +77,8 @@ class Draft {
   std::string main;                 ///< node that parts are joined to; empty: [matrices]
   double x = 0.0, y = 0.0;          ///< where it is
 
+  /// A circular frequency; all have a common period.
+  [[nodiscard]] double omega(int low, int high) { return std::round(4.0 / t_end) * draw.integer(low, high); }
   [[nodiscard]] bool has_nodes() const { return kit != Kit::matrices; }
   DraftTable& table(const std::string& header);
   /// The first table of this header; nullptr: there is none.

@@ -171,9 +171,8 @@ std::string moving_support(Draft& d) {
   d.table("[[supports]]")
       .name("node", "shaker")
       .set("fix", "[\"ux\"]")
-      .set("motion",
-           fmt::format("{{ type = \"harmonic\", amplitude = {}, omega = {} }}", d.draw.rounded(0.01, 0.05, 3),
-                       rounded(d.draw.real(6.0, 20.0) / d.t_end, 2)));
+      .set("motion", fmt::format("{{ type = \"harmonic\", amplitude = {}, omega = {} }}",
+                                 d.draw.rounded(0.01, 0.05, 3), d.omega(2, 6)));
   d.table("[[springs]]")
       .name("node", d.main)
       .name("against", "shaker")
@@ -305,7 +304,7 @@ const std::vector<Feature>& all_features() {
          return added;
        }},
       {"normal_force, history", "", 5, {}, Check::related,
-       [](D& d) { return give(d, {"slider"}, "normal_force", fmt::format("{{ type = \"harmonic\", offset = 9.0, amplitude = {}, omega = {} }}", d.draw.rounded(1.0, 8.0, 1), rounded(d.draw.real(6.0, 30.0) / d.t_end, 2))); }},
+       [](D& d) { return give(d, {"slider"}, "normal_force", fmt::format("{{ type = \"harmonic\", offset = 9.0, amplitude = {}, omega = {} }}", d.draw.rounded(1.0, 8.0, 1), d.omega(2, 6))); }},
       {"initial_shear", "", 5, {}, Check::related,
        [](D& d) {
          DraftContact* c = d.contact({"slider"}, {"initial_shear"});
@@ -316,7 +315,7 @@ const std::vector<Feature>& all_features() {
       {"seam of one contact", "", 4, {}, Check::related,
        [](D& d) { return give(d, {"compliant"}, "seam", "{ E = 2e4, G = 8e3, thickness = 0.01, area = 2e-3 }", {"seam", "normal_stiffness", "tangential_stiffness"}); }},
       // loads
-      {"load, harmonic", "", 6, {}, Check::related, [](D& d) { return history(d, fmt::format("{{ type = \"harmonic\", omega = {} }}", rounded(d.draw.real(8.0, 40.0) / d.t_end, 2))); }},
+      {"load, harmonic", "", 6, {}, Check::related, [](D& d) { return history(d, fmt::format("{{ type = \"harmonic\", omega = {} }}", d.omega(2, 9))); }},
       {"load, pulse", "", 6, {}, Check::related, [](D& d) { return history(d, "{ type = \"half_sine\", start = " + at(d, 0.05, 0.3) + ", duration = " + at(d, 0.1, 0.5) + " }"); }},
       {"load, ramp", "", 6, {}, Check::related,
        [](D& d) { return history(d, "{ type = \"polynomial\", start = " + at(d, 0.05, 0.3) + ", coefficients = [0.0, " + number(rounded(1.0 / d.t_end, 2)) + "] }"); }},
@@ -485,8 +484,18 @@ const std::vector<Feature>& all_features() {
       {"sensitivity", "command", 8, {}, Check::derivatives, [](D&) { return added; }},
       {"orbit", "command", 8, {}, Check::orbit,
        [](D& d) {
-         const bool periodic = d.history.empty() || d.history.find("harmonic") != std::string::npos;
-         if (periodic && !d.damping.has("alpha") && d.has_nodes()) d.damping.set("alpha", 4.0);
+         // What happens once is made to repeat itself, and damping lets a transient end.
+         const bool once = !d.history.empty() && d.history.find("harmonic") == std::string::npos;
+         if (once) {
+           const bool ramp = d.history.find("polynomial") != std::string::npos;
+           d.history.resize(d.history.rfind(" }"));
+           d.history += ramp ? fmt::format(", end = {}, period = {} }}", rounded(0.8 * d.t_end, 4), rounded(1.25 * d.t_end, 4))
+                             : fmt::format(", period = {} }}", rounded(1.25 * d.t_end, 4));
+         }
+         if (!d.has_nodes())
+           d.find("[matrices]")->set("damping", "[[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 2.0]]");
+         else
+           d.damping.set("alpha", 4.0);
          return added;
        }},
       {"sweep", "command", 8, {}, Check::sweep, [](D&) { return added; }},

@@ -219,39 +219,52 @@ Checked by_orbit(const SceneReader& read, std::uint64_t seed) {
 
 Checked by_sweep(const CheckRequest& request, const std::string& path) {
   const std::string how = "sweep of " + path;
-  const Scene scene = parse_scene(request.text, "pair.toml");
-  const double value = 0.9;  // of what the file has, below
-  const SceneReader read = [&](const std::vector<Override>& changes) {
-    return parse_scene(request.text, "pair.toml", changes);
+  const auto asks = [&](Check check) {
+    return std::find(request.checks.begin(), request.checks.end(), check) != request.checks.end();
   };
+  const Scene scene = parse_scene(request.text, "pair.toml");
   double given = std::nan("");
   for (const LoadSpec& load : scene.loads)
     if (load.name == "push") given = load.amplitude;
-  const std::string text = fmt::format("{:.17g}", value * given);
-  const SweepRow row = compute_row({"pair.toml", request.text, {{path, text}}, 0, {text}, {}, {}});
+  constexpr double part = 0.9;
+  const std::string value = fmt::format("{:.17g}", part * given);
+  Scene changed = find_cutoff(parse_scene(request.text, "pair.toml", {{path, value}}));
+  std::optional<SavedState> carried;
+  if (asks(Check::going_on)) {
+    const std::optional<Related> later = related_going_on_at(find_cutoff(scene), 0.3 * scene.run.t_end);
+    if (!later) return {Kind::idle, how, "the run does not come so far"};
+    carried = later->scene.initial.saved;
+    changed.initial = {};
+    changed.initial.saved = carried;
+  }
+  const SweepRow row = compute_row({"pair.toml", request.text, {{path, value}}, 0, {value}, {}, {}}, carried);
   if (row.outcome == "refused") return {Kind::refused, how, row.reason};
   if (row.outcome != "done") return {Kind::idle, how, row.outcome + ": " + row.reason};
-  const Scene changed = find_cutoff(read({{path, text}}));
+  Transformed other = permuted(changed, request.seed);
+  if (asks(Check::in_units)) {
+    std::optional<Transformed> units = in_units(other.scene, {1e-3, scene.matrices ? 1.0 : 1000.0, 1e3});
+    if (units) other = std::move(*units);
+  }
   const RelationJudge judge(changed, request.bounds);
-  const Likeness own = judge.compare({"permuted", permuted(changed, request.seed).scene});
-  const SeenRun run = see_plainly(permuted(changed, request.seed).scene, request.bounds);
-  if (run.end != Track::End::done || !is_explained(own.verdict) ||
-      own.verdict == Likeness::Class::undetermined)
-    return {Kind::idle, how, "the related run differs by itself"};
-  if (own.verdict == Likeness::Class::ended_before) return {Kind::idle, how, "not certain to the end"};
+  const Likeness own = judge.compare({other.name, other.scene, other.factors});
+  const SeenRun run = see_plainly(other.scene, request.bounds);
+  const bool certain = is_explained(own.verdict) && own.verdict != Likeness::Class::undetermined &&
+                       own.verdict != Likeness::Class::ended_before && run.end == Track::End::done;
+  if (!certain) return {Kind::idle, how, "the related run is not certain to the end, or differs by itself"};
   if (row.changes() != static_cast<long>(run.events.size()))
     return {Kind::broken, how,
-            fmt::format("{} events, in another order of tables {}", row.changes(), run.events.size())};
+            fmt::format("{} events, of a related run {}", row.changes(), run.events.size())};
   double greatest = 0.0;
   for (const Peak& peak : run.peaks) greatest = std::max({greatest, std::abs(peak.N), std::abs(peak.T)});
   constexpr double same = 1e-5;
   for (const SweepRow::Contact& c : row.contacts)
     for (std::size_t k = 0; k < run.contacts.size(); ++k) {
       if (run.contacts[k] != c.name) continue;
-      const double off = std::max(std::abs(std::abs(c.N) - std::abs(run.peaks[k].N)),
-                                  std::abs(std::abs(c.T) - std::abs(run.peaks[k].T)));
+      const double f = other.factors.force;
+      const double off = std::max(std::abs(f * std::abs(c.N) - std::abs(run.peaks[k].N)),
+                                  std::abs(f * std::abs(c.T) - std::abs(run.peaks[k].T)));
       if (off > same * greatest)
-        return {Kind::broken, how, fmt::format("peak forces of {} differ by {:.3g}", c.name, off)};
+        return {Kind::broken, how, fmt::format("peak forces of {} differ by {:.3g}", c.name, off / f)};
     }
   return {Kind::held, how, ""};
 }
@@ -259,6 +272,7 @@ Checked by_sweep(const CheckRequest& request, const std::string& path) {
 Checked by_verify(const Scene& scene) {
   VerifyRequest request;
   request.run = scene.run;
+  request.run.engine = Engine::ida;
   request.dt = scene.run.dt ? *scene.run.dt : scene.run.t_end / 2000.0;
   request.most_seconds = 2.0;
   const Model model = build_model(scene);

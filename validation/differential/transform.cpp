@@ -55,6 +55,11 @@ void move(Scene& scene, const Map& map) {
     node.x = place[0];
     node.y = place[1];
   }
+  for (SeamSpec& seam : scene.seams)
+    for (SeamNode& node : seam.nodes) {
+      map.apply(node.at);
+      map.apply(node.normal);
+    }
   for (Spring& spring : scene.springs) map.apply(spring.direction);
   for (Member& member : scene.members)
     if (member.bend) member.bend->radius *= map.turn;
@@ -170,7 +175,7 @@ std::optional<Transformed> turned(const Scene& scene, double degrees) {
 }
 
 std::optional<Transformed> mirrored(const Scene& scene) {
-  if (scene.matrices) return std::nullopt;
+  if (scene.matrices || !scene.bodies.empty()) return std::nullopt;
   Transformed result{"mirrored", scene, {}, true};
   move(result.scene, {-1.0, 0.0, 0.0, 1.0, -1.0});
   for (ContactSpec& contact : result.scene.contacts) {
@@ -186,12 +191,13 @@ std::optional<Transformed> mirrored(const Scene& scene) {
 Transformed permuted(const Scene& scene, std::uint64_t seed) {
   Transformed result{fmt::format("permuted by seed {}", seed), scene, {}};
   Random draw(seed);
-  shuffle(result.scene.nodes, draw);
+  if (scene.bodies.empty()) shuffle(result.scene.nodes, draw);  // meshes name nodes by their place
   shuffle(result.scene.members, draw);
   shuffle(result.scene.masses, draw);
   shuffle_springs(result.scene, draw);
   shuffle(result.scene.supports, draw);
-  if (!has_free_start(scene)) shuffle(result.scene.contacts, draw);
+  // Seams name contacts by their place.
+  if (scene.seams.empty() && !has_free_start(scene)) shuffle(result.scene.contacts, draw);
   shuffle(result.scene.loads, draw);
   return result;
 }

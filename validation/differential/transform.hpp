@@ -30,9 +30,9 @@ struct Transformed {
 /// Angle in degrees. Nothing for [matrices], and where a support holds one translation of a node only unless
 /// by a multiple of 90.
 [[nodiscard]] std::optional<Transformed> turned(const Scene& scene, double degrees);
-/// Nothing for [matrices].
+/// Nothing for [matrices], and for meshes, whose elements would be inside out.
 [[nodiscard]] std::optional<Transformed> mirrored(const Scene& scene);
-/// Contacts stay in order where the static start leaves a motion free: the first one that can holds it.
+/// Nodes stay in order beside meshes, contacts beside seams, and where the static start leaves a motion free: the first one that can holds it.
 [[nodiscard]] Transformed permuted(const Scene& scene, std::uint64_t seed);
 /// Nothing where there is no member.
 [[nodiscard]] std::optional<Transformed> reversed(const Scene& scene);

@@ -48,7 +48,6 @@ Checked by_engines(const Scene& scene, const CheckRequest& request) {
   settings.engine_steps = 4 * request.bounds.steps;
   settings.seconds = request.bounds.seconds;
   settings.scene_seconds = 4.0 * request.bounds.seconds;
-  settings.halvings = 2;
   const Judgement found = judge(scene, settings);
   if (found.verdict == Verdict::disagree) return {Kind::broken, "engines", found.what};
   const bool compared = found.verdict == Verdict::agree || found.verdict == Verdict::unresolved ||

@@ -64,7 +64,8 @@ class Examination {
     for (std::size_t i = 0; i < features_.size(); ++i)
       for (std::size_t j = i + 1; j < features_.size(); ++j)
         if (wanted(features_[i], features_[j]))
-          rows_.push_back({&features_[i], &features_[j], State::not_reached, 0, {}, {}});
+          rows_.push_back(
+              {&features_[i], &features_[j], State::not_reached, 0, {}, {}, i * features_.size() + j});
     // A cut reaches pairs of all features.
     Random draw(s_.from);
     std::vector<std::size_t> order(rows_.size());
@@ -74,7 +75,7 @@ class Examination {
     for (int round = 0; round < s_.rounds && in_time(); ++round)
       for (const std::size_t i : order) {
         if (!in_time()) break;
-        visit(rows_[i], i, round);
+        visit(rows_[i], round);
       }
     return PairTable(std::move(rows_));
   }
@@ -93,7 +94,7 @@ class Examination {
     return s_.only.size() == 2 ? asked(a) && asked(b) : asked(a) || asked(b);
   }
 
-  void visit(PairRow& row, std::size_t place, int round) {
+  void visit(PairRow& row, int round) {
     if (row.state == State::alternatives || row.state == State::refused) return;
     const std::string engines = check_of_engines(*row.a, *row.b);
     if (are_alternatives(*row.a, *row.b) && engines.empty()) {
@@ -104,7 +105,7 @@ class Examination {
     const PairRefusal* listed = nullptr;
     for (int attempt = 0; attempt < (row.scenes == 0 ? s_.tries : 1) && in_time(); ++attempt) {
       const std::uint64_t seed =
-          s_.from * 1000003U + place * 4099U + static_cast<std::uint64_t>(64 * round + attempt);
+          s_.from * 1000003U + row.place * 4099U + static_cast<std::uint64_t>(64 * round + attempt);
       const PairScene scene =
           draw_pair(features_, *row.a, *row.b, seed, round == 0 ? 0 : static_cast<int>(seed % 3));
       if (scene.text.empty()) {

@@ -41,6 +41,7 @@ struct PairRow {
   long scenes = 0;                  ///< with both, that something was held against
   std::map<std::string, long> how;  ///< scenes by what they were held against
   std::string what;                 ///< the documents' line, the defect, the difference, why nothing
+  std::size_t place = 0;            ///< among all pairs: its scenes are the same in every cut
 };
 [[nodiscard]] const char* to_string(PairRow::State state);
 

@@ -9,8 +9,9 @@ namespace {
 
 /// Its forces come from springs, of which two halves are one.
 bool is_elastic(const ContactSpec& contact) {
-  return !contact.own && (contact.law == Law::compliant ||
-                          (contact.law == Law::slider && contact.tangential_stiffness.has_value()));
+  return !contact.own && !contact.friction.by_force() &&
+         (contact.law == Law::compliant ||
+          (contact.law == Law::slider && contact.tangential_stiffness.has_value()));
 }
 
 void halve(ContactSpec& contact) {

@@ -174,7 +174,11 @@ std::optional<Related> related_going_on_at(const Scene& as_drawn, double at) {
 }
 
 std::optional<Related> related_going_on(const Scene& scene, std::uint64_t seed) {
-  return related_going_on_at(scene, scene.run.t_end * Random(seed).real(0.1, 0.9));
+  double at = scene.run.t_end * Random(seed).real(0.1, 0.9);
+  // It is of first order where a step is another one.
+  if (scene.run.engine == Engine::friction_iteration && scene.run.dt)
+    at = std::round(at / *scene.run.dt) * *scene.run.dt;
+  return related_going_on_at(scene, at);
 }
 
 std::optional<Related> related_split_at_event(const Scene& scene, std::uint64_t seed) {

@@ -32,7 +32,7 @@ PairTable table_of(const std::vector<Feature>& features, PairSettings settings =
 }
 
 /// Every rebound is a thousandth too fast.
-class ReboundTooFast final : public Meddler {
+class ReboundTooFast final : public FaultInjector {
   bool change(const Mode& /*before*/, const Vector& v, Decision& decided) override {
     if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
     decided.v += 1e-3 * (decided.v - v);
@@ -68,8 +68,8 @@ TEST_CASE("an error of one feature is a row that fails, and only rows of it fail
     const std::string of = "restitution";
     if (a.name != of && b.name != of) return {};
     return [](const Scene& scene) {
-      ReboundTooFast meddler;
-      return see_meddled(scene, {20000, 1e6}, meddler);
+      ReboundTooFast faults;
+      return see_injected(scene, {20000, 1e6}, faults);
     };
   };
   const PairTable table = table_of(some, settings);

@@ -25,7 +25,7 @@ void make_still(HistorySpec& history) {
 }
 
 void make_linear(ContactSpec& contact, double stiffness) {
-  if (takes_impulses(contact.law)) {
+  if (contact.capabilities().takes_impulses) {
     contact.law = Law::compliant;
     contact.normal_stiffness = stiffness;
     contact.restitution = 0.0;

@@ -55,7 +55,7 @@ bool names_its_tolerances(const Scene& scene) {
   const Tolerances& atol = scene.run.atol;
   return atol.displacement && atol.velocity && atol.force &&
          std::all_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactSpec& contact) {
-           return !takes_impulses(contact.law) || contact.capture_velocity.has_value();
+           return !contact.capabilities().takes_impulses || contact.capture_velocity.has_value();
          });
 }
 

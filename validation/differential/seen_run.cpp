@@ -93,7 +93,7 @@ void take_events(const Kept& run, const Model& model, const std::optional<Certif
   }
 }
 
-SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, Meddler* meddler = nullptr) {
+SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, FaultInjector* faults = nullptr) {
   SeenRun seen;
   RunSpec spec = scene.run;
   spec.certify = certify;
@@ -104,8 +104,8 @@ SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, Meddler* 
     model = build_model(scene);
     CertifyOptions options;
     options.go_on = [&run] { return run.in_time(); };
-    if (meddler != nullptr)
-      found.report = simulate(model, spec, run, *meddler);
+    if (faults != nullptr)
+      found.report = simulate(model, spec, run, *faults);
     else
       found = simulate_certified(model, spec, run, options);
   } catch (const SceneError& error) {
@@ -141,8 +141,8 @@ SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, Meddler* 
 
 SeenRun see(const Scene& scene, const Bounds& bounds) { return see(scene, bounds, Certify::yes); }
 SeenRun see_plainly(const Scene& scene, const Bounds& bounds) { return see(scene, bounds, Certify::no); }
-SeenRun see_meddled(const Scene& scene, const Bounds& bounds, Meddler& meddler) {
-  return see(scene, bounds, Certify::no, &meddler);
+SeenRun see_injected(const Scene& scene, const Bounds& bounds, FaultInjector& faults) {
+  return see(scene, bounds, Certify::no, &faults);
 }
 
 }  // namespace signorini::differential

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "differential/track.hpp"
-#include "run/meddler.hpp"
+#include "run/fault_injector.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/scene.hpp"
 
@@ -51,6 +51,6 @@ struct SeenRun {
 [[nodiscard]] SeenRun see(const Scene& scene, const Bounds& bounds);
 [[nodiscard]] SeenRun see_plainly(const Scene& scene, const Bounds& bounds);
 /// Without a companion, with errors that a test plants.
-[[nodiscard]] SeenRun see_meddled(const Scene& scene, const Bounds& bounds, Meddler& meddler);
+[[nodiscard]] SeenRun see_injected(const Scene& scene, const Bounds& bounds, FaultInjector& faults);
 
 }  // namespace signorini::differential

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "base/least_norm.hpp"
 #include "base/rounding.hpp"
 #include "decide/places.hpp"
 #include "linear/shared_rows.hpp"
@@ -11,78 +12,66 @@
 namespace signorini {
 namespace {
 
-/// Compression of a contact that may stick; 0 of others.
-double pressing_of(const CoulombItem& item, double force) {
-  return item.kind == CoulombItem::Kind::frictional ? force
-         : item.kind == CoulombItem::Kind::pressed  ? item.pressing
-                                                    : 0.0;
-}
+using Kind = CoulombItem::Kind;
 
-/// Rows of friction that hold: their contacts press, and do not move.
-std::vector<Eigen::Index> held_rows(const CoulombProblem& p, const CoulombSolution& s) {
+/// Items whose forces may change, their rows in turn, and the sets in which they may.
+struct Shares {
   std::vector<Eigen::Index> rows;
-  const Eigen::VectorXd size = p.W.cwiseAbs() * s.force.cwiseAbs() + p.b.cwiseAbs();
-  for (std::size_t i = 0; i < p.items.size(); ++i) {
-    const Eigen::Index n = normal_place(i), t = tangent_place(i);
-    if (!(pressing_of(p.items[i], s.force[n]) > 0.0)) continue;
-    if (std::abs(s.response[t]) <= rounding::of_elimination * size[t]) rows.push_back(t);
-  }
-  return rows;
-}
+  std::vector<ConvexSet> sets;
+  std::vector<std::size_t> resting;  ///< items that may stick: what they bear is no slip
+};
 
-/// The least k = k0 + Z y with k_i = at_i where that is given. Nothing: there is none.
-std::optional<Eigen::VectorXd> least(const Eigen::VectorXd& k0, const Eigen::MatrixXd& z,
-                                     const std::vector<Eigen::Index>& given, const Eigen::VectorXd& at) {
-  Eigen::VectorXd y = -(z.transpose() * k0);
-  if (!given.empty()) {
-    const Eigen::MatrixXd rows = z(given, Eigen::all);
-    const Eigen::VectorXd miss = at(given) - k0(given) - rows * y;
-    y += pseudo_inverse(rows) * miss;
-    if ((rows * y - (at(given) - k0(given))).norm() >
-        rounding::of_elimination * (at(given).norm() + k0.norm()))
-      return std::nullopt;
+Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, const CoulombSolution& s) {
+  Shares shares;
+  const Eigen::VectorXd size = p.W.cwiseAbs() * s.force.cwiseAbs() + p.b.cwiseAbs();
+  const auto rests = [&](Eigen::Index row) {
+    return std::abs(s.response[row]) <= rounding::of_elimination * size[row];
+  };
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const CoulombItem& item = p.items[i];
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    if (!may_share[i] || item.kind == Kind::limit) continue;
+    if (item.kind == Kind::pressed) {
+      if (!rests(t) || !(item.pressing > 0.0)) continue;
+      shares.rows.push_back(t);
+      shares.sets.push_back({ConvexSet::Kind::disc, 1, 0.0, item.static_friction * item.pressing, {}});
+      shares.resting.push_back(i);
+      continue;
+    }
+    if (!rests(n)) continue;
+    shares.rows.push_back(n);
+    if (item.kind == Kind::normal) {
+      shares.sets.push_back({ConvexSet::Kind::cone, 1, 0.0, 0.0, {}});
+      continue;
+    }
+    shares.rows.push_back(t);
+    if (item.kind == Kind::frictional && rests(t)) {
+      shares.sets.push_back({ConvexSet::Kind::cone, 2, item.static_friction, 0.0, {}});
+      shares.resting.push_back(i);
+      continue;
+    }
+    const double sign = item.kind == Kind::sliding ? item.sign : std::copysign(1.0, s.response[t]);
+    Eigen::VectorXd along(2);
+    along << 1.0, -sign * item.kinetic_friction;
+    shares.sets.push_back({ConvexSet::Kind::ray, 2, 0.0, 0.0, along.normalized()});
   }
-  return Eigen::VectorXd(k0 + z * y);
+  return shares;
 }
 
 }  // namespace
 
-void share_fairly(const CoulombProblem& problem, CoulombSolution& solution) {
-  const std::vector<Eigen::Index> rows = held_rows(problem, solution);
-  if (rows.size() < 2) return;
-  const Eigen::MatrixXd z = null_of_columns(problem.W(Eigen::all, rows));
-  if (z.cols() == 0) return;
-  const Eigen::VectorXd k0 = solution.force(rows);
-  Eigen::VectorXd limit(k0.size()), at = Eigen::VectorXd::Zero(k0.size());
-  for (Eigen::Index i = 0; i < k0.size(); ++i) {
-    const Eigen::Index t = rows[static_cast<std::size_t>(i)];
-    const CoulombItem& item = problem.items[contact_of_place(t)];
-    limit[i] = item.static_friction * pressing_of(item, solution.force[normal_place(contact_of_place(t))]);
-  }
-  std::vector<Eigen::Index> given;
-  for (Eigen::Index round = 0; round <= k0.size(); ++round) {  // each holds one more at its limit
-    const auto k = least(k0, z, given, at);
-    if (!k) return;
-    Eigen::Index worst = -1;
-    double excess = 0.0;
-    for (Eigen::Index i = 0; i < k->size(); ++i) {
-      const bool held = std::find(given.begin(), given.end(), i) != given.end();
-      if (const double over = std::abs((*k)[i]) - limit[i]; !held && over > excess) {
-        worst = i;
-        excess = over;
-      }
-    }
-    if (worst < 0) {
-      for (Eigen::Index i = 0; i < k->size(); ++i) {
-        const Eigen::Index t = rows[static_cast<std::size_t>(i)];
-        solution.force[t] = (*k)[i];
-        solution.kinetic[contact_of_place(t)] = false;
-      }
-      return;
-    }
-    given.push_back(worst);
-    at[worst] = std::copysign(limit[worst], (*k)[worst]);
-  }
+void share_fairly(const CoulombProblem& problem, const std::vector<bool>& may_share,
+                  CoulombSolution& solution) {
+  const Shares shares = shares_of(problem, may_share, solution);
+  if (shares.rows.size() < 2 || shares.resting.empty()) return;
+  const Eigen::MatrixXd open = null_of_columns(problem.W(Eigen::all, shares.rows));  // moves nothing
+  if (open.cols() == 0) return;
+  const Eigen::VectorXd given = solution.force(shares.rows);
+  const Eigen::MatrixXd kept = orthogonal_complement(open).transpose();
+  const auto force = least_norm(kept, kept * given, shares.sets);
+  if (!force) return;  // `given` alone holds it, to rounding
+  solution.force(shares.rows) = *force;
+  for (const std::size_t i : shares.resting) solution.kinetic[i] = false;
 }
 
 }  // namespace signorini

@@ -85,6 +85,8 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
 bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const {
   const Eigen::Index m = hit.restitution.size();
   hit.rebound = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::quiet_NaN());
+  std::vector<bool> may_share;
+  for (const std::size_t c : touching) may_share.push_back(systems_.may_share(c));
   for (bool captured = true; captured;) {  // ends: each round captures one more contact
     captured = false;
     hit.problem.b = hit.before;
@@ -92,7 +94,7 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
       hit.problem.b[normal_place(i)] += hit.restitution[i] * std::min(hit.before[normal_place(i)], 0.0);
     hit.solution = signorini::solve(hit.problem);
     if (!hit.solution) return false;
-    share_fairly(hit.problem, *hit.solution);
+    share_fairly(hit.problem, may_share, *hit.solution);
     hit.after = hit.before + hit.d.W * hit.solution->force;
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];

@@ -235,7 +235,9 @@ Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& soluti
   hold_normals(problem);
   solution = solve(problem);
   if (!solution) return refusal(level, all_solutions(problem));
-  share_fairly(problem, *solution);
+  std::vector<bool> may_share;
+  for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
+  share_fairly(problem, may_share, *solution);
   if (level.entries.size() > most_compared || !may_have_many(problem)) return {};
   // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
   CoulombProblem settled = problem;

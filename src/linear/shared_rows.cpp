@@ -54,6 +54,11 @@ bool has_share(const Eigen::MatrixXd& null, Eigen::Index i) { return null.row(i)
 
 namespace {
 
+/// dT/dN of a contact at its limit of friction; 0 where T does not follow N.
+double friction_of_compression(const Rows& rows) {
+  return rows.tangent.T != 0.0 ? -rows.tangent.N / rows.tangent.T : 0.0;
+}
+
 const Combination& form_of(const Model& model, std::size_t row) {
   const Contact& contact = model.contacts[model.layout.contact_of(row)];
   return model.layout.is_normal(row) ? contact.normal : contact.tangent;
@@ -128,11 +133,27 @@ std::vector<SharedForces> SharedRows::in_force(const std::vector<Rows>& rows) co
         shared.rows.push_back(model_.layout.tangent(k));
     }
     if (shared.rows.size() < 2) continue;
-    const Eigen::MatrixXd h = columns(shared.rows);
+    const auto count = static_cast<Eigen::Index>(shared.rows.size());
+    std::vector<std::size_t> forms = shared.rows;
+    const ForceLayout& layout = model_.layout;
+    for (const std::size_t row : shared.rows) forms.push_back(layout.tangent(layout.contact_of(row)));
+    const Eigen::MatrixXd all = columns(forms);
+    const Eigen::MatrixXd h = all.leftCols(count);
     shared.null = null_of_columns(h);
     if (shared.null.cols() == 0) continue;
+    Eigen::MatrixXd h_f = h;
+    Eigen::VectorXd squares = Eigen::VectorXd::Ones(count);  // of N and T that a unit of each force brings
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const std::size_t row = shared.rows[static_cast<std::size_t>(i)];
+      if (!layout.is_normal(row)) continue;
+      const double ratio = friction_of_compression(rows[layout.contact_of(row)]);
+      h_f.col(i) += ratio * all.col(count + i);
+      squares[i] += ratio * ratio;
+    }
+    Eigen::MatrixXd open = null_of_columns(h_f);
+    if (open.cols() != shared.null.cols()) open = shared.null;
     const double size = h.colwise().squaredNorm().maxCoeff();
-    shared.entries = size * shared.null * shared.null.transpose();
+    shared.entries = size * shared.null * (squares.asDiagonal() * open).transpose();
     result.push_back(std::move(shared));
   }
   return result;

@@ -1,11 +1,12 @@
 // shared_rows.hpp: contacts that hold one motion several times, as two feet or two sliders of one body that stick.
 //
-//   | M  H | | a |   | p |      H z = 0:  rows that say the same, and forces that are not unique
-//   | H' 0 | | f | = | b |
+//   | M  F | | a |   | p |      H z = 0:  rows that say the same
+//   | H' 0 | | f | = | b |      F y = 0:  forces that move nothing, so that f is not unique
 //
-// With s z z' in place of 0 the matrix is regular, and where z.b = 0 its solution has H' a = b and z.f = 0: the motion
-// is the same, and of all forces that go with it those are taken whose sum of squares is least. s > 0 is of the
-// size of H' M^-1 H, which changes no digit of either. Sliders share among themselves, on ground that stands and where
+// H has the normals of what is closed and the tangents of what sticks; F the same, but n - s fs t for the normal of a contact
+// that bears its static limit at rest (T = -s fs N). With s z (D y)' in place of 0 the matrix is regular, and where z.b = 0
+// its solution has H' a = b and y.D f = 0: the motion is the same, and of all forces that go with it those are taken whose sum
+// of squares of N and T, f.D f, is least. s > 0 is of the size of H' M^-1 H, which changes no digit of either. Sliders share among themselves, on ground that stands and where
 // there is mass; beside rigid contacts they are refused.
 #pragma once
 
@@ -17,7 +18,7 @@
 
 namespace signorini {
 
-/// s Z Z' on rows of forces, numbered as the forces are (signorini/force_layout.hpp).
+/// s Z (D Y)' on rows of forces, numbered as the forces are (signorini/force_layout.hpp).
 struct SharedForces {
   std::vector<std::size_t> rows;
   Eigen::MatrixXd entries;  ///< one a pair of rows

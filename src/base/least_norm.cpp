@@ -1,0 +1,120 @@
+#include "base/least_norm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int most_steps = 100;    // of Newton's method; a few are usual
+constexpr int most_halvings = 40;  // of one step
+// Added to the curvature of the dual, which is at most 1 and 0 where x lies in a corner of a set: in proportion to what is left, so
+// that the method stays faster than linear; at least the rounding of the curvature.
+constexpr double most_damping = 1e-3, least_damping = 1e-13;
+
+/// P(z) of one set, and a generalised derivative of P.
+struct Projection {
+  VectorXd x;
+  MatrixXd derivative;
+};
+
+Projection onto_cone(double f, const VectorXd& z) {
+  const Index tangents = z.size() - 1;
+  const VectorXd t = z.tail(tangents);
+  const double length = t.norm();
+  Projection p{VectorXd::Zero(z.size()), MatrixXd::Zero(z.size(), z.size())};
+  if (length <= f * z[0]) return {z, MatrixXd::Identity(z.size(), z.size())};
+  if (f * length <= -z[0]) return p;
+  const VectorXd e = length > 0.0 ? VectorXd(t / length) : VectorXd(t);
+  const double n = (z[0] + f * length) / (1.0 + f * f);
+  VectorXd edge(z.size());  // of the boundary through P(z), a generator of the cone
+  edge << 1.0, f * e;
+  p.x = n * edge;
+  p.derivative = edge * edge.transpose() / (1.0 + f * f);
+  if (length > 0.0)
+    p.derivative.bottomRightCorner(tangents, tangents) +=
+        f * n / length * (MatrixXd::Identity(tangents, tangents) - e * e.transpose());
+  return p;
+}
+
+Projection onto_disc(double radius, const VectorXd& z) {
+  const double length = z.norm();
+  if (length <= radius) return {z, MatrixXd::Identity(z.size(), z.size())};
+  const VectorXd e = z / length;
+  return {radius * e, radius / length * (MatrixXd::Identity(z.size(), z.size()) - e * e.transpose())};
+}
+
+Projection onto_ray(const VectorXd& e, const VectorXd& z) {
+  const double along = e.dot(z);
+  if (along <= 0.0) return {VectorXd::Zero(z.size()), MatrixXd::Zero(z.size(), z.size())};
+  return {along * e, e * e.transpose()};
+}
+
+Projection projected(const std::vector<ConvexSet>& sets, const VectorXd& z) {
+  Projection all{VectorXd(z.size()), MatrixXd::Zero(z.size(), z.size())};
+  Index at = 0;
+  for (const ConvexSet& set : sets) {
+    const VectorXd part = z.segment(at, set.size);
+    const Projection p = set.kind == ConvexSet::Kind::cone   ? onto_cone(set.friction, part)
+                         : set.kind == ConvexSet::Kind::disc ? onto_disc(set.radius, part)
+                                                             : onto_ray(set.direction, part);
+    all.x.segment(at, set.size) = p.x;
+    all.derivative.block(at, at, set.size, set.size) = p.derivative;
+    at += set.size;
+  }
+  return all;
+}
+
+double dual(const VectorXd& r, const VectorXd& y, const VectorXd& z, const VectorXd& x) {
+  return r.dot(y) - z.dot(x) + 0.5 * x.squaredNorm();
+}
+
+}  // namespace
+
+std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const std::vector<ConvexSet>& sets) {
+  const double size = r.norm();
+  VectorXd y = r;  // the answer without sets
+  VectorXd z = a.transpose() * y;
+  Projection now = projected(sets, z);
+  std::optional<VectorXd> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < most_steps; ++step) {
+    const VectorXd left = r - a * now.x;
+    if (left.norm() <= rounding::of_elimination * size) {
+      if (!(left.norm() < 0.5 * least)) return best;  // rounding is all that is left
+      least = left.norm();
+      best = now.x;
+    }
+    const double damping = std::max(least_damping, most_damping * std::min(1.0, left.norm() / size));
+    MatrixXd curvature = a * now.derivative * a.transpose();
+    curvature.diagonal().array() += damping;
+    const VectorXd way = solve_dense(curvature, left);
+    const double slope = left.dot(way), value = dual(r, y, z, now.x);
+    if (!(slope > 0.0)) return best;
+    double part = 1.0;
+    for (int halving = 0;; ++halving, part *= 0.5) {
+      if (halving == most_halvings) return best;
+      const VectorXd tried = y + part * way;
+      const VectorXd there = a.transpose() * tried;
+      Projection next = projected(sets, there);
+      // Near the answer g changes by less than its rounding; there the derivative along the way decides.
+      const bool better = dual(r, tried, there, next.x) >= value + 1e-4 * part * slope;
+      if (!better && !((r - a * next.x).norm() < 0.5 * left.norm())) continue;
+      y = tried;
+      z = there;
+      now = std::move(next);
+      break;
+    }
+  }
+  return best;
+}
+
+}  // namespace signorini

@@ -1,0 +1,38 @@
+// least_norm.hpp: the point of least norm of an affine space within a product of convex sets.
+//
+//   min |x|^2 / 2   over   A x = r,   x in C = C_1 x C_2 x ...
+//
+// Its dual has no constraints and is concave with a continuous derivative (P: projection onto C):
+//
+//   max g(y),   g(y) = r . y - (A' y) . x + |x|^2 / 2,   x = P(A' y),   g'(y) = r - A x
+//
+// A damped Newton method with a generalised derivative D of P, A D A' dy = r - A x, solves it: in finitely many steps where
+// the sets are polyhedral (one tangent), else quadratically.
+//
+//   set    { (n, t) : |t| <= f n }    a second-order cone, d tangents; d = 0: the half-line n >= 0
+//          { t : |t| <= F }           a disc
+//          { c e : c >= 0 }           a ray along the unit vector e
+// Source: Facchinei, Pang, Finite-Dimensional Variational Inequalities, chapter 11 (projections); Moreau's decomposition.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace signorini {
+
+/// A convex set of the components of one contact: consecutive entries of x.
+struct ConvexSet {
+  enum class Kind : unsigned char { cone, disc, ray } kind = Kind::cone;
+  Eigen::Index size = 1;      ///< entries: 1 + tangents of a cone (the first is n), tangents of a disc
+  double friction = 0.0;      ///< cone: f >= 0
+  double radius = 0.0;        ///< disc: F >= 0
+  Eigen::VectorXd direction;  ///< ray: e
+};
+
+/// a: orthonormal rows, m x n with m <= n; sets: their sizes add up to n; r: m. nullopt: no point was found, since there is none
+/// or rounding hides it. A x = r holds to rounding::of_elimination of |r|.
+[[nodiscard]] std::optional<Eigen::VectorXd> least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
+                                                        const std::vector<ConvexSet>& sets);
+
+}  // namespace signorini

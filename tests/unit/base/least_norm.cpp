@@ -1,0 +1,145 @@
+// The point of least norm against what makes it one: no feasible point lies in a direction that is shorter.
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <random>
+
+#include "base/eigen_dense.hpp"
+#include "base/least_norm.hpp"
+
+using namespace signorini;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+MatrixXd random_matrix(std::mt19937_64& random, Index rows, Index columns) {
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+}
+
+/// By how much x leaves the sets at worst; negative: it lies inside.
+double excess(const std::vector<ConvexSet>& sets, const VectorXd& x) {
+  double worst = -1e300;
+  Index at = 0;
+  for (const ConvexSet& set : sets) {
+    const VectorXd part = x.segment(at, set.size);
+    if (set.kind == ConvexSet::Kind::cone)
+      worst = std::max({worst, part.tail(set.size - 1).norm() - set.friction * part[0], -part[0]});
+    else if (set.kind == ConvexSet::Kind::disc)
+      worst = std::max(worst, part.norm() - set.radius);
+    else
+      worst = std::max(
+          {worst, (part - set.direction.dot(part) * set.direction).norm(), -set.direction.dot(part)});
+    at += set.size;
+  }
+  return worst;
+}
+
+/// The last feasible point from a feasible one along a direction that A does not see.
+VectorXd farthest(const std::vector<ConvexSet>& sets, const VectorXd& from, const VectorXd& way) {
+  double inside = 0.0, outside = 1e3;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (excess(sets, from + middle * way) <= 1e-13 ? inside : outside) = middle;
+  }
+  return from + inside * way;
+}
+
+void check(std::mt19937_64& random, const std::vector<ConvexSet>& sets, const VectorXd& feasible,
+           Index kept) {
+  const MatrixXd a = orthonormal(random_matrix(random, feasible.size(), kept)).transpose();
+  const auto x = least_norm(a, a * feasible, sets);
+  const MatrixXd open = orthogonal_complement(MatrixXd(a.transpose()));
+  if (!x) {  // discs and cones of two tangents may touch the affine space in one point: its dual has no greatest value
+    for (Index i = 0; i < open.cols(); ++i)
+      for (const double side : {1.0, -1.0})
+        CHECK((farthest(sets, feasible, side * open.col(i)) - feasible).norm() < 1e-3 * feasible.norm());
+    return;
+  }
+  CHECK((a * (*x - feasible)).norm() <= 1e-12 * feasible.norm());
+  CHECK(excess(sets, *x) <= 1e-12 * feasible.norm());
+  CHECK(x->norm() <= feasible.norm() * (1.0 + 1e-12));
+  for (int i = 0; i < 40; ++i) {
+    const VectorXd way = (open * random_matrix(random, open.cols(), 1)).normalized();
+    const VectorXd other = farthest(sets, feasible, way);
+    CHECK(x->dot(other - *x) >= -1e-10 * feasible.squaredNorm());
+  }
+}
+
+/// Sets with a point inside, or on the boundary.
+std::pair<std::vector<ConvexSet>, VectorXd> random_sets(std::mt19937_64& random, int count, Index tangents,
+                                                        bool rays) {
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  std::vector<ConvexSet> sets;
+  std::vector<double> point;
+  for (int i = 0; i < count; ++i) {
+    const VectorXd e = random_matrix(random, tangents, 1).normalized();
+    const double f = 0.1 + part(random), n = 0.2 + 3.0 * part(random),
+                 share = part(random) < 0.3 ? 1.0 : part(random);
+    if (rays && i % 3 == 1) {
+      VectorXd along(1 + tangents);
+      along << 1.0, f * e;
+      sets.push_back({ConvexSet::Kind::ray, 1 + tangents, 0.0, 0.0, along.normalized()});
+      for (const double value : VectorXd(n * along)) point.push_back(value);
+    } else if (rays && i % 3 == 2) {
+      sets.push_back({ConvexSet::Kind::disc, tangents, 0.0, f * n, {}});
+      for (const double value : VectorXd(share * f * n * e)) point.push_back(value);
+    } else {
+      sets.push_back({ConvexSet::Kind::cone, 1 + tangents, f, 0.0, {}});
+      point.push_back(n);
+      for (const double value : VectorXd(share * f * n * e)) point.push_back(value);
+    }
+  }
+  return {sets, Eigen::Map<VectorXd>(point.data(), static_cast<Index>(point.size()))};
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/base/least_norm");
+
+TEST_CASE("no feasible point lies in a shorter direction: cones of one and two tangents, discs, rays") {
+  std::mt19937_64 random(7);
+  for (const Index tangents : {Index{1}, Index{2}})
+    for (const bool rays : {false, true})
+      for (int i = 0; i < 100; ++i) {
+        CAPTURE(tangents);
+        CAPTURE(rays);
+        CAPTURE(i);
+        const auto [sets, point] = random_sets(random, 2 + i % 5, tangents, rays);
+        check(random, sets, point, std::max<Index>(1, point.size() - 1 - i % 3));
+      }
+}
+
+TEST_CASE("two cones and one free direction: the least of a parabola on an interval") {
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 200; ++i) {
+    const auto [sets, point] = random_sets(random, 2, 1, false);
+    const VectorXd way = random_matrix(random, 4, 1).normalized();
+    const MatrixXd a = orthogonal_complement(MatrixXd(way)).transpose();
+    double low = -1e3, high = 1e3;  // of point + y way within |t| <= f n
+    for (const Index k : {Index{0}, Index{1}})
+      for (const double side : {1.0, -1.0}) {
+        const double f = sets[static_cast<std::size_t>(k)].friction;
+        const double room = f * point[2 * k] - side * point[2 * k + 1],
+                     rate = f * way[2 * k] - side * way[2 * k + 1];
+        (rate > 0.0 ? low : high) = rate > 0.0 ? std::max(low, -room / rate) : std::min(high, -room / rate);
+      }
+    const VectorXd expected = point + std::clamp(-way.dot(point), low, high) * way;
+    const auto x = least_norm(a, a * point, sets);
+    REQUIRE(x);
+    CHECK((*x - expected).norm() <= 1e-11 * point.norm());
+  }
+}
+
+TEST_CASE("no point: a pull beyond both cones") {
+  const MatrixXd a = (MatrixXd(2, 4) << 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0).finished() / std::sqrt(2.0);
+  const std::vector<ConvexSet> sets(2, {ConvexSet::Kind::cone, 2, 0.5, 0.0, {}});
+  CHECK(least_norm(a, Eigen::Vector2d(1.0, 0.49), sets));
+  CHECK_FALSE(least_norm(a, Eigen::Vector2d(1.0, 0.51), sets));
+  CHECK_FALSE(least_norm(a, Eigen::Vector2d(-1.0, 0.0), sets));
+}
+
+TEST_SUITE_END();

@@ -1,4 +1,4 @@
-// contact.hpp: a contact's constants, its state, and the forms that a state puts in force.
+// contact.hpp: constants and state of a contact, and the constraint rows and guards of each state.
 //
 //   g >= 0,  N <= 0,  g N = 0                                paper (6)
 //   |T| <= T_U,  T p' >= 0,  (|T| - T_U) p' = 0,  T_U = -f N  paper (7)
@@ -10,9 +10,9 @@
 //   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
 //
-// A rigid contact has the row g'' = 0 in place of N = kn g, and ut'' = surface acceleration in stick; where
-// it closes with g' < 0 it is hit (decide/impact.hpp). Stribeck friction: fk of the slip rate,
-// sliding_friction().
+// A rigid contact has the row g'' = 0 in place of N = kn g, and ut'' = surface acceleration in stick; if it closes with
+// g' < 0, an impact is computed (decide/impact.hpp). With Stribeck friction fk depends on the slip rate
+// (sliding_friction()).
 //
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
 // in stick.
@@ -46,7 +46,7 @@ struct Combination {
     for (const auto& [index, factor] : terms) sum += factor * u[index];
     return sum;
   }
-  /// Sum of the magnitudes of its terms: what the rounding of dot() is relative to.
+  /// Sum of the magnitudes of the terms of dot(): rounding errors of dot() are relative to it.
   template <class V>
   [[nodiscard]] double magnitude(const V& u) const {
     double sum = 0.0;
@@ -59,9 +59,9 @@ struct Combination {
   }
 };
 
-/// A spring and a dashpot side by side between the body and the point that slides:
-///   T = stiffness (ut - p) + damping (ut' - p').
-/// That point is a degree of freedom of its own then, without mass, and Contact::tangent is on it.
+/// A spring and a dashpot side by side between the body and its sliding point:
+///   T = stiffness (ut - p) + damping (ut' - p'). The sliding point then is a massless degree of freedom of its own,
+/// and Contact::tangent refers to it.
 struct ShearElement {
   Combination body;  ///< tangential displacement of the body
   double stiffness = 0.0, damping = 0.0;
@@ -81,7 +81,8 @@ struct Contact {
   double normal_damping = 0.0;        ///< dashpot beside the normal spring
   Friction friction;
   double restitution = 0.0;                ///< rigid: Newton's coefficient
-  std::optional<double> capture_velocity;  ///< rigid: rebounds slower than this rest; absent: the engine's
+  std::optional<double> capture_velocity;  ///< rigid: slower rebounds come to rest; absent: the engine's
+                                           ///< default
   History normal_force;                    ///< slider: compression >= 0
   History surface_motion;                  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
@@ -155,14 +156,14 @@ struct Contact {
   [[nodiscard]] double gap_at(const U& u) const {
     return gap + normal.dot(u);
   }
-  /// Along which the touching body moves; `tangent` unless there is a shear element.
+  /// Tangential displacement of the touching body; equals `tangent` unless there is a shear element.
   [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
 };
 
-/// State and memory of one contact: what a switch changes.
+/// State and memory of one contact; an event changes them.
 struct ContactState {
   State state = State::open;
-  /// p; meaningful in stick with tangential stiffness. Of a law of one's own: its memory.
+  /// p; meaningful in stick with tangential stiffness. With a user law: its memory.
   double anchor = 0.0;
 
   [[nodiscard]] bool is_open() const { return signorini::is_open(state); }

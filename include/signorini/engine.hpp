@@ -1,9 +1,9 @@
-// engine.hpp: the engines by name, and what says how accurate each of them is.
+// engine.hpp: names of the engines, and the key that controls the accuracy of each.
 //
 //   for (const EngineName& e : all_engines) use(e.name);      run.engine is one of them, or "auto"
 //
-// A row here and one in run/engines.cpp (what it refuses, its factory, its cost) make an engine known
-// everywhere: to scene files, to `check`, `compare` and `study`, and to the documentation.
+// A row here and one in run/engines.cpp (its restrictions, its factory, its cost) add an engine everywhere: to scene
+// files, to `check`, `compare` and `study`, and to the documentation.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@
 
 namespace signorini {
 
-/// automatic: exact or ida, whichever the scene is cheaper with (run/choose_engine.hpp).
+/// automatic: exact or ida, whichever is cheaper for the scene (run/choose_engine.hpp).
 enum class Engine { automatic, exact, ida, newmark, friction_iteration };
 
-/// What limits the error of an engine: rounding, a tolerance (run.rtol), or the length of its steps (run.dt).
+/// Limit of an engine's accuracy: rounding, a tolerance (run.rtol), or the length of its steps (run.dt).
 enum class Accuracy { rounding, tolerance, step };
 
 struct EngineName {
   Engine engine = Engine::automatic;
   std::string_view name;   ///< as in scene files
-  std::string_view title;  ///< of the method
+  std::string_view title;  ///< name of the method in full
   Accuracy accuracy = Accuracy::rounding;
-  std::string_view own_keys;  ///< of [run], separated by blanks: they mean something to this engine only
+  std::string_view own_keys;  ///< keys of [run], separated by blanks, that only this engine uses
 };
 
-/// In the order of lists and reports.
+/// The order is that of lists and reports.
 inline constexpr std::array all_engines = {
     EngineName{Engine::exact, "exact", "Taylor series", Accuracy::rounding, ""},
     EngineName{Engine::ida, "ida", "BDF of SUNDIALS IDA", Accuracy::tolerance, "max_order"},
@@ -37,13 +37,13 @@ inline constexpr std::array all_engines = {
 
 /// "auto" for automatic.
 [[nodiscard]] std::string_view to_string(Engine engine);
-/// The row of an engine that is not automatic.
+/// Row of an engine; it must not be automatic.
 [[nodiscard]] const EngineName& name_of(Engine engine);
-/// Of that name; "auto" and what is no engine have none.
+/// Engine with this name; nullopt for "auto" and for names of no engine.
 [[nodiscard]] std::optional<Engine> engine_called(std::string_view name);
-/// Whether a key of [run] is one of the engine's own.
+/// True if the key of [run] is used by this engine only.
 [[nodiscard]] bool has_key(const EngineName& engine, std::string_view key);
-/// "run.rtol", "run.dt", or "" where nothing is to be set.
+/// "run.rtol", "run.dt", or "" if the engine has no accuracy setting.
 [[nodiscard]] std::string_view accuracy_key(Accuracy accuracy);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// error.hpp: what is wrong with an input, where, and with which exit code the program ends.
+// error.hpp: errors of input and files: message, place, and exit code of the program.
 //
 //   pipeline.toml:34:20: contacts.first.friction: found -0.3, expected a number >= 0
 //
@@ -24,14 +24,15 @@ enum class ExitCode : int {
 
 /// A place in a text file; line and column count from 1, 0 means unknown.
 struct SourcePlace {
-  static constexpr int command_line = -1;  ///< as a line: no file, `file` is what was said (Override::told)
+  static constexpr int command_line = -1;  ///< as a line: the command line; `file` is then the text that the
+                                           ///< user typed (Override::told)
 
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// Any refusal. what() is the whole message, ready to be printed.
+/// Base of all errors. what() is the whole message, ready to be printed.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -41,13 +42,13 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// A wrong scene: "FILE:LINE:COLUMN: KEY: MESSAGE"; parts that are unknown are left out.
+/// An invalid scene: "FILE:LINE:COLUMN: KEY: MESSAGE"; unknown parts are left out.
 class SceneError : public Error {
  public:
   SceneError(const SourcePlace& place, const std::string& key, const std::string& message);
 };
 
-/// A wrong command line, a wrong --set among them.
+/// An invalid command line or --set.
 class UsageError : public Error {
  public:
   explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
@@ -58,7 +59,7 @@ class FileError : public Error {
  public:
   FileError(const std::string& path, const std::string& message)
       : Error(ExitCode::file, path + ": " + message) {}
-  /// The same, and what that meant.
+  /// The same error with an explanation appended.
   FileError(const FileError& error, const std::string& more) : Error(ExitCode::file, error.what() + more) {}
 };
 

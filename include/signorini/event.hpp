@@ -2,10 +2,9 @@
 //
 //   x-  values just before the instant        x+  values just after everything that happens at it (`_after`)
 //
-// The types and the columns stand in one table each. What writes events.csv, reads it back, compares runs or
-// documents them goes by these tables: a new column is a member, its row below, and the line in
-// run/event_log.cpp that fills it; a new type a row, its rule in run/event_log.cpp, its colour in
-// result/plot_parts.hpp.
+// One table lists the event types, another the columns. All code that writes, reads, compares or documents events.csv
+// uses these tables. A new column needs a member, its row below, and the line in run/event_log.cpp that fills it. A new
+// type needs a row, its rule in run/event_log.cpp, and its colour in result/plot_parts.hpp.
 #pragma once
 
 #include <array>
@@ -26,7 +25,7 @@ struct EventTypeName {
   const char* meaning;  ///< for the documentation
 };
 
-/// In the order of lists and tables; a type's row is at the place of its value.
+/// In the order of lists and tables; the index of a row is the value of its type.
 inline constexpr std::array all_event_types = {
     EventTypeName{EventType::slip, "slip", "a contact that stuck begins to slide"},
     EventTypeName{EventType::stick, "stick", "a contact that slid comes to rest"},
@@ -45,30 +44,30 @@ inline constexpr std::array all_event_types = {
   return all_event_types[static_cast<std::size_t>(type)].name;
 }
 
-/// How many of the events counted by type are changes of a state, and not jumps of a load.
+/// Number of events that are changes of a state; jumps of loads are not counted.
 [[nodiscard]] inline long changes_in(const std::map<std::string, long>& by_type) {
   long sum = 0;
   for (const auto& [type, count] : by_type) sum += type == to_string(EventType::time) ? 0 : count;
   return sum;
 }
 
-/// For `time` rows without a contact only t counts (contact == -1).
+/// One event. In `time` rows, which have no contact (contact == -1), only t is meaningful.
 struct Event {
   double t = 0.0;
   int contact = -1;  ///< index into Model::contacts
   EventType type = EventType::time;
-  State from = State::open, to = State::open;  ///< of a law of one's own: its states (number_of)
+  State from = State::open, to = State::open;  ///< of a user law: its states (number_of)
   std::optional<double> gap;                   ///< absent for sliders
   double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
   double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
-  std::optional<double> impulse_n, impulse_t;  ///< at hits of rigid contacts only
-  /// dg/dt of the guard that fell, just before; empty where the load's jump changed the state.
+  std::optional<double> impulse_n, impulse_t;  ///< only for impacts of rigid contacts
+  /// dg/dt of the guard that reached zero, just before; empty if a jump of a load changed the state.
   std::optional<double> guard_rate;
-  /// How far t may be off, from one instant's error of the guard: delta / |g'|, or what higher derivatives
-  /// give where the guard grazes. Errors carried along from earlier events are not in it.
+  /// Error bound of t from the guard's error at this instant: delta / |g'|, or by higher derivatives where the guard
+  /// grazes. Errors carried over from earlier events are not included.
   std::optional<double> t_uncertainty;
-  /// Of a rigid contact that touched: the speed with which it was to leave over that below which it rests
-  /// (capture_velocity, or flights lower than rounding). Above one it flew. No column of events.csv.
+  /// For a rigid contact that touched: departure speed over the speed below which it stays (capture_velocity, or
+  /// flights lower than rounding). Above 1 it rebounded. Not a column of events.csv.
   std::optional<double> departure;
 };
 
@@ -76,10 +75,10 @@ struct EventColumn {
   using Field = std::variant<double Event::*, std::optional<double> Event::*, int Event::*,
                              EventType Event::*, State Event::*>;
   const char* name;
-  const char* unit;  ///< in units of force, length, time; "" without
-  Field field;       ///< int: the contact, by name
+  const char* unit;  ///< in units of force, length, time; "" for a plain number
+  Field field;       ///< an int field is the contact, shown by name
   const char* meaning;
-  bool of_contact = true;  ///< empty in rows without a contact
+  bool of_contact = true;  ///< true: empty in rows without a contact
 };
 
 inline constexpr std::array event_columns = {

@@ -1,12 +1,12 @@
-// form.hpp: the state of a contact, its motion, and linear forms on that.
+// form.hpp: contact states, the motion of a contact, and linear forms on that motion.
 //
 //   value = c + a_N N + a_T T + a_g g + a_ut ut + a_vn g' + a_vt ut' + a_an g'' + a_at ut''
 //             + a_q q + a_q' q' + a_F F + a_F' F'        q = normal_force(t), F = f(|N|) |N|
 //
-// Residual rows (value = 0) and guards (value > 0) are such forms; so all that an engine needs of a
-// contact law is data, and their time derivatives follow from the derivatives of the motion. F is the greatest friction
-// force where the coefficient depends on N, which is the one thing that is not linear in the motion: whoever makes the
-// motion of such a contact computes it (contact/friction_limit.hpp).
+// Residual rows (value = 0) and guards (value > 0) are such forms, so a contact law is pure data for an engine, and its
+// time derivatives follow from the derivatives of the motion. F is the limit of the friction force where the
+// coefficient depends on N. It is the only term that is not linear in the motion; the code that evaluates the motion of
+// such a contact computes F (contact/friction_limit.hpp).
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,9 @@
 
 namespace signorini {
 
-/// inside: open with g < 0, where a dashpot has let go before the gap opened. held_plus, held_minus: friction is at its
-/// static limit and the contact at rest, since others that stick hold its motion; they count as slip_plus, slip_minus.
+/// inside: open with g < 0, where a dashpot has released before the gap opened. held_plus, held_minus: friction is at
+/// its static limit and the contact does not slip, because other sticking contacts prevent it; they count as slip_plus,
+/// slip_minus.
 enum class State : unsigned char {
   open,
   inside,
@@ -27,32 +28,32 @@ enum class State : unsigned char {
   held_minus
 };
 
-/// State i of a law of one's own (own_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in
-/// state, and counts as its kind where a kind is asked for.
+/// State i of a user law (own_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in state, and counts
+/// as its kind where a kind is asked for.
 inline constexpr std::size_t most_own_states = 31;
 [[nodiscard]] constexpr State own_state(std::size_t i, State kind) {
   return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));
 }
 [[nodiscard]] constexpr bool is_own(State state) { return static_cast<unsigned>(state) >= 8U; }
-/// Its number in its law.
+/// Number of a user-law state in its law.
 [[nodiscard]] constexpr std::size_t number_of(State own) { return static_cast<unsigned>(own) / 8U - 1U; }
-/// open, closed, stick or slip, of every state.
+/// Kind of any state: open, closed, stick or slip.
 [[nodiscard]] constexpr State kind_of(State state) {
   const unsigned kind = static_cast<unsigned>(state) % 8U;
   return static_cast<State>(kind < 6U ? kind : kind - 2U);
 }
-/// Its friction is at the static limit, and it does not slip.
+/// True if friction is at the static limit and the contact does not slip.
 [[nodiscard]] constexpr bool is_held(State state) {
   return state == State::held_plus || state == State::held_minus;
 }
 
-/// "open" (inside too), "closed", "stick", "slip+", "slip-"; of a law of one's own its kind.
+/// "open" (inside too), "closed", "stick", "slip+", "slip-"; for a user-law state its kind.
 [[nodiscard]] const char* to_string(State state);
-/// Without a force.
+/// True if the state transmits no force.
 [[nodiscard]] constexpr bool is_open(State state) {
   return kind_of(state) == State::open || state == State::inside;
 }
-/// +1, -1 while slipping, else 0.
+/// Direction of slip: +1, -1; 0 if the contact does not slip.
 [[nodiscard]] int slip_sign(State state);
 
 /// One contact at one instant (or a time derivative of it).
@@ -62,7 +63,7 @@ struct ContactMotion {
   double vn = 0.0, vt = 0.0;                   ///< g', ut'
   double an = 0.0, at = 0.0;                   ///< g'', ut''
   double pressing = 0.0, pressing_rate = 0.0;  ///< normal_force(t) and its rate; sliders
-  double limit = 0.0, limit_rate = 0.0;        ///< F and its rate; only of friction that depends on N
+  double limit = 0.0, limit_rate = 0.0;        ///< F and its rate; only for friction that depends on N
 };
 
 struct Form {
@@ -71,14 +72,14 @@ struct Form {
   double limit = 0.0, limit_rate = 0.0;
   double constant = 0.0;
 
-  /// Value of the form without its constant: what a derivative of the motion contributes.
+  /// Value of the form without its constant, to be applied to a time derivative of the motion.
   [[nodiscard]] double rate(const ContactMotion& m) const {
     return N * m.N + T * m.T + gap * m.gap + ut * m.ut + vn * m.vn + vt * m.vt + an * m.an + at * m.at +
            pressing * m.pressing + pressing_rate * m.pressing_rate + limit * m.limit +
            limit_rate * m.limit_rate;
   }
   [[nodiscard]] double value(const ContactMotion& m) const { return constant + rate(m); }
-  /// Sum of the magnitudes of the terms, given magnitudes in m.
+  /// Sum of the magnitudes of the terms; m holds magnitudes.
   [[nodiscard]] double magnitude(const ContactMotion& m) const {
     return std::abs(N * m.N) + std::abs(T * m.T) + std::abs(gap * m.gap) + std::abs(ut * m.ut) +
            std::abs(vn * m.vn) + std::abs(vt * m.vt) + std::abs(an * m.an) + std::abs(at * m.at) +

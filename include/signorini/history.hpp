@@ -1,15 +1,15 @@
 // history.hpp: functions of time in closed form, piece by piece.
 //
 //   f(t) = sum_j c_j (t - t0)^j + a sin(w (t - t0) + phi)      on [start_i, start_{i+1})
-//        + sum_r b_r F^(r)(s (t - t0))                          F: a function of one's own
+//        + sum_r b_r F^(r)(s (t - t0))                          F: a user-defined function
 //
-// Every load history, compression and surface velocity is such a function. It is right-continuous;
-// between its breakpoints it is smooth, and a Piece continues smoothly past both of its ends, so that
-// an integrator that evaluates it on the breakpoint itself sees the piece that it came from. So has F to.
+// Every load history, compression and surface velocity is such a function. It is right-continuous and smooth between
+// its breakpoints. A Piece continues smoothly past both of its ends: an integrator that evaluates it exactly at the
+// breakpoint still gets the piece before it. A user-defined F must do the same.
 //
 //   History({1.0}, {Piece::of(smooth([](auto t) { return 3.0 * sin(t * t); })), Piece{}})     smooth.hpp
 //
-// `ida` and `newmark` take functions of one's own; what needs a closed form refuses them by name.
+// `ida` and `newmark` accept user-defined functions; code that needs a closed form refuses them by name.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,9 @@
 
 namespace signorini {
 
-/// The derivative of this order at t, of a function of one's own; order 0: its value. Decisions ask for
-/// orders up to 8, of motions of supports up to 10; where less is known, 0 in their place leaves to rounding
-/// what they would have told. Pure: the same for the same t, whoever asks and when.
+/// The derivative of this order at t of a user-defined function; order 0: its value. Decisions need orders up to 8,
+/// motions of supports up to 10. Return 0 for unknown orders; decisions that depend on them then are left to rounding.
+/// The function must be pure: the same result for the same t on every call.
 using Function = std::function<double(double t, int order)>;
 
 /// One smooth piece. Units: those of f; times in the scene's unit of time.
@@ -32,7 +32,7 @@ struct Piece {
   double omega = 0.0;                ///< w, rad per time
   double phase = 0.0;                ///< phi, rad
   Function function = {};            ///< F; empty: none
-  double stretch = 1.0;              ///< s, the function's time over this one
+  double stretch = 1.0;              ///< s, the function's time over the history's time
   std::vector<double> rates = {};    ///< b_r
 
   [[nodiscard]] static Piece of(Function function) {
@@ -47,7 +47,7 @@ struct Piece {
   void taylor(double t, double scale, std::size_t count, double* out) const;
 };
 
-/// Where the smoothness ends. `jump`: the value itself changes, beyond the roundoff of evaluating it.
+/// A time at which f is not smooth. `jump`: the value changes by more than the rounding of its evaluation.
 struct Breakpoint {
   double time = 0.0;
   bool jump = false;
@@ -56,7 +56,7 @@ struct Breakpoint {
 /// A piecewise closed-form function of time on the whole line.
 class History {
  public:
-  /// Zero.
+  /// The zero function.
   History() : History(Piece{}) {}
   /// One piece for all times.
   explicit History(Piece piece) : pieces_{std::move(piece)} {}
@@ -74,18 +74,18 @@ class History {
   [[nodiscard]] std::vector<Breakpoint> breakpoints() const;
   /// offset + factor * f.
   [[nodiscard]] History scaled(double factor, double offset = 0.0) const;
-  /// F(t) = integral of f from 0 to t, continuous. With functions of one's own: std::invalid_argument.
+  /// F(t) = integral of f from 0 to t, continuous. Errors: std::invalid_argument if there are user-defined functions.
   [[nodiscard]] History integrated() const;
-  /// c0 f + c1 f' + c2 f'', piece by piece: what f does at a jump has no derivative here.
+  /// c0 f + c1 f' + c2 f'', piece by piece; jumps of f contribute nothing.
   [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
-  /// f(t - dt). Where rounding merges starts: std::invalid_argument, here and in repeated().
+  /// f(t - dt). Errors: std::invalid_argument if rounding merges starts; the same in repeated().
   [[nodiscard]] History shifted(double dt) const;
-  /// This before t, `next` from t on.
+  /// This history before t, `next` from t on.
   [[nodiscard]] History then(double t, const History& next) const;
-  /// f on [from, from + period), again and again, `rounds` times; before and after as f is.
+  /// f on [from, from + period), repeated `rounds` times; f unchanged before and after.
   [[nodiscard]] History repeated(double from, double period, int rounds) const;
   [[nodiscard]] bool is_constant() const;
-  /// No function of one's own is in it.
+  /// True if it contains no user-defined function.
   [[nodiscard]] bool has_closed_form() const;
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<double>& starts() const { return starts_; }

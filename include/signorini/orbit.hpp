@@ -1,13 +1,13 @@
 // orbit.hpp: periodic motions of a scene, and their stability.
 //
 //   z = (u, v, T of contacts with a tangential spring)      the state at a section of the period
-//   R(z) = z(T; z) - z = 0                                  forced: T is that of the loads, or n times it
-//   R(z, T) = 0,  z' . dz = 0                               driven by itself (belts): T is unknown, too
+//   R(z) = z(T; z) - z = 0                                  forced: T is the period of the loads, or n times it
+//   R(z, T) = 0,  z' . dz = 0                               self-excited (belts): T is unknown, too
 //   R(z, T) = 0,  z' . dz = 0,  E(z) = E*                   conservative, at a given energy
 //   Phi = dz(T)/dz,   multipliers = eig Phi                 |multiplier| < 1: disturbances die out
 //
-// Newton's method solves R = 0. Phi goes through every event (sensitivity.hpp), so the convergence is quadratic as
-// long as the sequence of events stays.
+// Newton's method solves R = 0. Phi is computed through every event (sensitivity.hpp), so the convergence is quadratic
+// as long as the sequence of events does not change.
 //
 //   Orbit orbit = find_orbit(reader_of("models/frame.toml"));
 //   if (orbit.found) simulate(orbit_scene(reader_of("models/frame.toml"), orbit), recorder);     one period
@@ -27,139 +27,140 @@
 namespace signorini {
 
 struct OrbitOptions {
-  /// Of the loads; absent: as the scene's periodic loads say.
+  /// Period of the loads; absent: taken from the scene's periodic loads.
   std::optional<double> period = {};
-  /// Of a conservative motion: what is stored, all the time. Nothing drives such a scene; `period` is then the guess that the
-  /// search begins with.
+  /// Energy of a conservative motion. Such a scene has no excitation; `period` then is the initial guess of the search.
   std::optional<double> energy = {};
-  int times = 1;       ///< the orbit closes after so many periods of the loads
-  int transient = 20;  ///< periods that are run before Newton's method begins
-  /// Residual over amplitude that Newton's method aims at; it goes on as long as the residual falls.
+  int times = 1;       ///< the orbit closes after this number of load periods
+  int transient = 20;  ///< periods simulated before Newton's method begins
+  /// Target of Newton's method: residual over amplitude; the iteration continues as long as the residual decreases.
   double tolerance = 1e-12;
 };
 
-/// Kind of loss of stability.
+/// Type of loss of stability.
 enum class OrbitLoss { none, fold, flip, neimark_sacker };
 [[nodiscard]] const char* to_string(OrbitLoss loss);
 
-/// Newton's method, one iteration.
+/// One iteration of Newton's method.
 struct OrbitStep {
   double residual = 0.0;  ///< max |R| over amplitude, before the step
-  double damping = 1.0;   ///< part of the step that was taken; 0: none, it ended here
+  double damping = 1.0;   ///< fraction of the step that was taken; 0: none, the iteration ended here
 };
 
 struct Orbit {
   bool found = false;
-  std::string reason;       ///< why none was found, or what is not known of it; one sentence
-  double period = 0.0;      ///< after which the motion repeats itself
-  bool autonomous = false;  ///< the period is that of the motion, not of loads
-  /// Loads, compressions and surfaces are at this time of the scene where the orbit's time is 0.
+  std::string reason;       ///< reason why no orbit was found, or what remains unknown about it; one sentence
+  double period = 0.0;      ///< time after which the motion repeats itself
+  bool autonomous = false;  ///< the motion determines the period, not the loads
+  /// Time of the scene (loads, compressions, surfaces) at the orbit's time 0.
   double phase = 0.0;
   double residual = 0.0;   ///< max |z(T) - z| over amplitude
-  double amplitude = 0.0;  ///< half the greatest range of a displacement, rotations left out; length
+  double amplitude = 0.0;  ///< half the largest range of a displacement, rotations excluded; length
   std::vector<OrbitStep> steps;
 
-  /// Of all directions in which the state at the section may move; by magnitude, descending. Of an autonomous orbit
-  /// one of them is 1, along the motion.
+  /// Multipliers of all directions in which the state at the section can move, by descending magnitude. An autonomous
+  /// orbit has one multiplier 1, along the motion.
   std::vector<std::complex<double>> multipliers;
-  /// How far a simple multiplier may be off: the change between Phi from this state and Phi from its image a period later, and
-  /// the error that both share: rounding of Phi, what the steps of its tangents leave, and with `ida` 100 rtol, each times the
-  /// greatest entry of Phi. Rounding of the phase omega T in modes, which turns a multiplier along the circle, is not in it.
+  /// Error bound of a simple multiplier: the change between Phi from this state and Phi from its image one period
+  /// later, plus errors common to both: rounding of Phi, steps of its tangents, and with `ida` 100 rtol, each times the
+  /// largest entry of Phi. Not included: rounding of the phase omega T in modes, which rotates a multiplier along the
+  /// circle.
   double multiplier_error = 0.0;
-  /// Nothing: a multiplier is on the unit circle within its error, or, of a conservative motion, within the square root of it,
-  /// by which two equal multipliers move apart.
+  /// nullopt: a multiplier is on the unit circle within its error. For a conservative motion the square root of the
+  /// error counts, by which two equal multipliers separate.
   std::optional<bool> stable;
   OrbitLoss loss = OrbitLoss::none;
-  double max_multiplier = 0.0;  ///< greatest magnitude, without those of families and of time
-  /// Directions with a multiplier of 1, one orbit beside the other: what holds still all the time, one name each. The
-  /// orbit found is the one that is nearest to where the search began.
+  double max_multiplier = 0.0;  ///< largest magnitude, multipliers of families and of time excluded
+  /// Directions with a multiplier of 1 along a family of orbits: conserved quantities, one name each. The search
+  /// returns the orbit of the family nearest to its starting point.
   std::vector<std::string> families;
 
-  /// Events of one period, from phase on, one at the orbit's time 0 first; no jumps of loads.
+  /// Events of one period from phase on, the one at the orbit's time 0 first; no jumps of loads.
   std::vector<Event> sequence;
-  Energy cycle;          ///< change over one period: of what is dissipated, of works, of what is stored
+  Energy cycle;          ///< changes over one period: dissipation, works, stored energy
   double section = 0.0;  ///< time after `phase` at which Newton's method closed the orbit
-  SavedState start;      ///< the state at the orbit's time 0
+  SavedState start;      ///< state at the orbit's time 0
 };
 
 /// Errors: SceneError and UsageError for scenes without a period and without a belt, for loads that do not repeat with
-/// `period`, for an energy where something drives or damps the motion, for engines and laws that have no tangents (exact and
-/// ida have). A search that fails is a value: found is false, and `reason` says why. `recorder`: asked for `progress` only,
-/// which may stop the search.
+/// `period`, for a given energy in a driven or damped scene, and for engines and laws without tangents (exact and ida
+/// have them). A failed search is a value: found is false, and `reason` says why. Of `recorder` only `progress` is
+/// called, which may stop the search.
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
                                Recorder* recorder = nullptr);
 
-/// The scene of one period of the orbit, beginning on it.
+/// The scene of one period of the orbit, starting on the orbit.
 [[nodiscard]] Scene orbit_scene(const SceneReader& read, const Orbit& orbit);
 
 /// A point of a branch from which it can be continued.
 struct BranchMark {
   double parameter = 0.0;
-  bool towards_to = true;                   ///< the parameter moves towards `to` there
+  bool towards_to = true;                   ///< direction of the walk: the parameter moves towards `to`
   Orbit orbit;                              ///< period, phase, autonomous, start
-  std::vector<std::string> sequences = {};  ///< those that the branch has met, by number
-  std::size_t points = 0;                   ///< of Branch::points up to the mark
+  std::vector<std::string> sequences = {};  ///< sequences of events met so far, by number
+  std::size_t points = 0;                   ///< number of Branch::points up to the mark
 };
 
-/// A branch of orbits over a key of the scene.
+/// Settings for a branch of orbits over a key of the scene.
 struct BranchOptions {
   OrbitOptions orbit = {};
-  std::string path;  ///< of the key; "energy": what conservative motions store (OrbitOptions::energy)
-  double from = 0.0, to = 0.0;  ///< its first and last value
+  std::string path;  ///< path of the key; "energy": energy of conservative motions (OrbitOptions::energy)
+  double from = 0.0, to = 0.0;  ///< first and last value of the parameter
   double step =
-      0.02;  ///< greatest, of the range; a step counts changes of the state by parts of the amplitude as well
-  int most_points = 1000;  ///< of each branch
-  /// So many times in a row the walk changes to a branch that leaves at a flip, with twice the period, or at a branch
-  /// point. 0: the first branch alone.
+      0.02;  ///< largest step, relative to the range; changes of the state, relative to the amplitude, count
+             ///< as well
+  int most_points = 1000;  ///< limit for each branch
+  /// Number of successive branch switches: at a flip to the branch of twice the period, and at branch points. 0: the
+  /// first branch alone.
   int switches = 0;
-  std::optional<BranchMark> resumed = {};  ///< continues from there, without that point
-  /// Hears after each point of the first branch of a function that makes its mark, which costs a run of a period: so a
-  /// branch that is killed can be resumed.
+  std::optional<BranchMark> resumed = {};  ///< continues from this mark, without its point
+  /// Called after each point of the first branch with a function that makes its mark (cost: a run of one period), so
+  /// that an interrupted branch can be resumed.
   std::function<void(const std::function<BranchMark()>&)> marks = {};
 };
 
 struct BranchPoint {
   double parameter = 0.0, period = 0.0, amplitude = 0.0;
-  std::vector<double> minima, maxima;  ///< one an output, over the period
+  std::vector<double> minima, maxima;  ///< one per output, over the period
   double max_multiplier = 0.0, multiplier_error = 0.0, residual = 0.0;
   std::optional<bool> stable;
   OrbitLoss loss = OrbitLoss::none;
   int sequence =
-      0;  ///< number of the sequence of events, from 1 on, in the order in which the branch meets them
-  long events = 0;  ///< in one period
-  int branch = 1;   ///< 1: of the first orbit; else that of Branch::sides
-  /// A point that was located: "fold" (the parameter turns), "flip", "neimark-sacker", "branch point", "sequence" (the last one
-  /// with its sequence), "end" (no step leads further, as at a graze where two orbits meet and vanish). Else what lies between
-  /// the point before and this one: "fold" (the parameter turns at a corner of the branch, where the sequence changes),
-  /// "stability" (gained or lost), "sequence", "restart" (the branch before could not be followed on); "switched": the first
-  /// point beside the branch that it leaves; several with "+"
+      0;  ///< number of the sequence of events, from 1, in the order of first occurrence on the branch
+  long events = 0;  ///< number in one period
+  int branch = 1;   ///< 1: the first branch; others as in Branch::sides
+  /// A located point: "fold" (the parameter turns), "flip", "neimark-sacker", "branch point", "sequence" (the last
+  /// point with its sequence), "end" (no step continues, as at a graze where two orbits meet and vanish). Otherwise a
+  /// change between the point before and this one: "fold" (the parameter turns at a corner of the branch, where the
+  /// sequence changes), "stability" (gained or lost), "sequence", "restart" (the branch before could not be continued);
+  /// "switched": the first point off the branch that it leaves. Several are joined with "+".
   std::string special;
 };
 
-/// A branch that leaves another one.
+/// A branch that leaves another branch.
 struct SideBranch {
   int number = 2, from = 1;  ///< of BranchPoint::branch
   std::string kind;          ///< "flip", "branch point"
-  double parameter = 0.0;    ///< where it leaves
-  std::string end;           ///< why it ends, one sentence
-  /// It reached an end of the range; or, of twice the period, it came back to an orbit of the simple one.
+  double parameter = 0.0;    ///< parameter at which it leaves
+  std::string end;           ///< reason for its end, one sentence
+  /// True: it reached an end of the range, or, with twice the period, returned to an orbit of the simple period.
   bool complete = false;
 };
 
 struct Branch {
   std::vector<BranchPoint> points;
-  std::vector<std::string> sequences;  ///< by number, from 1 on: "stop contact, stop separation"
-  std::string end;                     ///< why it ends, one sentence
-  /// It reached `to`; or it came back to `from` behind a fold, having met no gap: `end` then says beyond which value it has no
-  /// orbit. False: it ended on the way, came back behind a gap, or was interrupted.
+  std::vector<std::string> sequences;  ///< by number, from 1: "stop contact, stop separation"
+  std::string end;                     ///< reason for its end, one sentence
+  /// True: it reached `to`, or returned to `from` behind a fold without a gap (`end` then gives the value beyond which
+  /// it has no orbit). False: it ended on the way, returned behind a gap, or was interrupted.
   bool complete = false;
   bool interrupted = false;
-  std::optional<BranchMark> last;  ///< of the first branch, if it has a point
+  std::optional<BranchMark> last;  ///< last mark of the first branch, if it has a point
   std::vector<SideBranch> sides;   ///< in the order in which they were followed
 };
 
-/// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. seen: hears of every point, and may stop.
-/// Errors: those of find_orbit, UsageError for a key that is no number.
+/// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. seen: called for every point; may stop.
+/// Errors: those of find_orbit; UsageError for a key that is not a number.
 [[nodiscard]] Branch follow(const SceneReader& read, const BranchOptions& options,
                             Recorder* recorder = nullptr,
                             const std::function<void(const BranchPoint&)>& seen = {});

@@ -1,13 +1,13 @@
-// output.hpp: a response quantity as a linear functional of the motion, or the greatest of many.
+// output.hpp: a response quantity as a linear functional of the motion, or the largest of several.
 //
 //   r(t) = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant + loss of a contact
 //          + sum_k c_k ( |N| - N_0 ) t.u                 of pendulums whose force varies
 //
-// Envelopes and extremes of stresses are the greatest |r| along stretches of members, at points of which r is known.
+// Envelopes and largest stresses are the maximum of |r| over points on stretches of members at which r is known.
 //
-// u, v, a are forms on the model's degrees of freedom. What is given (loads within a member, supports that
-// move, the base) stands in the histories h_i, weight in the constant. All in the unit of the output. What is
-// of a load says of which, since a load may be changed while a run is on its way (Steering).
+// u, v, a are forms on the model's degrees of freedom. Given terms (loads within a member, moving supports, base
+// motion) are in the histories h_i, weight is in the constant. All terms have the unit of the output. A term of a load
+// names its load, because Steering may replace the load's history during a run.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,8 @@ struct Output {
     double N = 0.0, T = 0.0;  ///< factors of both forces
   };
   std::vector<ContactForces> forces = {};
-  /// factor (|N| - said) slip . u: what the surface of a pendulum adds to the spring of a force that was said.
+  /// factor (|N| - said) slip . u: restoring force of a pendulum's surface in addition to its spring, which is for the
+  /// force `said`.
   struct Restoring {
     std::size_t contact = 0;
     Combination slip = {};
@@ -37,25 +38,27 @@ struct Output {
   std::vector<Restoring> restoring = {};
   struct Given {
     History history;        ///< in the unit of the output
-    std::string load = {};  ///< Model::loads, by name; empty: of no load
+    std::string load = {};  ///< name of the load in Model::loads; empty: the term belongs to no load
     double factor = 1.0;    ///< history = factor * the load's
     Unit of_load = {};      ///< unit of the load's history
   };
   std::vector<Given> given = {};
   double constant = 0.0;
-  std::optional<std::size_t> loss = {};  ///< of this contact; nothing else counts then
-  /// Linear outputs at the points (base/along.hpp) of a finite element, r a polynomial through them; or at one place.
+  std::optional<std::size_t> loss = {};  ///< index of the contact whose friction loss this is; other terms
+                                         ///< are then ignored
+  /// Linear outputs at the points (base/along.hpp) of a finite element, r being a polynomial through them; or at one
+  /// place.
   struct Stretch {
     std::vector<Output> at;
     std::string from, to;           ///< nodes of the piece
-    double begin = 0.0, end = 0.0;  ///< stations on it
-    Fibre fibre = Fibre::both;      ///< of a stress
+    double begin = 0.0, end = 0.0;  ///< stations on the piece
+    Fibre fibre = Fibre::both;      ///< fibre of a stress
   };
-  std::vector<Stretch> stretches = {};     ///< nothing else counts where there are any
-  std::vector<std::string> contains = {};  ///< of a spring's force: "preload", "stiffness", "damper"
+  std::vector<Stretch> stretches = {};     ///< if there are any, all other terms are ignored
+  std::vector<std::string> contains = {};  ///< parts of a spring's force: "preload", "stiffness", "damper"
 };
 
-/// Calls `use` with the linear outputs that it is made of, in order: itself where it has no stretches.
+/// Calls `use` with each linear output that this output consists of, in order: itself if it has no stretches.
 template <class AnOutput, class Use>
 void for_each_linear(AnOutput& output, const Use& use) {
   if (output.stretches.empty()) return use(output);
@@ -63,7 +66,7 @@ void for_each_linear(AnOutput& output, const Use& use) {
     for (auto& at : stretch.at) use(at);
 }
 
-/// Whether it is no sum of motions and forces: no part of combinations.
+/// True if the output is a maximum, not a sum of motions and forces; it then cannot be part of a combination.
 [[nodiscard]] inline bool is_greatest(const Output& output) { return !output.stretches.empty(); }
 
 /// "kN m", from the names of the scene's units.

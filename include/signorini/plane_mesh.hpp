@@ -3,7 +3,8 @@
 //   t3  1, 2, 3        t6  corners, then the middles of 1-2, 2-3, 3-1
 //   q4  1, 2, 3, 4     q8  corners, then the middles of 1-2, 2-3, 3-4, 4-1
 //
-// Corners run counter-clockwise. An edge has its two ends, then its middle node if it has one; the body lies to its left.
+// Corners run counter-clockwise. An edge has two end nodes, then its middle node if it has one; the body is on its
+// left.
 #pragma once
 
 #include <string>
@@ -18,7 +19,7 @@ enum class PlaneShape : unsigned char { t3, t6, q4, q8 };
 struct PlaneMesh {
   struct Node {
     double x = 0.0, y = 0.0;  ///< length
-    long number = 0;          ///< in the file; of a grid, from 1 on, row by row
+    long number = 0;          ///< number in the file; in a grid, row by row from 1
     SourcePlace place = {};
   };
   struct Element {

@@ -1,8 +1,8 @@
-// result.hpp: what a run yields: events, histories, audit, counters, outcome.
+// result.hpp: results of a run: events, histories, audit, counters, outcome.
 //
 //   E_kin + E_el + E_contact + D_friction + D_damping + D_impact - W_loads - W_surface = const
 //
-// A Recorder receives rows as they come; Result is the Recorder that keeps them in memory.
+// A Recorder receives rows during the run; Result is the Recorder that keeps them in memory.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ namespace signorini {
 struct ContactSample {
   State state = State::open;
   double gap = 0.0, ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
-  double memory = 0.0;  ///< p of a law of one's own
+  double memory = 0.0;  ///< p of a user law
 };
 
-/// The energies at one instant; dissipations and works since t = 0. Unit: force * length.
+/// Energies at one instant; dissipations and works since t = 0. Unit: force * length.
 struct Energy {
   double kinetic = 0.0, elastic = 0.0, contact = 0.0;
   double damping = 0.0, friction = 0.0, impact = 0.0;  ///< dissipated
@@ -35,7 +35,7 @@ struct Energy {
   [[nodiscard]] double balance() const { return stored() + damping + friction + impact - loads - surface; }
 };
 
-/// The energies by name; `balance` follows from them.
+/// Names of the energies; `balance` follows from them.
 struct EnergyColumn {
   const char* name;
   double Energy::*value;
@@ -48,7 +48,7 @@ inline constexpr std::array energy_columns = {
 };
 inline constexpr const char* balance_column = "balance";
 
-/// The state at an output time. u, v: of the physical degrees of freedom.
+/// State at an output time. u, v: physical degrees of freedom.
 struct Sample {
   double t = 0.0;
   const Vector* u = nullptr;
@@ -68,51 +68,54 @@ struct CurvePoint {
   double t = 0.0, value = 0.0;
 };
 
-/// curves.csv: displacements and energies as a picture needs them, each with times of its own.
+/// curves.csv: displacements and energies for a picture, each with its own times.
 struct Curves {
   std::vector<std::string> names;
-  std::vector<std::vector<CurvePoint>> points;  ///< a list a name; t ascends, and may repeat
+  std::vector<std::vector<CurvePoint>> points;  ///< one list per name; t ascends, and may repeat
 };
 
-/// One side of an instant: of all degrees of freedom of the model, those of a reduced one are amplitudes.
+/// State on one side of an instant, for all degrees of freedom of the model; in a reduced model they are amplitudes.
 struct InstantSide {
   Vector u, v, a;                    ///< a: after the instant; just before it empty
   std::vector<ContactState> states;  ///< one a contact
   Vector forces;                     ///< of all contacts, in the order of the model's layout
 };
 
-/// What a rigid contact takes of one impact; those of an instant come one after the other, turn 1, 2, ...
+/// Impulse of one impact on a rigid contact; the impacts of one instant are ordered by turn 1, 2, ...
 struct InstantBlow {
   int contact = 0, turn = 1;
   double normal = 0.0, tangent = 0.0;  ///< on the body along n and t; force * time
 };
 
-/// An instant at which states were decided, whether any changed or not: two rows of instants.csv.
+/// An instant at which contact states were decided, whether or not any changed: two rows of instants.csv.
 struct InstantRow {
   double t = 0.0;
   double resolution = 0.0;  ///< times closer than this are one instant
-  double forgiven = 0.0;    ///< by how many of their roundings states fail that were said to be undecided
-  double dependence = 1.0;  ///< of the modes of engine `exact`: what roundings of their sums are greater by
-  bool start = false;       ///< of the run
+  double forgiven = 0.0;    ///< violation of the states that were accepted as undecided, in units of their
+                            ///< rounding errors
+  double dependence = 1.0;  ///< engine `exact`: condition of the modes, the factor by which roundings of
+                            ///< modal sums grow
+  bool start = false;       ///< start of the run
   bool breakpoint = false;  ///< the forcing is not smooth here
   bool load_jumps = false;
   bool located =
-      true;  ///< a guard is zero here; false: the end of a step, at which states were found to differ
+      true;  ///< a guard is zero here; false: the instant is the end of a step at which a change of states
+             ///< was found
   InstantSide before, after;
   std::vector<InstantBlow> blows;
-  /// Impulses along n and t that no law of impact gives, slots as those of forces: what stays is set to rest, and
-  /// what rounding and tolerances have left of velocities that are zero is taken out. Empty: none.
+  /// Impulses along n and t beyond the impact law, in the order of forces: they bring persistent contacts to rest and
+  /// remove the remainder that rounding and tolerances leave in velocities that are zero. Empty: none.
   Vector captures;
-  std::vector<int> released;  ///< contacts that parts without mass left at once
+  std::vector<int> released;  ///< contacts that parts without mass leave immediately
 };
 
-/// What whoever follows a run may change in it.
+/// Changes that an observer may make during a run.
 class Steering {
  public:
   virtual ~Steering() = default;
-  /// From the present instant on the load of this name ("load 1", or its own) is another function of the time
-  /// of the run, amplitude included; outputs follow. Errors: SceneError for a name that is no force or moment,
-  /// and for a history that the engine refuses.
+  /// From the present instant on, the load with this name ("load 1", or a given name) follows another function of the
+  /// run's time, amplitude included; outputs follow. Errors: SceneError if the name is not a force or moment, or if the
+  /// engine refuses the history.
   virtual void set_load(const std::string& name, const History& history) = 0;
 };
 
@@ -121,38 +124,38 @@ class Recorder {
   virtual ~Recorder() = default;
   virtual void event(const Event& event) = 0;
   virtual void sample(const Sample& sample) = 0;
-  /// At the times of RunSpec::frames: a deformed shape.
+  /// Called at the times of RunSpec::frames with a deformed shape.
   virtual void frame(const Sample& /*sample*/) {}
-  /// Whether `motion` and `curves` are of use: they cost a little.
+  /// True if `motion` and `curves` are used; they cost a little time.
   [[nodiscard]] virtual bool wants_motion() const { return false; }
-  /// At the end of a run, once a contact: its motion as a picture needs it (run/motion_record.hpp).
+  /// Called at the end of a run, once per contact, with the motion data for a picture (run/motion_record.hpp).
   virtual void motion(int /*contact*/, const std::vector<MotionRow>& /*rows*/) {}
-  /// At the end of a run, once: the rest of what a picture needs (run/curve_record.hpp).
+  /// Called once at the end of a run, with the remaining data for a picture (run/curve_record.hpp).
   virtual void curves(const Curves& /*curves*/) {}
-  /// The model's outputs, at output times and on both sides of every instant; t ascends, and may repeat.
+  /// Called with the model's outputs at output times and on both sides of every instant; t ascends, and may repeat.
   virtual void response(double /*t*/, const std::vector<double>& /*values*/) {}
-  /// Whether `instant` is of use: each hands over several vectors as long as the model.
+  /// True if `instant` is used; each call passes several vectors of the model's size.
   [[nodiscard]] virtual bool wants_instants() const { return false; }
-  /// After the events of the instant; the first one is the start.
+  /// Called after the events of the instant; the first call is the start.
   virtual void instant(const InstantRow& /*instant*/) {}
-  /// Whether `steer` is of use: it ends no step, but makes a sample at each.
+  /// True if `steer` is used; it ends no step early, but each step costs a sample.
   [[nodiscard]] virtual bool steers() const { return false; }
-  /// At the start, at the end of every step of the engine, and after every event and breakpoint: the state
-  /// there. What is changed holds from there on, as after a jump of a load. Return false to end the run.
+  /// Called with the current state at the start, at the end of every engine step, and after every event and breakpoint.
+  /// Changes hold from then on, as after a jump of a load. Return false to end the run.
   virtual bool steer(const Sample& /*now*/, Steering& /*run*/) { return true; }
-  /// Called often with the time reached; return false to ask for a stop (an interrupt).
+  /// Called often with the current time; return false to ask for a stop (an interrupt).
   virtual bool progress(double /*t*/) { return true; }
 };
 
 /// How a run ended. Exit code: done 0, stopped 4, interrupted 130.
 struct Outcome {
   enum class Kind { done, stopped, interrupted } kind = Kind::done;
-  double t = 0.0;      ///< reached
+  double t = 0.0;      ///< time reached
   std::string reason;  ///< one sentence with time, contact, guard; empty when done
-  Refusal refusal;     ///< where it stopped because states could not be decided
+  Refusal refusal;     ///< details if states could not be decided
 };
 
-/// A greatest violation, where it happened, and the scale that it is relative to.
+/// Largest violation of a condition, where it occurred, and the scale that it is relative to.
 struct Extreme {
   double value = 0.0;  ///< in the unit of the scale
   double t = 0.0;
@@ -168,12 +171,12 @@ struct Audit {
   Extreme equilibrium;  ///< residual of the equation of motion, force
   Extreme penetration;  ///< rigid contacts, length
   Extreme energy;       ///< |balance(t) - balance(0)|
-  /// Sum of the reactions less that of loads and inertia, force; where a reaction is asked for.
+  /// Sum of reactions minus loads and inertia, force; only if a reaction output is requested.
   std::optional<Extreme> reactions;
   double length_scale = 1.0, force_scale = 1.0, power_scale = 1.0, energy_scale = 1.0;
-  long impulses_on_closed = 0;        ///< impulses that contacts took while they were closed
-  double work_of_loads = 0.0;         ///< greatest |W_loads(t)|
-  std::vector<double> friction_work;  ///< dissipated by each contact
+  long impulses_on_closed = 0;        ///< impulses on contacts while they were closed
+  double work_of_loads = 0.0;         ///< largest |W_loads(t)|
+  std::vector<double> friction_work;  ///< dissipation of each contact
   Energy initial, final;
 };
 
@@ -182,99 +185,99 @@ struct Counters {
   long error_test_failures = 0, convergence_failures = 0, guard_evaluations = 0, restarts = 0;
   long rolled_back = 0;  ///< events that lay inside a step and were found by the polynomial check
   long time_events = 0;
-  // exact in modes: combinations of contact states, proven stretches, segments left to the Taylor series
+  // exact in modes: combinations of contact states, verified stretches, segments computed with the Taylor series
   long contact_states = 0, proof_steps = 0, fallbacks = 0;
   std::map<int, long> steps_by_order;
 };
 
-/// Peak of |u(t) - u(0)| over all steps, at the node of a contact.
+/// Largest |u(t) - u(0)| over all steps, at the node of a contact.
 struct Peak {
   double tangential = 0.0, normal = 0.0;  ///< along the contact's tangent and normal
-  double N = 0.0, T = 0.0;                ///< greatest |N|, |T|
+  double N = 0.0, T = 0.0;                ///< largest |N|, |T|
 };
 
-/// A value and its first time.
+/// An extreme value and the first time at which it occurs.
 struct Turn {
   double value = 0.0, t = 0.0;
 };
 
-/// What a support bears, with signs: over all steps and instants, those of Peak among them. least N: the greatest
-/// compression. Slip is that of the contact, in the state before the run's first event and at its end.
+/// Forces and slip of a support, with signs, over all steps and instants (those of Peak included). least N: the largest
+/// compression. Slip is the slip of the contact, in the state before the run's first event and at the end.
 struct SupportLoad {
   Turn least_N, greatest_N, least_T, greatest_T;
   double slip_at_start = 0.0, slip_at_end = 0.0;
   [[nodiscard]] double residual_slip() const { return slip_at_end - slip_at_start; }
 };
 
-/// One stay of a contact on its ground; a hit that rebounds at once has start = end.
+/// One contact phase; for an impact with immediate rebound start = end.
 struct Landing {
   double start = 0.0, end = 0.0;
-  double impulse = 0.0;     ///< of hits and of -N over the stay, force * time
-  double peak_force = 0.0;  ///< greatest -N
+  double impulse = 0.0;     ///< impulse of impacts and of -N over the phase, force * time
+  double peak_force = 0.0;  ///< largest -N
 };
 
-/// On a stretch of an output (Output::stretches): the station on its piece.
+/// Position of an extreme on a stretch of an output (Output::stretches): the station on its piece.
 struct OutputPlace {
   int stretch = -1;  ///< -1: the output has none
   double station = 0.0;
 };
 
-/// Extremes of one output over the whole motion, not only its rows, and its last value. Where it has stretches: over all
-/// places, with their signs; its values are magnitudes.
+/// Extremes of one output over the whole motion, not only at its rows, and its last value. For an output with stretches
+/// the extremes are signed and cover all places; its values are magnitudes.
 struct OutputExtremes {
   double maximum = 0.0, minimum = 0.0, last = 0.0;  ///< in the unit of the output
   double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, where several are equal to rounding
   OutputPlace at_maximum = {}, at_minimum = {};
 };
 
-/// Which engine computes, and how.
+/// Engine of a run and its settings.
 struct Method {
   Engine engine = Engine::ida;  ///< never automatic
   bool automatic = false;       ///< the engine was chosen by the program
-  std::string reason;           ///< why; "as given" where it was not
+  std::string reason;           ///< reason for the choice; "as given" unless automatic
   double accuracy = 0.0;        ///< value of its accuracy key (engine.hpp): rtol, dt, or 0
   int max_order = 5;
   std::string max_order_reason;
-  std::string flow = {}, flow_reason = {};  ///< exact: "modal" or "taylor", and why
+  std::string flow = {}, flow_reason = {};  ///< exact: "modal" or "taylor", and the reason
 
   /// "as given" or "auto: ..."
   [[nodiscard]] std::string engine_reason() const { return (automatic ? "auto: " : "") + reason; }
 };
 
-/// A law that an instant, or the motion between two, breaks (src/witness/witness.hpp).
+/// A law violated at an instant, or by the motion between two instants (src/witness/witness.hpp).
 struct Violation {
   double t = 0.0;
   std::string event;  ///< type of the contact's event; "start", "load", "between", or "" for another contact
-  int contact = -1;   ///< -1: of the structure
+  int contact = -1;   ///< -1: the structure
   std::string law;    ///< "momentum", "restitution", ...
   double value = 0.0, limit = 0.0;
-  Unit unit = {};      ///< of value and limit
-  bool grave = false;  ///< nothing that was recorded, and no tolerance, explains it: the run ends there
+  Unit unit = {};      ///< unit of value and limit
+  bool grave = false;  ///< no recorded quantity and no tolerance explains it: the run ends
 };
 
-/// What the witness of a run has found.
+/// Results of the witness of a run.
 struct Testimony {
-  long checked = 0, violated = 0;     ///< instants and stretches that were checked; violations, all of them
+  long checked = 0, violated = 0;     ///< number of checked instants and stretches; number of all violations
   std::vector<Violation> violations;  ///< the first hundred
 };
 
-/// Everything about a run but its rows.
+/// All results of a run except its rows.
 struct Report {
   Outcome outcome;
   Method method;
   Counters counters;
   Audit audit;
-  std::vector<Peak> peaks;                     ///< one a contact
-  std::vector<SupportLoad> supports;           ///< one a contact
-  std::vector<std::vector<Landing>> landings;  ///< one list a contact; empty for sliders
-  std::vector<OutputExtremes> response;        ///< one an output
+  std::vector<Peak> peaks;                     ///< one per contact
+  std::vector<SupportLoad> supports;           ///< one per contact
+  std::vector<std::vector<Landing>> landings;  ///< one list per contact; empty for sliders
+  std::vector<OutputExtremes> response;        ///< one per output
   std::map<std::string, long> events_by_type;
-  long undecided = 0;  ///< decisions that rounding left open: the states that fail least were taken
-  /// When rounding first left states open on which what follows hangs; empty: never.
+  long undecided = 0;  ///< decisions left open by rounding: the states with the smallest violation were taken
+  /// First time at which rounding left states open that affect the later motion; empty: never.
   std::optional<double> forgiven_at;
   Testimony witness;
   std::vector<std::string> warnings;  ///< one sentence each
-  double wall_time = 0.0;             ///< s, integration without reading and assembling
+  double wall_time = 0.0;             ///< s, integration only, without reading and assembly
 };
 
 /// Keeps all rows in memory.

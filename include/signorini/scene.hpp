@@ -1,8 +1,8 @@
-// scene.hpp: a scene as the file says it, with every default filled in and every unit checked.
+// scene.hpp: a scene as its file describes it, with all defaults filled in and all units checked.
 //
 //   M u'' + C u' + K u = P(t) - sum_k ( n_k N_k + t_k T_k )
 //
-// A Scene knows names, places and numbers, no matrices. docs/scene.md is its reference.
+// A Scene contains names, places and numbers, no matrices. docs/scene.md is its reference.
 //
 //   Scene scene = read_scene("models/pipeline.toml", {{"run.rtol", "1e-10"}});
 #pragma once
@@ -30,20 +30,20 @@ struct Units {
   std::string force, mass, length, time;
 };
 
-/// Of units of force, length and time: positive, finite.
+/// Factors for units of force, length and time: positive, finite.
 struct Factors {
   double force = 1.0, length = 1.0, time = 1.0;
 };
 
-/// Of a quantity: force^a length^b time^c; all zero: a plain number.
+/// Unit of a quantity: force^a length^b time^c; all zero: a plain number.
 struct Unit {
   int force = 0, length = 0, time = 0;
 };
 
 enum class HistoryType { constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table };
 
-/// f(t) = offset + amplitude * shape(t). A load's amplitude stands outside its history, so for loads
-/// offset is 0 and amplitude 1 here.
+/// f(t) = offset + amplitude * shape(t). A load has its amplitude outside its history; there offset is 0 and amplitude
+/// 1.
 struct HistorySpec {
   HistoryType type = HistoryType::constant;
   double offset = 0.0;
@@ -55,13 +55,13 @@ struct HistorySpec {
   std::vector<double> coefficients = {};        ///< polynomial: ascending powers of (t - start)
   std::vector<double> times = {}, values = {};  ///< table
   bool steffen = false;                         ///< table: interpolation = "steffen"
-  bool start_given = false;                     ///< without it a constant holds since ever
-  bool hold = false;                            ///< table: the last value holds from the last time on
-  double shift = 0.0;                           ///< all of it later by this
-  double period = 0.0;                          ///< > 0: the shape begins anew every so long, `rounds` times
+  bool start_given = false;                     ///< false: a constant has always acted
+  bool hold = false;                            ///< table: the last value holds after the last time
+  double shift = 0.0;                           ///< delay of the whole history
+  double period = 0.0;                          ///< > 0: the shape restarts after each period, `rounds` times
   int rounds = 1;
   SourcePlace place = {};
-  /// Of scenes made in code: this history is the shape, whatever the type and its keys say.
+  /// For scenes made in code: this history is the shape, regardless of the type and its keys.
   std::optional<History> in_code = {};
 
   [[nodiscard]] static HistorySpec zero() {
@@ -77,23 +77,23 @@ struct Direction {
   std::array<double, 2> vector{0.0, 0.0};
   std::vector<std::pair<std::string, double>> dofs = {};
   SourcePlace place = {};
-  /// Nodes whose displacements, times their weights, are subtracted: what the node touches.
+  /// Nodes whose weighted displacements are subtracted: the counterpart that the node touches.
   std::vector<std::pair<std::string, double>> against = {};
 };
 
-/// newmark: how the time of an event is found. root: the step redone until the guard at its end is zero;
-/// linear: redone once, to the interpolated time.
+/// newmark: method of locating an event in time. root: the step is redone until the guard at its end is zero; linear:
+/// redone once, to the interpolated time.
 enum class Refine { root, linear };
-/// newmark: doubling looks for the step at which doubling it changes the result by less than the tolerance.
+/// newmark: doubling searches for the step whose doubling changes the result by less than the tolerance.
 enum class StepControl { fixed, doubling };
-/// exact: what the motion between events is computed with.
+/// exact: method for the motion between events.
 enum class Flow { automatic, modal, taylor };
-/// Whether a run is certified (certify.hpp); automatic: where that is cheap.
+/// Whether a run is certified (certify.hpp); automatic: if the cost is low.
 enum class Certify { automatic, yes, no };
-/// What a run is certified by: the exact flow, or the same engine with a finer setting.
+/// Type of companion run: the exact flow, or the same engine with a finer setting.
 enum class Companion { automatic, exact, finer };
 
-/// Absolute tolerances; where absent, rtol times a scale of the scene.
+/// Absolute tolerances; an absent one is rtol times a scale of the scene.
 struct Tolerances {
   std::optional<double> displacement, velocity, force;
 };
@@ -108,41 +108,43 @@ struct RunSpec {
   std::vector<double> frames = {};    ///< times of deformed shapes, strictly ascending, in [0, t_end]
   std::optional<int> max_order = {};  ///< ida: 1 to 5; absent: "auto"
   int max_events_at_once = 100;       ///< rounds of state changes at one instant before the run stops
-  std::optional<double> dt = {};      ///< newmark, friction-iteration: the step; doubling: the greatest one
+  std::optional<double> dt = {};      ///< newmark, friction-iteration: the step; with doubling: the largest
+                                      ///< one
   Refine refine = Refine::root;
   StepControl step = StepControl::fixed;
   Flow flow = Flow::automatic;
   Certify certify = Certify::automatic;
   Companion companion = Companion::automatic;
-  /// ida, no key: flights are low by so many times the tolerance (of a finer companion: by that of its run).
+  /// ida, no key: limit for low flights, in multiples of the tolerance (a finer companion uses the run's tolerance).
   double flight_tolerances = 1.0;
-  double relaxation = 1.0;   ///< friction-iteration: part of the change of a bound that is taken, in (0, 1]
-  int max_iterations = 100;  ///< friction-iteration: a step, before the run stops
-  bool geometric = false;    ///< static forces have a stiffness (FrozenForces)
+  double relaxation = 1.0;   ///< friction-iteration: relaxation factor of a bound, in (0, 1]
+  int max_iterations = 100;  ///< friction-iteration: limit for each step; beyond it the run stops
+  bool geometric = false;    ///< static forces have a geometric stiffness (FrozenForces)
   SourcePlace place = {};
   SourcePlace geometric_place = {};
 
-  /// The grid of history.csv: strictly ascending, t_end last. Errors: more than 1e8 times.
+  /// Times of history.csv: strictly ascending, t_end last. Errors: more than 1e8 times.
   [[nodiscard]] std::vector<double> grid() const;
 };
 
-/// A step of a frictional start: these loads grow slowly from what they were to what they are at t = 0.
+/// A stage of a frictional start: these loads grow slowly from their previous values to their values at t = 0.
 struct StageSpec {
   std::string name;
-  std::vector<std::string> loads;  ///< as Model::loads calls them, or "temperature", "supports": all of these
-  int steps = 1;                   ///< parts of the stage after which its state is told
+  std::vector<std::string> loads;  ///< names as in Model::loads, or "temperature", "supports" for all loads
+                                   ///< of that kind
+  int steps = 1;                   ///< number of parts of the stage; the state is reported after each
   SourcePlace place;
-  std::vector<SourcePlace> load_places = {};  ///< one a load
+  std::vector<SourcePlace> load_places = {};  ///< one per load
 };
 
 /// Static forces whose geometric stiffness acts in a run (run.geometric).
 struct FrozenForces {
-  /// Axial force of a finite element at two nodes of the mesh, tension positive.
+  /// Axial force of a finite element at its two nodes, tension positive.
   struct Element {
     std::string from, to;
     double at_from = 0.0, at_to = 0.0;
   };
-  /// Of a rigid body, moment per rotation: sum of F . r over the forces on it.
+  /// Moment per rotation of a rigid body: sum of F . r over the forces on it.
   struct Body {
     std::string name;
     double stiffness = 0.0;
@@ -151,43 +153,44 @@ struct FrozenForces {
   std::vector<Body> bodies;
 };
 
-/// Where a run stood: everything that its motion goes on from.
+/// State at the end of a run: all data needed to continue its motion.
 struct SavedState {
   std::string run;  ///< directory
   std::vector<std::pair<std::string, double>>
       motions;  ///< by name: displacements, velocities (scene/saved_state.hpp)
   std::vector<std::pair<std::string, double>> shears;  ///< T of contacts by name
-  std::vector<std::pair<std::string, int>> slips;      ///< -1, 0, 1: which way contacts slip, by name
+  std::vector<std::pair<std::string, int>> slips;      ///< slip direction of contacts by name: -1, 0, 1
   struct Own {
     std::string contact;
-    std::size_t state = 0;  ///< of its law
+    std::size_t state = 0;  ///< of its user law
     double memory = 0.0;    ///< p
   };
-  std::vector<Own> own;  ///< contacts with laws of one's own
-  double t = 0.0;        ///< of the state, in the run's time
-  /// A row of the run's contacts.csv at t: where contacts are that the motion goes on from, whatever states.csv has.
+  std::vector<Own> own;  ///< contacts with user laws
+  double t = 0.0;        ///< time of the state, in the run's time
+  /// A row of the run's contacts.csv at t: contacts that the motion continues from, whichever columns states.csv has.
   struct Left {
     std::string contact, state;
     std::optional<double> gap;
     double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
   };
   std::vector<Left> left;  ///< empty: contacts.csv has no such rows
-  /// Of the run, that tolerances and what counts as rest stay: displacement, rotation, velocity, angular
-  /// velocity, force.
+  /// Scales of the run, so that tolerances and the limit of rest do not change: displacement, rotation, velocity,
+  /// angular velocity, force.
   std::optional<std::array<double, 5>> scales;
-  std::optional<FrozenForces> frozen;                   ///< of the run, if it had run.geometric
-  std::vector<std::pair<std::string, double>> carried;  ///< what K of the run has of pendulums, by name
-  std::vector<std::string> differing;  ///< tables in which the run's scene has another structure
+  std::optional<FrozenForces> frozen;                   ///< forces of the run, if it had run.geometric
+  std::vector<std::pair<std::string, double>> carried;  ///< carried loads of pendulums in the run's K, by
+                                                        ///< name
+  std::vector<std::string> differing;  ///< tables in which the structure of the run's scene differs
 };
 
-/// initial = "static" or "frictional", the state of a run, or a state: by degree of freedom in the order of
-/// [matrices] dofs, or by node.
+/// Initial state: "static" or "frictional", the state of another run, or explicit values, by degree of freedom in the
+/// order of [matrices] dofs, or by node.
 struct InitialSpec {
   bool is_static = false;
   bool is_frictional = false;
   std::vector<StageSpec> stages = {};  ///< frictional; empty: all static loads at once
   std::optional<SavedState> saved = {};
-  std::vector<double> u = {}, v = {};  ///< matrices: one a degree of freedom; empty: zero
+  std::vector<double> u = {}, v = {};  ///< matrices: one per degree of freedom; empty: zero
   struct Component {
     std::string node, component;  ///< component: ux uy rz vx vy wz
     double value = 0.0;
@@ -197,8 +200,8 @@ struct InitialSpec {
   SourcePlace place = {};
 };
 
-/// C = alpha M + beta K. alpha_over_omega1: alpha = that times omega1. Ratios at two frequencies are
-/// alpha and beta here.
+/// C = alpha M + beta K. alpha_over_omega1 means alpha = alpha_over_omega1 * omega1. Damping ratios at two frequencies
+/// are converted to alpha and beta.
 struct DampingSpec {
   double alpha = 0.0;
   double beta = 0.0;
@@ -206,48 +209,50 @@ struct DampingSpec {
   SourcePlace place;
 };
 
-/// A run with a cutoff that a tolerance tried.
+/// A trial run with one cutoff, during the search for a tolerance.
 struct CutoffTrial {
   double cutoff_omega = 0.0;  ///< rad per time
   int modes = 0;              ///< kept
-  double missed = 0.0;        ///< relative, what the modes left out would have added (study/reduction)
-  double moved = 0.0;         ///< relative, greatest difference of displacements from the next trial; 0: none
-  double error = 0.0;         ///< moved, plus what the next trial may be off by; missed where there is none
+  double missed = 0.0;        ///< relative contribution of the left-out modes to the response
+                              ///< (study/reduction)
+  double moved = 0.0;         ///< relative, largest difference of displacements from the next trial; 0: none
+  double error = 0.0;         ///< moved plus the error bound of the next trial; missed if there is no next
+                              ///< trial
 };
 
-/// Modes up to the cutoff are kept, of the others their static compliance (model/reduce/reduction.hpp).
+/// Modes up to the cutoff are kept; for the others only their static compliance (model/reduce/reduction.hpp).
 struct ReductionSpec {
-  double cutoff_omega = 0.0;        ///< rad per time; 0 while it is to be found
+  double cutoff_omega = 0.0;        ///< rad per time; 0 until it is found
   std::optional<double> tolerance;  ///< relative; find_cutoff sets the cutoff
-  std::vector<CutoffTrial> tried;   ///< the last one is in force
+  std::vector<CutoffTrial> tried;   ///< the last one is used
   SourcePlace place;
 };
 
 struct Section {
   std::string name;
   double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI 0: for bars only
-  double area = 0.0, modulus = 0.0;                  ///< stresses are N / area, M / modulus; 0: not known
-  double pipe_radius = 0.0, pipe_wall = 0.0;         ///< mean radius of a pipe; 0: it is none
+  double area = 0.0, modulus = 0.0;                  ///< stresses are N / area, M / modulus; 0: unknown
+  double pipe_radius = 0.0, pipe_wall = 0.0;         ///< mean radius and wall of a pipe; 0: not a pipe
 };
 
 struct Node {
   std::string name = {};
   double x = 0.0, y = 0.0;
   SourcePlace place = {};
-  bool of_mesh = false;  ///< of a body's mesh, without a name in the scene: no column of history.csv
+  bool of_mesh = false;  ///< node of a body's mesh without a name in the scene: no column of history.csv
 };
 
 enum class MassKind { consistent, lumped };
 enum class MemberType { beam, bar };
 
-/// The pieces of a member are arcs.
+/// Present if the pieces of a member are arcs.
 struct Bend {
-  double radius = 0.0;           ///< > 0: the course from node to node turns left
+  double radius = 0.0;           ///< > 0: the arc turns left on its way from node to node
   double flexibility = 1.0;      ///< EI is divided by it
-  double intensification = 1.0;  ///< of stresses of bending
+  double intensification = 1.0;  ///< factor of bending stresses
 };
 
-/// A chain of pieces between named nodes; elements[i] beams on piece i, one bar a piece.
+/// A chain of pieces between named nodes; piece i has elements[i] beams, or one bar.
 struct Member {
   std::vector<std::string> nodes = {};
   std::string section = {};
@@ -255,28 +260,29 @@ struct Member {
   MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
   SourcePlace place = {};
-  std::vector<std::string> release = {};             ///< first or last node, or both: hinged there
+  std::vector<std::string> release = {};             ///< first or last node, or both, with a hinge
   double thermal_expansion = 0.0;                    ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
   HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: too long
   std::optional<Bend> bend = {};                     ///< absent: straight pieces
 };
 
-/// A plane continuum. Its nodes stand among Scene::nodes, called NAME.NUMBER, or as a point of the body is called.
+/// A plane continuum. Its nodes are in Scene::nodes, called NAME.NUMBER or by the name of a point of the body.
 struct BodySpec {
   std::string name = {};
-  PlaneMesh mesh = {};  ///< without nodes: indices are into Scene::nodes
+  PlaneMesh mesh = {};  ///< without nodes: indices refer to Scene::nodes
   std::size_t first_node = 0, node_count = 0;
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
-  bool strain = false;  ///< plane strain, else plane stress
+  bool strain = false;  ///< plane strain; false: plane stress
   MassKind mass = MassKind::consistent;
   double thermal_expansion = 0.0;                 ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();  ///< above that of the undeformed state
-  std::vector<int> massless = {};                 ///< nodes whose mass is on others (contact_mass = "none")
+  std::vector<int> massless = {};                 ///< nodes whose mass is moved to others (contact_mass =
+                                                  ///< "none")
   SourcePlace place = {};
 };
 
-/// A boundary of what [matrices] assemble: places, and degrees of freedom by name; empty: held.
+/// A node of a boundary in a scene of [matrices]: place, and degrees of freedom by name; empty: fixed.
 struct SurfaceNode {
   double x = 0.0, y = 0.0;
   std::string ux = {}, uy = {};
@@ -288,14 +294,14 @@ struct SurfaceSpec {
   SourcePlace place = {};
 };
 
-/// A node of a seam: one of Scene::contacts each, in the same order.
+/// A node of a seam; each belongs to one of Scene::contacts, in the same order.
 struct SeamNode {
   int node = 0;                            ///< index into Scene::nodes, or Scene::surface_nodes
-  std::array<double, 2> at{0.0, 0.0};      ///< its place
-  double length = 0.0;                     ///< of the arc that belongs to it
-  std::array<double, 2> normal{0.0, 0.0};  ///< in which it opens; the tangent is (ny, -nx)
+  std::array<double, 2> at{0.0, 0.0};      ///< place of the node
+  double length = 0.0;                     ///< tributary arc length
+  std::array<double, 2> normal{0.0, 0.0};  ///< opening direction; the tangent is (ny, -nx)
 };
-/// Surfaces of bodies against each other, or against the ground: contacts NAME.1, NAME.2, ... along the arc.
+/// Contact of body surfaces with each other or with the ground: contacts NAME.1, NAME.2, ... along the arc.
 struct SeamSpec {
   std::string name = {};
   std::size_t first_contact = 0;
@@ -304,56 +310,56 @@ struct SeamSpec {
   SourcePlace place = {};
 };
 
-/// A node that follows others, u = sum_l w_l u_l, along x and y: of a seam with law = "tied".
+/// A node that follows others, u = sum_l w_l u_l, along x and y: from a seam with law = "tied".
 struct TieSpec {
   std::string seam = {};
   int node = 0;                                     ///< index into Scene::nodes
-  std::vector<std::pair<int, double>> master = {};  ///< the same, and w_l
+  std::vector<std::pair<int, double>> master = {};  ///< indices into Scene::nodes, and w_l
   SourcePlace place = {};
 };
 
 struct PointMass {
   std::string node = {};
   double mass = 0.0;
-  double inertia = 0.0;  ///< rotational, only where a rotation exists or inertia > 0
+  double inertia = 0.0;  ///< rotational; needs a rotation at the node
   SourcePlace place = {};
-  std::string key = {};  ///< in messages, "rigid.block"; empty: masses.NUMBER
+  std::string key = {};  ///< key for messages, "rigid.block"; empty: masses.NUMBER
 };
 
-/// Nodes that move as one with its centre, u = u_c + rz x (r - r_c); its mass is one of Scene::masses.
+/// Nodes that move rigidly with a centre, u = u_c + rz x (r - r_c); the body's mass is one of Scene::masses.
 struct RigidBody {
   std::string name = {};
   std::string centre = {};              ///< a node
-  std::vector<std::string> nodes = {};  ///< the others
+  std::vector<std::string> nodes = {};  ///< all other nodes
   SourcePlace place = {};
 };
 
-/// Spring and damper along `direction` between node and `against` (ground when empty).
+/// Spring and damper along `direction` between node and `against` (ground if empty).
 struct Spring {
   std::string node, against;
   std::array<double, 2> direction{1.0, 0.0};  ///< normalised by the reader
   double stiffness = 0.0, damping = 0.0;
   SourcePlace place = {};
   double rotation_stiffness = 0.0, rotation_damping = 0.0;  ///< moment per rad, and per rad per time
-  double preload = 0.0;                                     ///< force where nothing has moved
-  std::optional<double> hot_load = {};                      ///< of a spring hanger, as it was designed
+  double preload = 0.0;                                     ///< force in the undeformed structure
+  std::optional<double> hot_load = {};                      ///< designed hot load of a spring hanger
 };
 
 struct Support {
   std::string node = {};
   bool ux = false, uy = false, rz = false;
   SourcePlace place = {};
-  /// What the one held degree of freedom follows; absent: it rests.
+  /// Prescribed motion of the single fixed degree of freedom; absent: it rests.
   std::optional<HistorySpec> motion = {};
-  bool motion_is_acceleration = false;  ///< its second derivative, from rest at zero
-  std::string key = "supports";         ///< in messages, "supports.3": a table may hold many nodes
+  bool motion_is_acceleration = false;  ///< `motion` is its second derivative, starting from rest at zero
+  std::string key = "supports";         ///< key for messages, "supports.3"; one table may hold many nodes
 };
 
 /// Coefficients of friction, of a scene and of its contacts.
 struct Friction {
   double static_ = 0.0;  ///< |T| <= static |N| in stick
   double kinetic =
-      0.0;  ///< |T| = kinetic |N| in slip; where friction rises: of fast slip, no less than static_
+      0.0;  ///< |T| = kinetic |N| in slip; for rising friction: the limit for fast slip, at least static_
   /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) while slipping
   std::optional<double> stribeck_velocity = {};
   /// f = fast - (fast - slow) exp(-|p'| / velocity) while slipping; static_ is slow, kinetic is fast
@@ -362,19 +368,19 @@ struct Friction {
   std::optional<double> force = {};
 
   [[nodiscard]] bool any() const { return static_ > 0.0; }
-  /// It grows with the slip rate, from static_ on: no jump where slip begins.
+  /// True if friction grows with the slip rate, starting at static_: no jump at the start of slip.
   [[nodiscard]] bool rises() const { return velocity.has_value(); }
-  /// It depends on the slip rate: what slips is not linear.
+  /// True if friction depends on the slip rate: slip is nonlinear.
   [[nodiscard]] bool varies() const { return stribeck_velocity || velocity; }
-  /// It depends on the normal force.
+  /// True if the coefficient depends on the normal force.
   [[nodiscard]] bool by_force() const { return force.has_value(); }
-  /// Where slip begins it drops.
+  /// True if friction drops at the start of slip.
   [[nodiscard]] bool drops() const { return static_ > kinetic && !varies() && !by_force(); }
-  /// Of the exponential; where friction varies.
+  /// Velocity constant of the exponential; only where friction varies.
   [[nodiscard]] double rate_of_change() const { return velocity ? *velocity : stribeck_velocity.value(); }
 };
 
-/// A constant of friction beside the two coefficients: its key below `friction`, and its unit.
+/// Key, below `friction`, and unit of a constant beside the two coefficients.
 struct FrictionConstant {
   std::string_view key;
   std::optional<double> Friction::*value;
@@ -385,8 +391,8 @@ inline constexpr std::array friction_constants = {
     FrictionConstant{"velocity", &Friction::velocity, {0, 1, -1}},
     FrictionConstant{"force", &Friction::force, {1, 0, 0}}};
 
-/// A surface of this radius under a force that varies: |N| ut / radius drives the body back, of which
-/// carried ut / radius stands in K (contact/bowl.hpp).
+/// A curved surface of this radius under a varying force: |N| ut / radius drives the body back; its constant part
+/// carried ut / radius is in K (contact/bowl.hpp).
 struct Bowl {
   double radius = 0.0, carried = 0.0;
 };
@@ -406,12 +412,13 @@ struct ContactSpec {
   HistorySpec surface_velocity = HistorySpec::zero();  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
   double restitution = 0.0;                     ///< rigid: Newton's coefficient, 0 to 1
-  std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds rest; absent: from the tolerances
+  std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds come to rest; absent: from the
+                                                ///< tolerances
   SourcePlace place = {};
-  std::optional<Bowl> bowl = {};  ///< of a pendulum; `carried` stands among the springs
-  std::string table = {};         ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
+  std::optional<Bowl> bowl = {};  ///< surface of a pendulum; `carried` is part of the springs
+  std::string table = {};         ///< its table, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
-  /// Rows, guards and transitions in place of those of `compliant`: of law = "yielding", or made in code.
+  /// User law in place of the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
   std::shared_ptr<const OwnLaw> own = {};
 
   /// Of the law that is named; a law made of data stands in place of a compliant one.
@@ -430,7 +437,7 @@ struct ContactSpec {
 
 /// Ground acceleration along a direction; displacements are relative to the base. The load is -M r a(t).
 struct BaseMotionSpec {
-  Direction direction;  ///< r: of all nodes alike (its node is empty), or by degree of freedom
+  Direction direction;  ///< r: the same for all nodes (its node is empty), or by degree of freedom
   HistorySpec acceleration;
   SourcePlace place;
 };
@@ -443,15 +450,16 @@ struct LoadSpec {
   double amplitude = 0.0;
   HistorySpec history = {};
   SourcePlace place = {};
-  std::string name = {};  ///< in results and stages; empty: "load 1", by its number
+  std::string name = {};  ///< name in results and stages; empty: "load 1", by its number
   LoadType type = LoadType::force;
-  std::vector<std::string> pieces = {};  ///< distributed: nodes; from each to the next a piece of a member
-  bool member_axes = false;              ///< distributed: direction is (along, to the left) of the piece
+  std::vector<std::string> pieces = {};  ///< distributed: nodes; consecutive ones span a piece of a member
+  bool member_axes = false;              ///< distributed: direction has the axes of the piece (along, to the
+                                         ///< left)
   std::string group = {};                ///< traction: "BODY.GROUP"
   bool pressure = false;  ///< traction: against the outward normal instead of along a direction
 };
 
-/// What an [[output]] is; a row of all_output_kinds each.
+/// Kind of an [[output]]; each has a row in all_output_kinds.
 enum class OutputKind : unsigned char {
   displacement,
   velocity,
@@ -465,13 +473,13 @@ enum class OutputKind : unsigned char {
   contact,
   combination
 };
-/// Of a member N, V, M, stress; of a body xx, yy, xy; of a contact the others, and N.
+/// Members: N, V, M, stress; bodies: xx, yy, xy; contacts: the others, and N.
 enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress, xx, yy, xy };
-/// A component of the stress at a node of a body.
+/// True for a component of the stress at a node of a body.
 [[nodiscard]] constexpr bool is_of_body(OutputQuantity q) {
   return q == OutputQuantity::xx || q == OutputQuantity::yy || q == OutputQuantity::xy;
 }
-/// Of a section: where y is greatest to the left of the course from node to node, to the right, or both.
+/// Extreme fibre of a section: left or right as seen along the course from node to node, or both.
 enum class Fibre : unsigned char { both, left, right };
 
 struct OutputKindName {
@@ -501,30 +509,30 @@ inline constexpr std::array all_output_kinds = {
     OutputKindName{OutputKind::combination, "combination", "sum of other outputs times factors"},
 };
 
-/// A part of a combination.
+/// A term of a combination.
 struct OutputTerm {
-  std::string name;  ///< of an output that stands before it
+  std::string name;  ///< name of an earlier output
   double factor = 1.0;
-  Unit unit = {};  ///< of the factor
+  Unit unit = {};  ///< unit of the factor
 };
 
 /// A response quantity: a column of response.csv.
 struct OutputSpec {
   std::string name;
   OutputKind kind = OutputKind::displacement;
-  std::vector<std::string> at;  ///< nodes, or a contact; envelope: from each node to the next a piece
+  std::vector<std::string> at;  ///< nodes, or a contact; envelope: consecutive nodes span a piece
   Direction direction;    ///< unit vector, or degrees of freedom as given; stress of a body: the axis x of xx
   bool rotation = false;  ///< instead of a direction
   OutputQuantity quantity = OutputQuantity::none;
-  double station = 0.0;           ///< member_force, stress: from at[0], 0, to at[1], 1
+  double station = 0.0;           ///< member_force, stress: 0 at at[0], 1 at at[1]
   std::size_t spring = 0;         ///< index into Scene::springs
   std::vector<OutputTerm> terms;  ///< combination
   SourcePlace place;
-  Fibre fibre = Fibre::both;                   ///< of stresses
-  std::optional<double> intensification = {};  ///< of stresses of bending; absent: that of the bend, or 1
+  Fibre fibre = Fibre::both;                   ///< fibre of stresses
+  std::optional<double> intensification = {};  ///< factor of bending stresses; absent: that of the bend, or 1
 };
 
-/// Triplets (row, column, value), symmetric ones written out in full.
+/// Triplets (row, column, value); symmetric matrices are stored in full.
 struct MatrixSpec {
   int size = 0;
   struct Entry {
@@ -552,9 +560,9 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<Member> members;
   std::vector<BodySpec> bodies;
-  std::vector<SurfaceSpec> surfaces;       ///< with matrices
-  std::vector<SurfaceNode> surface_nodes;  ///< of all of them, each once
-  std::vector<SeamSpec> seams;             ///< but for tied ones
+  std::vector<SurfaceSpec> surfaces;       ///< only with matrices
+  std::vector<SurfaceNode> surface_nodes;  ///< nodes of all surfaces, each once
+  std::vector<SeamSpec> seams;             ///< without tied seams
   std::vector<TieSpec> ties;
   std::vector<PointMass> masses;
   std::vector<RigidBody> rigid;
@@ -572,13 +580,13 @@ struct Scene {
 /// One `--set path=value`.
 struct Override {
   std::string path, value;
-  std::string told = {};  ///< what messages call it, as the user said it; empty: --set path=value
+  std::string told = {};  ///< text of the override in messages, as the user typed it; empty: --set path=value
 };
 
 /// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError,
 /// UsageError for a wrong override.
 [[nodiscard]] Scene read_scene(const std::string& path, const std::vector<Override>& overrides = {});
-/// The same from text; `file` is used in messages and to find matrix files beside it.
+/// Same for a scene in memory; `file` is used in messages and to find matrix files beside it.
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& file,
                                 const std::vector<Override>& overrides = {});
 

@@ -1,20 +1,20 @@
-// sensitivity.hpp: how events, peaks and columns of a run move with keys of its scene.
+// sensitivity.hpp: derivatives of events, peaks and columns of a run by keys of its scene.
 //
 //   M u'' + C u' + K u + sum ( n N + t T ) = P,  rows of the mode           the motion
 //   M w'' + C w' + K w + sum ( n N_p + t T_p )
 //     = P_p - M_p u'' - C_p u' - K_p u - sum ( n_p N + t_p T )              w = du/dp, the tangent motion
-//   dt/dp = - (G_p + grad G . w) / G'                                       an event where the guard G falls
+//   dt/dp = - (G_p + grad G . w) / G'                                       an event at which the guard G reaches zero
 //   w+ = w- + (u'- - u'+) dt/dp,   w'+ = w'- + (u''- - u''+) dt/dp          across it
 //
-// _p: derivatives by p of what is given, at fixed time; grad G . w stands for all that G is made of. Where
-// rigid contacts are hit, w' follows from the derivative of the impact's equations. The run is that of the
-// scene's engine and flow; between its events w is computed to rounding, in modes or along series.
+// _p: derivatives by p of given data, at fixed time; grad G . w includes all arguments of G. At impacts of rigid
+// contacts w' follows from the derivative of the impact's equations. The run uses the scene's engine and flow; between
+// events w is computed to rounding, in modes or along series.
 //
 //   Sensitivities s = sensitivities(reader_of("models/pipeline.toml"), {"contacts.*.friction"});
 //   s.event_rates[0][0].t                       dt/dp of the first event, in the scene's units
 //
-// Units: of the quantity over that of the key. NaN: there is no such derivative, or none is known;
-// Parameter::until and `reason` say from when on and why.
+// Units: unit of the quantity over that of the key. NaN: the derivative does not exist or is unknown; Parameter::until
+// and `reason` give the time and the reason.
 #pragma once
 
 #include <functional>
@@ -26,25 +26,25 @@
 
 namespace signorini {
 
-/// The scene with some of its keys changed.
+/// Reads the scene with some of its keys changed.
 using SceneReader = std::function<Scene(const std::vector<Override>& changes)>;
-/// Reads the file once, at this call; later changes to it have no effect. `always` is changed in any case, first. Errors:
-/// FileError; SceneError where the file is larger than 64 MB.
+/// Reads the file once, at this call; later changes to it have no effect. The overrides `always` are applied first, at
+/// every call. Errors: FileError; SceneError if the file is larger than 64 MB.
 [[nodiscard]] SceneReader reader_of(std::string path, std::vector<Override> always = {});
 
 /// A key that is varied, as `--set` takes it; "contacts.*.friction" is one parameter.
 struct Parameter {
   std::string path;
   double value = 0.0;
-  double step = 0.0;  ///< of the differences of the model's data, in the key's unit
-  /// Whether the key may have this value: an inertia is never negative.
+  double step = 0.0;  ///< step of the differences of the model's data, in the key's unit
+  /// True if the key may have this value: an inertia, for example, is never negative.
   std::function<bool(double)> may_be = [](double) { return true; };
-  /// Derivatives are known before this time, and why not after it; infinity: to the end.
+  /// Derivatives are known before this time; `reason` says why not later. Infinity: to the end.
   double until = std::numeric_limits<double>::infinity();
   std::string reason;
 };
 
-/// Derivatives of a row of events.csv by one parameter. Those of states: of what the row holds, at the event.
+/// Derivatives of a row of events.csv by one parameter: of its time, and of its state columns at the event.
 struct EventRates {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double t = none;
@@ -73,42 +73,43 @@ inline constexpr std::array event_rate_columns = {
     EventRateColumn{"dimpulse_t_dp", "impulse_t", &EventRates::impulse_t},
 };
 
-/// A figure of a contact: its peak and when, or what is left at the end; with losses also of the whole run.
+/// A scalar result of a contact: its peak and time, or its residual value at the end; with losses also results of the
+/// run.
 struct Response {
-  /// "peak N", "peak T", "peak normal", "peak tangential", "rest tangential", "rest slip", "lost by friction"; of
-  /// the run: "lost by damping", "lost by impacts", "work of loads", "work of surfaces", "lost by friction"
+  /// "peak N", "peak T", "peak normal", "peak tangential", "rest tangential", "rest slip", "lost by friction"; for the
+  /// run: "lost by damping", "lost by impacts", "work of loads", "work of surfaces", "lost by friction"
   std::string name;
   int contact = -1;  ///< -1: the run
   double value = 0.0, t = 0.0;
-  std::vector<double> rates, t_rates;  ///< one a parameter; t_rates: of a peak's time
+  std::vector<double> rates, t_rates;  ///< one per parameter; t_rates: of a peak's time
 };
 
-/// Derivatives of a stay of a contact on its ground, by one parameter.
+/// Derivatives of a contact phase by one parameter.
 struct LandingRates {
   double start = 0.0, end = 0.0, impulse = 0.0, peak_force = 0.0;
 };
 struct MovingLanding {
   int contact = -1;
   Landing value;
-  std::vector<LandingRates> rates;  ///< one a parameter
+  std::vector<LandingRates> rates;  ///< one per parameter
 };
 
-/// What more is wanted than the motion.
+/// Options beyond the derivatives of the motion.
 struct SensitivityOptions {
-  /// Works, losses, energies at output times and landings. Every stretch is then followed along series, which
-  /// costs about a run in series for each parameter.
+  /// Works, losses, energies at output times and landings. Every stretch then is followed along series; the cost is
+  /// about one run in series for each parameter.
   bool losses = false;
-  /// Of engine `newmark`: derivatives of what it computes, steps and all, not of the motion. Events, peaks at
-  /// them and columns; no peaks between events. Not with losses.
+  /// For engine `newmark`: derivatives of the discrete solution, steps included, not of the exact motion. Events, peaks
+  /// at events, and columns; no peaks between events. Not with losses.
   bool discrete = false;
 };
 
-/// How many stretches between two events were followed in modes, and along series; those whose engine makes no
-/// series (`ida`, `newmark`) once more, by a motion of their own that takes from the engine which guards fell.
+/// Number of stretches between two events, followed in modes and along series. For engines without series (`ida`,
+/// `newmark`) the stretches are recomputed by a separate motion that takes the sequence of guards from the engine.
 struct Stretches {
   long modes = 0, series = 0, followed = 0;
-  long taken = 0;           ///< instants at which it went on from the engine's own state
-  double correction = 0.0;  ///< greatest difference of an event's time from the engine's
+  long taken = 0;           ///< instants at which it restarted from the engine's state
+  double correction = 0.0;  ///< largest difference of an event's time from the engine's
 };
 
 struct Sensitivities {
@@ -117,7 +118,8 @@ struct Sensitivities {
   std::vector<Event> events;
   std::vector<std::vector<EventRates>> event_rates;  ///< [event][parameter]
   std::vector<std::string>
-      columns;                ///< of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap"; with losses
+      columns;                ///< columns of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap"; with
+                              ///< losses
                               ///< "energy.kinetic" and so on, as in energy.csv
   std::vector<double> times;  ///< the grid
   std::vector<std::vector<double>> values;                    ///< [time][column]
@@ -130,20 +132,20 @@ struct Sensitivities {
   Report report;
 };
 
-/// Where, to first order, the sequence changes: two neighbours swap or, of one contact, both vanish.
+/// A first-order estimate of a change of the sequence: two neighbours swap or, if on one contact, both vanish.
 struct Swap {
   std::size_t parameter = 0, first = 0, second = 0;  ///< indices of events, times ascending
-  double change = 0.0;                               ///< of the parameter at which their times meet
-  bool vanish = false;                               ///< they are of one contact
+  double change = 0.0;                               ///< change of the parameter at which their times meet
+  bool vanish = false;                               ///< both are on one contact
 };
 
-/// The least change of each parameter upwards, and downwards, at which two neighbours meet. None where no two do, or where
-/// the key may not have that value.
+/// The smallest change of each parameter, upwards and downwards, at which two neighbours meet. No entry if no two meet
+/// or if the key cannot have that value.
 [[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
 
-/// `recorder`: receives the run's own rows, and may not steer. Errors: SceneError, UsageError for a key that is no number, for
-/// one of which the model does not depend smoothly, for options that do not go together, and what the engine
-/// refuses.
+/// `recorder`: receives the run's rows, and may not steer. Errors: SceneError; UsageError for a key that is not a
+/// number or on which the model does not depend smoothly, for options that exclude each other, and for scenes that the
+/// engine refuses.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                                           Recorder* recorder = nullptr,
                                           const SensitivityOptions& options = {});

@@ -34,19 +34,19 @@
 
 namespace signorini {
 
-/// Runs to settings.t_end; rows go to the recorder as they come. Never throws for a run that cannot go
-/// on: the Report's Outcome says when, where and why. Errors: SceneError for what an engine refuses.
+/// Runs to settings.t_end; the recorder receives rows during the run. A run that cannot continue does not throw: the
+/// Report's Outcome has time, place and reason. Errors: SceneError for scenes that the engine refuses.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder);
 
-/// The same, kept in memory.
+/// Same as above; rows are kept in memory.
 [[nodiscard]] Result simulate(const Model& model, const RunSpec& settings);
 
-/// A scene as its own settings say. Errors: those of build_model(), too.
+/// Simulates a scene with its own settings. Errors: also those of build_model().
 Report simulate(const Scene& scene, Recorder& recorder);
 [[nodiscard]] Result simulate(const Scene& scene);
 
-/// Where a run stands at its last row, for Scene::initial.saved: displacements, velocities, shears of contacts,
-/// and states and memories of laws of one's own. Errors: std::invalid_argument without a row.
+/// State of a run at its last row, for Scene::initial.saved: displacements, velocities, shears of contacts, and states
+/// and memories of user laws. Errors: std::invalid_argument without a row.
 [[nodiscard]] SavedState last_state(const Model& model, const Result& result);
 
 }  // namespace signorini

@@ -1,11 +1,11 @@
-// smooth.hpp: a function of one's own with its derivatives, from one that is written for any kind of number.
+// smooth.hpp: a user-defined function with its derivatives, from code that is generic in the number type.
 //
 //   Function f = smooth([](auto t) { return 3.0 * exp(-t) * sin(t * t); });      f(t, k) = d^k f / dt^k
 //
 // Arithmetic of Taylor series: x_k = x^(k)(t) / k!, exact but for rounding.
 //   (x y)_k = sum_j x_j y_(k-j),   y = exp x: k y_k = sum_j j x_j y_(k-j),   y = log x: x y' = x'
 //   s = sin x, c = cos x: s' = c x', c' = -s x',   y = x^p: x y' = p y x'
-// Known: + - * /, exp, log, sin, cos, sqrt, pow(x, number). Orders up to 11.
+// Supported: + - * /, exp, log, sin, cos, sqrt, pow(x, number). Orders up to 11.
 // Source: Griewank & Walther, Evaluating Derivatives, 2nd ed., table 13.2.
 #pragma once
 
@@ -106,7 +106,7 @@ class TaylorNumber {
   std::array<double, count> c_{};
 };
 
-/// Orders beyond the last known one are 0.
+/// Orders above the highest known one are 0.
 template <class F>
 [[nodiscard]] Function smooth(F f) {
   return [f](double t, int order) -> double {

@@ -1,8 +1,8 @@
-// trace.hpp: how a decision came about, round by round, and why one could not be made.
+// trace.hpp: the rounds of a decision of contact states, and the reason of a failed one.
 //
-//   a round: a mode is tried at an instant; it holds if none of its guards fails just after
+//   a round: a mode is tried at an instant; it holds if no guard becomes negative just after
 //
-// A guard fails where its first derivative that is not zero to working precision is negative.
+// A guard fails if its first derivative that is not zero to working precision is negative.
 #pragma once
 
 #include <functional>
@@ -23,44 +23,44 @@ class Recorder;
 struct NamedGuard {
   std::size_t contact = 0;
   std::string guard;
-  int order = 0;        ///< of the derivative that is negative; 0: the value itself
-  double excess = 1.0;  ///< that derivative over what counts as zero
+  int order = 0;        ///< order of the negative derivative; 0: the value itself
+  double excess = 1.0;  ///< ratio of that derivative to its zero tolerance
 };
 
 /// One mode tried at one instant.
 struct Round {
   double t = 0.0;
-  int number = 0;                     ///< from 0: the states just before, in the forcing just after
-  std::vector<NamedGuard> fired;      ///< what the engine found at zero
+  int number = 0;                     ///< 0: the states just before, with the forcing just after
+  std::vector<NamedGuard> fired;      ///< guards that the engine found at zero
   std::vector<std::size_t> touching;  ///< rigid contacts with g = 0 that were decided together
   bool impact = false;                ///< velocities jumped before the mode was tried
-  std::vector<ContactState> tried;    ///< one a contact
-  std::vector<NamedGuard> failed;     ///< none: the mode holds
+  std::vector<ContactState> tried;    ///< one per contact
+  std::vector<NamedGuard> failed;     ///< empty: the mode holds
 };
 
 using RoundListener = std::function<void(const Round&)>;
 
-/// signorini/simulate.hpp, and the listener hears of every mode that is tried.
+/// simulate() of signorini/simulate.hpp with a listener that is called for every tried mode.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               const RoundListener& listener);
 
-/// Why no mode was found, or none that is the only one; or why finding them does not get on.
+/// Reason why no mode, or no unique mode, was found, or why the search does not progress.
 struct Refusal {
   enum class Kind : unsigned char {
     none,       ///< there is no refusal
-    dependent,  ///< rows of contacts that stick are linearly dependent: forces are not unique
-    singular,   ///< the equations of motion without rigid contacts are
-    paradox,    ///< Painleve: no motion continues this one
-    ambiguous,  ///< Painleve: several motions that differ do
+    dependent,  ///< rows of sticking contacts are linearly dependent: forces are not unique
+    singular,   ///< the equations of motion without rigid contacts are singular
+    paradox,    ///< Painleve paradox: the motion has no continuation
+    ambiguous,  ///< Painleve paradox: the motion has several different continuations
     impact,     ///< an impact has no solution
     endless,    ///< rounds do not end, or no combination of states is consistent
-    standstill  ///< every instant has its states, but instant follows instant in no time
+    standstill  ///< every instant has its states, but instants follow each other without progress in time
   } kind = Kind::none;
   std::string reason;                 ///< one sentence
-  std::vector<std::size_t> contacts;  ///< concerned
-  /// Of W in units that make its diagonal one. NaN: unknown.
+  std::vector<std::size_t> contacts;  ///< contacts concerned
+  /// Condition number of W, scaled to a unit diagonal. NaN: unknown.
   double condition = std::numeric_limits<double>::quiet_NaN();
-  /// By how many of its roundings the best combination of states fails. NaN: unknown.
+  /// Violation of the best combination of states, in units of its rounding error. NaN: unknown.
   double residual = std::numeric_limits<double>::quiet_NaN();
 
   explicit operator bool() const { return kind != Kind::none; }

@@ -1,4 +1,4 @@
-// components.hpp: what moves at a node, and how it is called.
+// components.hpp: names of the motion components of a node.
 //
 //   0  ux, vx    1  uy, vy    2  rz, wz (a rotation)      degrees of freedom of [matrices]: u, v
 //
@@ -22,7 +22,7 @@ struct PlaneComponent {
 inline constexpr std::array plane_components = {
     PlaneComponent{"ux", "vx", false}, PlaneComponent{"uy", "vy", false}, PlaneComponent{"rz", "wz", true}};
 
-/// What one of these names stands for: index into plane_components, and whether its rate.
+/// Meaning of a component's name: index into plane_components, and whether it is the rate.
 struct NamedComponent {
   std::size_t index = 0;
   bool rate = false;
@@ -33,12 +33,12 @@ struct NamedComponent {
   }
 };
 
-/// What is behind the last dot of a name.
+/// Part of a name behind its last dot.
 [[nodiscard]] constexpr std::string_view last_part(std::string_view name) {
   return name.substr(name.rfind('.') + 1);
 }
 
-/// Of "ux" or "A.ux"; none of other names.
+/// Component named "ux" or "A.ux"; nullopt for other names.
 [[nodiscard]] constexpr std::optional<NamedComponent> component_named(std::string_view name) {
   for (std::size_t i = 0; i < plane_components.size(); ++i)
     for (const NamedComponent named : {NamedComponent{i, false}, NamedComponent{i, true}})
@@ -52,13 +52,14 @@ struct NamedMotion {
   [[nodiscard]] constexpr Unit unit() const { return {0, rotation ? 0 : 1, rate ? -1 : 0}; }
 };
 
-/// Of a motion by its name; what is no component of a node is a length, or its rate: "d0.u", "d0.v", "first.slip".
+/// Unit of a motion by its name; a name that is not a component of a node has the unit of length, or of its rate:
+/// "d0.u", "d0.v", "first.slip".
 [[nodiscard]] constexpr NamedMotion motion_named(std::string_view name) {
   if (const auto named = component_named(name)) return {named->component().rotation, named->rate};
   return {false, last_part(name) == "v"};
 }
 
-/// Among columns of tables: "A.ux", "d0.u".
+/// True for displacement columns of tables: "A.ux", "d0.u".
 [[nodiscard]] constexpr bool is_displacement(std::string_view column) {
   const auto named = component_named(column);
   return named ? !named->rate : column.ends_with(".u");

@@ -30,7 +30,7 @@ std::vector<std::string> words_of(std::string line) {
   return words;
 }
 
-/// Nothing between two separators, or before the first: blanks alone do not part cells.
+/// True if a cell is empty: two separators in a row, or a leading one; blanks alone do not separate cells.
 bool has_empty_cell(const std::string& line) {
   bool empty = true;
   for (const char c : line) {
@@ -75,7 +75,7 @@ std::string unit_in(const std::string& line) {
   return unit.empty() ? mark : unit;
 }
 
-/// m/s^2; nothing for what is no acceleration.
+/// The unit in m/s^2; nullopt if it is not an acceleration.
 std::optional<double> acceleration_unit(const std::string& unit) {
   static const std::map<std::string, double> known{
       {"G", standard_gravity}, {"CM/S/S", 0.01}, {"GAL", 0.01}, {"MM/S/S", 0.001}, {"M/S/S", 1.0}};
@@ -83,7 +83,7 @@ std::optional<double> acceleration_unit(const std::string& unit) {
   return found == known.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// Line after line of one file of numbers.
+/// Reads a file of numbers line by line.
 class TableReader {
  public:
   TableReader(std::istream& in, const std::string& file, const std::string& key, const TableLayout& layout)
@@ -124,11 +124,12 @@ class TableReader {
     throw SceneError({file_, number_, 0}, key_, message);
   }
 
-  /// The next line that is not blank.
+  /// Advances to the next line that is not blank.
   bool next() {
     while (read_line(in_, line_)) {
       ++number_;
-      if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // written by spreadsheets
+      if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // byte order mark of
+                                                                                 // spreadsheets
       if (is_binary(line_)) fail("found binary data, expected lines of time and value");
       if (line_.size() > longest_line)
         fail(fmt::format("found a line of more than {} characters", longest_line));
@@ -223,7 +224,7 @@ class TableReader {
   TimeTable table_;
   std::string line_;
   std::vector<std::string> words_;
-  int number_ = 0, last_ = 1;  // lines: this one, the last one that was not skipped
+  int number_ = 0, last_ = 1;  // line numbers: the current line, the last line that was not skipped
   std::size_t points_ = 0;
   bool heading_allowed_ = true;
 };

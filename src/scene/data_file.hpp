@@ -1,11 +1,11 @@
-// data_file.hpp: files that a scene names: matrices, and tables of time and value.
+// data_file.hpp: files that a scene refers to: matrices, and tables of time and value.
 //
 //   t,value        a first line of words is a heading
 //   0.0,1.5        two numbers a line, separated by a comma, a semicolon or blanks
 //   # ...          comments and blank lines are skipped
 //
-// Times ascend; a time that stands twice is a jump. With a column the file may have more than two. With a
-// time step all numbers are values, however many stand on a line. A file of PEER (.AT2) says its own step:
+// Times ascend; a repeated time is a jump. If a column is given, the file may have more than two columns. If a time
+// step is given, all numbers are values, in lines of any length. A PEER file (.AT2) states its own step:
 //
 //   PEER NGA STRONG MOTION DATABASE RECORD      three lines of words, one of them with the unit:
 //   ... ACCELERATION TIME SERIES IN UNITS OF G  G, CM/S/S, M/S/S, MM/S/S, GAL, with blanks, SEC, S**2, S^2
@@ -24,12 +24,12 @@
 
 namespace signorini {
 
-/// Of a line of numbers; longer ones are no such line.
+/// Longest allowed line of numbers.
 inline constexpr std::size_t longest_line = 200;
-/// The next line, at most `longest_line` + 1 bytes of it: a file without line breaks must not fill memory.
+/// Reads the next line, at most `longest_line` + 1 bytes of it: a file without line breaks must not fill memory.
 bool read_line(std::istream& in, std::string& line);
 
-/// A FileError with the place of the key.
+/// Throws a FileError with the place of the key.
 [[noreturn]] void refuse_file(const Table& table, std::string_view key, const std::filesystem::path& path,
                               const std::string& why);
 /// The same of an error that names the file.
@@ -42,17 +42,18 @@ inline constexpr double standard_gravity = 9.80665;  // m/s^2
 
 struct TimeTable {
   std::vector<double> times, values;
-  bool in_g = false;  ///< the file says that its values are multiples of the acceleration of gravity
-  std::optional<double> unit = {};  ///< else the file says that its values are multiples of so many m/s^2
+  bool in_g = false;  ///< the file states that its values are multiples of the acceleration of gravity
+  std::optional<double> unit = {};  ///< otherwise: the file states that its values are multiples of this, in
+                                    ///< m/s^2
 };
 
-/// What the file holds; 0: as it says itself.
+/// Layout of a table file; zeros: taken from the file itself.
 struct TableLayout {
-  int column = 0;          ///< of the values, from 2 on; 0: the second of two
+  int column = 0;          ///< column of the values, from 2; 0: the second of two
   double time_step = 0.0;  ///< > 0: values only
   bool peer = false;
-  bool unit_given = false;  ///< in the scene, so that a PEER file need not say it
-  double second = 1.0;      ///< in the scene's unit of time: a PEER file's step is in seconds
+  bool unit_given = false;  ///< the scene gives the unit, so that a PEER file need not state it
+  double second = 1.0;      ///< one second in the scene's unit of time: a PEER file's step is in seconds
 };
 
 /// Errors: SceneError at the line of the file; `key` stands in front of the message.

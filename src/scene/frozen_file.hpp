@@ -4,7 +4,7 @@
 //   member,A,A-B.1,-12.5,-12.25,
 //   rigid,block,,,,-98.1
 //
-// A row for each finite element and each rigid body, in the order of the model. A run that goes on takes them from here.
+// The file has one row for each finite element and each rigid body, in model order. A continued run reads them here.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace signorini {
 inline constexpr const char* frozen_file = "geometric.csv";
 [[nodiscard]] const std::vector<std::string>& frozen_heading();
 
-/// Nothing: there is no such file. Errors: SceneError at the line of the file; `key` stands in front.
+/// nullopt: the file does not exist. Errors: SceneError at the line of the file; `key` begins the message.
 [[nodiscard]] std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path,
                                                              const std::string& key);
 

@@ -53,7 +53,7 @@ std::vector<double> steffen_slopes(const double* t, const double* y, std::size_t
 void append_stretch(const double* t, const double* y, std::size_t n, bool steffen,
                     std::vector<double>& starts, std::vector<Piece>& pieces) {
   std::vector<double> d;
-  if (steffen && n >= 3) d = steffen_slopes(t, y, n);  // GSL asks for three points; two are a line
+  if (steffen && n >= 3) d = steffen_slopes(t, y, n);  // GSL needs three points; two points are a line
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double h = t[i + 1] - t[i], slope = (y[i + 1] - y[i]) / h;
     starts.push_back(t[i]);
@@ -139,7 +139,7 @@ History make_history(const HistorySpec& spec, const std::string& key) try {
   }
   if (spec.shift != 0.0) f = f.shifted(spec.shift);
   return f.scaled(spec.amplitude, spec.offset);
-} catch (const std::invalid_argument&) {  // of History: starts that rounding has merged
+} catch (const std::invalid_argument&) {  // from History: rounding has merged starts
   throw SceneError(spec.place, key,
                    "found times that are one to a double, or beyond all doubles, where the history starts, "
                    "ends, is shifted or begins anew; expected times that can be told apart");

@@ -1,8 +1,8 @@
-// history_from_spec.hpp: the histories that a scene can name, as closed-form pieces.
+// history_from_spec.hpp: the history types of a scene, as closed-form pieces.
 //
 //   f(t) = offset + amplitude * shape(t),   shape = 0 outside [start, end)
 //
-//   constant     1                          since ever when no start is given
+//   constant     1                          without `start`: at all times
 //   step         1 from start on
 //   rectangle    1 on [start, end)
 //   triangle     0 at start and end, 1 in the middle
@@ -13,8 +13,8 @@
 //                zero before the first and, without `hold`, from the last time on (start and end are not
 //                used)
 //
-// A period begins the shape anew every so long from its start (a table's first time); a shift moves all of
-// it.
+// With a period the shape restarts after each period, from its start (a table's first time); a shift delays the whole
+// history.
 //
 // Steffen: Astron. Astrophys. 239 (1990) 443-450, as implemented by GSL.
 #pragma once
@@ -28,7 +28,7 @@ namespace signorini {
 
 /// Errors: SceneError at the spec's place under `key` ("loads.1.history").
 [[nodiscard]] History make_history(const HistorySpec& spec, const std::string& key);
-/// Its integral from 0 on.
+/// The integral of the history from 0.
 [[nodiscard]] History make_integral(const HistorySpec& spec, const std::string& key);
 
 }  // namespace signorini

@@ -6,7 +6,7 @@ const Key* key_of(const std::string& path) {
   const std::size_t first = path.find('.'), last = path.rfind('.');
   if (first == std::string::npos) return nullptr;
   const std::string table = path.substr(0, first), name = path.substr(last + 1);
-  // [run], [sections.NAME], [[contacts]]: a table's own key, that of a named one, of one among several.
+  // [run], [sections.NAME], [[contacts]]: the table itself, a named table, or one of several.
   for (const std::string& kind : {table, table + ".*", table + "[]"})
     if (const Key* key = find_key(kind, name); key != nullptr && key->name == name) return key;
   // A table within a named one: sections.NAME.pipe.wall.

@@ -1,4 +1,4 @@
-// key_path.hpp: the key of the scene that a path means, and the values that it may have.
+// key_path.hpp: the key of a scene that a path refers to, and its allowed values.
 //
 //   key_of("contacts.left.normal_stiffness") == find_key("contacts[]", "normal_stiffness")
 //   range_of(*key_of("rigid.block.inertia")) == [0, infinity)
@@ -11,10 +11,10 @@
 
 namespace signorini {
 
-/// Null where the path is none of a key.
+/// Null if the path refers to no key.
 [[nodiscard]] const Key* key_of(const std::string& path);
 
-/// Numbers from `least` to `greatest`; `open`: not the least itself. In the key's unit.
+/// Numbers from `least` to `greatest`, in the key's unit; `open`: `least` itself is excluded.
 struct KeyRange {
   double least = -std::numeric_limits<double>::infinity();
   double greatest = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ struct KeyRange {
   }
 };
 
-/// By the key's type alone; what other keys ask of it is not in it.
+/// Range by the key's type alone; restrictions by other keys are not included.
 [[nodiscard]] KeyRange range_of(const Key& key);
 
 }  // namespace signorini

@@ -439,10 +439,10 @@ std::span<const Key> all_keys() {
 namespace {
 
 constexpr std::string_view of_pendulums = "pendulums[]";
-/// Keys of contacts that a pendulum has, too.
+/// Keys that a pendulum shares with contacts.
 constexpr std::array<std::string_view, 5> borrowed_by_pendulums = {
     "friction", "tangential_stiffness", "tangential_damping", "initial_shear", "normal_damping"};
-/// And a seam.
+/// Keys that a seam shares with contacts.
 constexpr std::array<std::string_view, 4> borrowed_by_seams = {"friction", "surface_velocity", "restitution",
                                                                "capture_velocity"};
 

@@ -1,8 +1,8 @@
 // keys.hpp: the one table of all keys of a scene file.
 //
 // The reader takes types and defaults from it; `signorini keys` and the scene reference print it.
-// A table is named by its path: "" (top level), "run", "sections.*" (any name), "contacts[]" (each of
-// [[contacts]]), "history" (wherever a history may stand). The key "*" stands for a name of the user's.
+// A table is identified by its path: "" (top level), "run", "sections.*" (any name), "contacts[]" (each of
+// [[contacts]]), "history" (any place that accepts a history). The key "*" stands for a user-chosen name.
 //
 //   const Key* key = find_key("contacts[]", "gap");   // key->unit == "length"
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace signorini {
 
-/// What a value may be. Numbers are finite; integers count as numbers.
+/// Type of a value. Numbers are finite; integers count as numbers.
 enum class KeyType {
   number,
   positive,
@@ -51,15 +51,15 @@ enum class KeyType {
 struct Key {
   std::string_view table, name;
   KeyType type;
-  std::string_view unit;      ///< in units of force, mass, length, time; "" without
+  std::string_view unit;      ///< in units of force, mass, length, time; "" for none
   std::string_view fallback;  ///< TOML text of the default; "required"; "" for none
-  std::string_view choices;   ///< of a choice, separated by blanks; choices_of()
+  std::string_view choices;   ///< allowed words, separated by blanks; choices_of()
   std::string_view meaning;   ///< one sentence
 };
 
 [[nodiscard]] std::span<const Key> all_keys();
 
-/// The key, or that of "*" in the same table, or null. A stop has the keys of a contact besides its own.
+/// The row of the key, or of "*" in the same table, or null. A stop has the keys of a contact in addition to its own.
 [[nodiscard]] const Key* find_key(std::string_view table, std::string_view name);
 
 /// Names of the keys of a table, in the order of the table.
@@ -68,7 +68,7 @@ struct Key {
 /// "a number > 0", "one of \"ida\", \"newmark\"".
 [[nodiscard]] std::string describe_type(const Key& key);
 
-/// The words that a choice may be.
+/// The allowed words of a choice.
 [[nodiscard]] std::vector<std::string> choices_of(const Key& key);
 
 }  // namespace signorini

@@ -13,7 +13,7 @@ namespace {
 
 const std::vector<std::string> heading = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"};
 
-/// Nothing: a cell is no number.
+/// nullopt: a cell is not a number.
 std::optional<SavedState::Left> row_of(const std::vector<std::string>& cells) {
   SavedState::Left left;
   left.contact = cells[1];

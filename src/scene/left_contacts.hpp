@@ -1,8 +1,8 @@
-// left_contacts.hpp: where a run left its contacts, by contacts.csv.
+// left_contacts.hpp: states of the contacts at the end of a run, from contacts.csv.
 //
-//   t,contact,state,gap,ut,vt,slip,N,T   and further columns, which are not read
+//   t,contact,state,gap,ut,vt,slip,N,T   further columns are ignored
 //
-// No part of what a motion goes on from: what is held against it (src/witness).
+// A continued motion does not depend on these rows; the witness compares it with them (src/witness).
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// The rows at t. Empty: there are none, or they are no rows of a run.
+/// The rows at t. Empty: there are none, or the file is not that of a run.
 [[nodiscard]] std::vector<SavedState::Left> read_left_contacts(const std::filesystem::path& path, double t);
 
 }  // namespace signorini

@@ -21,10 +21,10 @@ inline constexpr int most_dofs = 1'000'000;
 /// Sorted by row and column, duplicates added, zeros dropped.
 void tidy(MatrixSpec& matrix);
 
-/// Errors: SceneError at the line of the matrix file; `key` stands in front of the message.
+/// Errors: SceneError at the line of the matrix file; `key` begins the message.
 [[nodiscard]] MatrixSpec read_matrix_market(std::istream& in, const std::string& file,
                                             const std::string& key);
-/// A matrix of one column, in full.
+/// A matrix with one column, stored in full.
 [[nodiscard]] std::vector<double> read_market_vector(std::istream& in, const std::string& file,
                                                      const std::string& key);
 

@@ -1,4 +1,4 @@
-// mesh_lines.hpp: how bodies are drawn: edges of their elements, each once; of a large mesh its boundary alone.
+// mesh_lines.hpp: lines for drawings of bodies: edges of their elements, each once; for a large mesh only its boundary.
 #pragma once
 
 #include <array>
@@ -8,12 +8,12 @@
 
 namespace signorini {
 
-/// Edges, from which on inner ones are not drawn.
+/// Meshes with more edges are drawn without their inner edges.
 inline constexpr std::size_t most_mesh_edges = 6000;
 
 /// Pairs of nodes, indices into Scene::nodes; an edge with a node in its middle is two.
 [[nodiscard]] std::vector<std::array<int, 2>> mesh_lines(const Scene& scene);
-/// Their nodes, ascending.
+/// Nodes of these lines, ascending.
 [[nodiscard]] std::vector<int> drawn_mesh_nodes(const Scene& scene);
 
 }  // namespace signorini

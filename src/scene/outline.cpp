@@ -7,7 +7,8 @@
 namespace signorini {
 namespace {
 
-constexpr double on_the_line = 1e-9;  // of a product of lengths; chosen for a drawing: nobody sees less
+constexpr double on_the_line = 1e-9;  // relative to a product of lengths; chosen for drawings, where smaller
+                                      // deviations are invisible
 
 /// Whether c lies to the left of the way from a to b.
 bool turns_left(const Node& a, const Node& b, const Node& c) {

@@ -1,4 +1,4 @@
-// outline.hpp: how a rigid body is drawn: the convex hull of its nodes, the centre among them.
+// outline.hpp: the drawn outline of a rigid body: the convex hull of its nodes, the centre included.
 //
 //   for (const auto& [from, to] : outline_of(scene, body)) ...   // a line each; one where all lie on a line
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace signorini {
 
-/// Names of the nodes at both ends of each line, round the body.
+/// Names of the nodes at both ends of each line, in order around the body.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> outline_of(const Scene& scene,
                                                                           const RigidBody& body);
 

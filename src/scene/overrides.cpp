@@ -19,19 +19,19 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t most_parts = 16;  // no key of a scene lies nearly as deep
+constexpr std::size_t most_parts = 16;  // much deeper than any key of a scene
 
-/// Two ways to say the same.
+/// Pairs of keys that exclude each other.
 constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
                                                                 {"alpha", "alpha_over_omega1"},
                                                                 {"omega", "frequency"},
                                                                 {"gap", "gaps"},
                                                                 {"cutoff_omega", "cutoff_frequency"}};
-/// What stands in place of another.
+/// Keys that replace another key.
 constexpr std::pair<const char*, const char*> instead[] = {{"tolerance", "cutoff_omega"},
                                                            {"tolerance", "cutoff_frequency"}};
 
-/// The tables of an array that a part of a path chooses; `names`: those that have one.
+/// The tables of an array that one part of a path selects; `names`: tables with a name.
 std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& array,
                                    std::vector<std::string>& names) {
   std::vector<std::size_t> chosen;
@@ -51,8 +51,8 @@ std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& 
 
 const std::string all_contacts = "contacts.*.";
 
-/// Whether this stop can have what `key`, a key of contacts, says: it is no slider and has its own direction; it has
-/// friction with a tangential stiffness or where it is rigid, and none of [matrices].
+/// True if this stop can have `key`, a key of contacts: the stop is not a slider and has its own direction; it has
+/// friction if it has a tangential stiffness or is rigid; no keys of [matrices].
 bool can_have(const toml::table& root, const toml::table& stop, const std::string& key) {
   const std::string name = key.substr(0, key.find('.'));
   if (find_key("stops[]", name) == nullptr || name == "normal_force") return false;
@@ -100,20 +100,20 @@ class Change {
     throw UsageError(text_of(given_) + ": " + message);
   }
 
-  /// The value where it is wanted, each time anew: a copied node forgets its place.
+  /// Puts a fresh value at its place on each call, because a copied toml++ node loses its source place.
   template <typename Put>
   void give(const Put& put) {
     toml::table source = ready_ ? *std::exchange(ready_, std::nullopt) : parsed();
     put(std::move(*source.get("value")));
   }
 
-  /// The parser takes no other word without quotes.
+  /// True for words that TOML accepts without quotes.
   static bool is_toml_word(std::string_view value) {
     constexpr std::string_view words[] = {"true", "false", "inf", "nan"};
     return std::find(std::begin(words), std::end(words), value) != std::end(words);
   }
 
-  /// `value = VALUE`
+  /// Parses `value = VALUE`.
   toml::table parsed() const {
     const std::string file = override_mark + text_of(given_);
     const auto parse = [&](const std::string& value) {
@@ -143,7 +143,7 @@ class Change {
   void into_table(toml::table& table, Segments rest) {
     const toml::key key(rest[0], place_);
     if (rest.size() == 1) {
-      const auto erase_other = [&](const auto& pairs) {  // it would contradict
+      const auto erase_other = [&](const auto& pairs) {  // keeping the other key would be a contradiction
         for (const auto& [a, b] : pairs) {
           if (rest[0] == a) table.erase(b);
           if (rest[0] == b) table.erase(a);
@@ -172,7 +172,7 @@ class Change {
     return table.insert_or_assign("friction", std::move(*both.get("value"))).first->second;
   }
 
-  /// node is what rest[0] names; rest[1] and the following lie inside of it.
+  /// Puts the value into `node`, which rest[0] names; rest[1] and later parts are inside of it.
   void into(toml::node& node, Segments rest) {
     const std::string done = change_.path.substr(0, offset_of(rest.subspan(1)) - 1);
     if (auto* table = node.as_table()) {
@@ -214,7 +214,7 @@ class Change {
   }
 
   const Override& change_;
-  const Override& given_;  // what messages name
+  const Override& given_;  // named in messages
   std::vector<std::string> segments_;
   std::optional<toml::table> ready_;
   toml::source_region place_;

@@ -15,7 +15,7 @@ void visit_optional(std::optional<double>& x, const Unit& of, const Visit& visit
   if (x) visit(*x, of);
 }
 
-/// What is outside the shape has the unit of f; a load has it in its own amplitude.
+/// Numbers outside the shape have the unit of f; a load has them in its own amplitude.
 void visit_history(HistorySpec& f, const Unit& of, const Visit& visit) {
   visit(f.offset, of);
   visit(f.amplitude, of);
@@ -100,7 +100,7 @@ void visit_structure(Scene& scene, const Visit& visit) {
     visit(s.preload, force);
     visit_optional(s.hot_load, force, visit);
   }
-  for (Member& m : scene.members) {  // temperatures have a unit of their own
+  for (Member& m : scene.members) {  // the unit of temperature is independent of the scene's units
     visit_history(m.temperature, plain, visit);
     visit_history(m.initial_strain, plain, visit);
     if (m.bend) visit(m.bend->radius, length);
@@ -151,7 +151,7 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   if (c.own) c.own = visited(*c.own, visit);
 }
 
-/// Of a load's amplitude: force times length to this power.
+/// Exponent of length in a load's amplitude: force times length to this power.
 int lengths_of(LoadType type) {
   switch (type) {
     case LoadType::force:
@@ -166,7 +166,7 @@ int lengths_of(LoadType type) {
   return -2;
 }
 
-/// x^n of a power of two is one, so products stay exact.
+/// x^n; a power of two for x a power of two, so products stay exact.
 double raised(double x, int n) {
   double result = 1.0;
   for (int i = 0; i < n; ++i) result *= x;

@@ -4,8 +4,7 @@
 //
 //   Scene in_millimetres = rescaled(scene, {1.0, 1000.0, 1.0});   // the same motion, lengths times 1000
 //
-// Displacements of [matrices] have units of their own, which nobody knows: a factor for lengths must be 1
-// there.
+// Displacements in scenes of [matrices] have unknown units; there the factor for lengths must be 1.
 #pragma once
 
 #include <functional>
@@ -20,12 +19,11 @@ namespace signorini {
 /// 1 / factors; exact for powers of two.
 [[nodiscard]] Factors inverse(const Factors& factors);
 
-/// Calls `visit` with all numbers that describe the motion, in an order that depends on the scene's structure
-/// alone. Coefficients of friction and restitution, unit vectors, tolerances without a unit, relaxation and
-/// counts are left out.
+/// Calls `visit` for all numbers that describe the motion, in an order that depends on the scene's structure alone. Not
+/// visited: coefficients of friction and restitution, unit vectors, tolerances without a unit, relaxation and counts.
 void visit_quantities(Scene& scene, const std::function<void(double&, const Unit&)>& visit);
 
-/// The same of a history whose values have the unit `of`.
+/// Same for a history whose values have the unit `of`.
 void visit_numbers(History& history, const Unit& of, const std::function<void(double&, const Unit&)>& visit);
 
 /// All quantities times the factors of their units; `resolved` stays as it is. Exact where the factors are

@@ -75,7 +75,7 @@ PlaneMesh read_ring(Table& table) {
 }
 
 PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
-  const toml::node* name = table.raw("mesh");  // recorded below, from anywhere
+  const toml::node* name = table.raw("mesh");  // recorded below, since it may be a path from any directory
   if (!name->is_string()) table.wrong("mesh", "the name of a file");
   const std::filesystem::path path = directory_of(scene) / name->value_or(std::string());
   std::ifstream in = open_data_file(table, "mesh", path);
@@ -92,7 +92,7 @@ PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
   return mesh;
 }
 
-/// One of the three that says where the elements are.
+/// Reads one of the three keys that define the elements.
 PlaneMesh read_mesh(Table& table, const Scene& scene) {
   const char* found = nullptr;
   for (const char* key : {"mesh", "rectangle", "ring"}) {
@@ -141,7 +141,7 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
                           scene.nodes.begin() + static_cast<std::ptrdiff_t>(end),
                           [&](const Node& a, const Node& b) { return distance(a) < distance(b); });
     constexpr double digits =
-        1e-6;  // of the body's size: places in a scene are written with six digits or more
+        1e-6;  // relative to the body's size: places in a scene are written with six digits or more
     if (distance(nearest) > digits * size)
       points.fail(entry.name, fmt::format("no node is at this place, the nearest is {} at [{:.9g}, {:.9g}]: "
                                           "expected the place of a node",
@@ -157,7 +157,7 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
   table.record("points", points.record().inline_table());
 }
 
-/// The mesh's nodes become nodes of the scene.
+/// Turns the mesh's nodes into nodes of the scene.
 void take_mesh(PlaneMesh mesh, BodySpec& body, Scene& scene) {
   body.first_node = scene.nodes.size();
   body.node_count = mesh.nodes.size();

@@ -1,4 +1,4 @@
-// [[contacts]]: what each law needs, and what has no meaning for it.
+// [[contacts]]: required and refused keys of each law.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -18,13 +18,13 @@ namespace signorini {
 
 namespace {
 
-/// Friction that goes from one coefficient to another: its keys, all of them required, and those of other laws, refused.
+/// Friction between two coefficients: its required keys; keys of other laws are refused.
 struct VaryingFriction {
   std::array<const char*, 3> keys;  // static_, kinetic, and the constant of the exponential
   std::optional<double> Friction::*constant;
   const char* required;
   std::span<const char* const> others;
-  const char* apart;  // why others are refused
+  const char* apart;  // reason for refusing others
 
   [[nodiscard]] bool is_meant(const Table& table) const {
     return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); });
@@ -100,7 +100,7 @@ Friction read_friction(Table& contact) {
     if (const auto& value = friction.*constant.value)
       record.set(std::string(constant.key), toml_number(*value));
   contact.record("friction", record.inline_table());
-  // The same at all rates, or at all forces: a number.
+  // Equal coefficients: friction is a constant.
   if (law && friction.kinetic == friction.static_) (friction.*law->constant).reset();
   return friction;
 }
@@ -122,7 +122,7 @@ Direction tangent_of(const Direction& normal) {
 
 namespace {
 
-/// Normal, tangent and gap of a contact that opens.
+/// Normal, tangent and gap of a contact that can open.
 void read_gap(Table& table, ContactSpec& contact, const Space& space, const std::string& law) {
   const char* key = table.is("stops[]") ? "direction" : "normal";
   table.require(key, " (required for law = \"" + law + "\")");
@@ -149,7 +149,7 @@ void read_rigid(Table& table, ContactSpec& contact, const Space& space) {
   contact.capture_velocity = table.optional_number("capture_velocity");
 }
 
-/// The frame-rod element of a seam: a bar of its area and thickness across, the same in shear along.
+/// The frame-rod element of a seam: a bar with the seam's area and thickness across it, the same in shear along it.
 void read_seam(Table& table, ContactSpec& contact) {
   for (const char* key : {"normal_stiffness", "tangential_stiffness"})
     if (table.has(key)) table.fail(key, "cannot be combined with seam; give only one of them");
@@ -195,7 +195,7 @@ void read_data_law(Table& table, ContactSpec& contact, const Space& space, const
   contact.own = std::make_shared<const OwnLaw>(law.make(contact.normal_stiffness, constants));
 }
 
-/// What lies between the contact's node and the ground, or takes the ground's place.
+/// Counterpart of the contact's node: another node or a segment instead of the ground.
 void read_against(Table& table, ContactSpec& contact, const Scene& scene, const Space& space,
                   const std::string& node) {
   const auto touched = read_touched(table, scene, space, node);
@@ -214,7 +214,7 @@ void read_elements(Table& table, ContactSpec& contact) {
     for (const char* key : {"initial_shear", "tangential_damping"})
       if (table.has(key)) table.fail(key, "has no meaning without tangential_stiffness");
   }
-  // Friction that falls with the slip rate, at a sliding point without mass, lets that point jump.
+  // Friction that decreases with the slip rate would let a massless sliding point jump.
   if (contact.tangential_stiffness && contact.friction.stribeck_velocity)
     table.fail("friction",
                "cannot be combined with tangential_stiffness: the sliding point is massless, so its motion "
@@ -236,7 +236,7 @@ void read_slider(Table& table, ContactSpec& contact, const Space& space, const S
   check_pressing(table, contact.normal_force, scene.run.t_end);
 }
 
-/// All of a contact but its name and nodes; `table` is that of a contact or of a stop.
+/// Reads a contact except its name and nodes; `table` is that of a contact or of a stop.
 ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, const std::string& law) {
   ContactSpec contact;
   contact.place = table.place();
@@ -294,7 +294,7 @@ void add_contact(Table& table, ContactSpec contact, Names& names, Scene& scene) 
 
 namespace {
 
-/// The other side of a stop.
+/// The opposite contact of a stop.
 ContactSpec mirrored(ContactSpec contact) {
   for (double& x : contact.normal->vector) x = -x;
   for (auto& [dof, factor] : contact.normal->dofs) factor = -factor;

@@ -30,7 +30,7 @@ void read_ratios(Table& table, DampingSpec& damping) {
   const auto [f1, f2] = read_pair(table, "frequencies", false);
   if (f1 == f2) table.wrong("frequencies", "two different ones");
   const double w1 = 2.0 * std::numbers::pi * f1, w2 = 2.0 * std::numbers::pi * f2;
-  // A difference of roundoff is zero: damping by mass or by stiffness alone.
+  // A difference of rounding size is zero: damping by mass or by stiffness alone.
   const auto difference = [](double a, double b) {
     return std::abs(a - b) <= rounding::of_few * std::max(a, b) ? 0.0 : a - b;
   };
@@ -63,13 +63,13 @@ void read_masses(Table& top, Scene& scene, RecordedScene& record) {
 
 namespace {
 
-/// A key of a table, which a message may stand at.
+/// A key of a table, as the place of a message.
 struct Blamed {
   const Table& table;
   const char* key;
 };
 
-/// Keys that contradict each other: the message stands at the one that --set gave, else at the first.
+/// Refuses contradictory keys: the message is placed at the one given by --set, else at the first.
 [[noreturn]] void contradict(std::initializer_list<Blamed> keys, const std::string& message) {
   const Blamed* at = keys.begin();
   for (const Blamed& one : keys)
@@ -80,7 +80,7 @@ struct Blamed {
   at->table.fail(at->key, message);
 }
 
-/// Of a spring hanger: hot + stiffness travel = cold.
+/// A spring hanger: hot + stiffness travel = cold.
 void read_hanger(Table& table, Spring& spring) {
   Table hanger = table.child("hanger");
   if (table.has("preload"))

@@ -33,8 +33,8 @@ void read_half_sine_end(Table& table, HistorySpec& spec) {
 }
 
 void read_span(Table& table, HistorySpec& spec) {
-  if (spec.type == HistoryType::table) return;  // its times say where it starts and ends
-  // A constant without start is a load that has always been there: writing down its default would start it.
+  if (spec.type == HistoryType::table) return;  // its times define start and end
+  // A constant without start has always acted; writing the default of `start` would change that.
   const bool writes_start = table.has("start") || spec.type != HistoryType::constant;
   if (writes_start) spec.start = table.number("start");
   spec.start_given = writes_start;
@@ -66,7 +66,7 @@ void read_harmonic(Table& table, HistorySpec& spec) {
   spec.phase = table.number("phase");
 }
 
-/// In the scene's unit of time.
+/// One second in the scene's unit of time.
 double second_in(const Units& units) { return units.time == "ms" ? 1000.0 : 1.0; }
 
 /// One m/s^2 in the scene's units.
@@ -75,10 +75,10 @@ double metric_acceleration(const Units& units) {
   return metre / (second_in(units) * second_in(units));
 }
 
-/// A load's history has its factor outside; an acceleration may be given in g.
+/// Use of a history: a load has its amplitude outside; an acceleration may be given in g.
 enum class Role { load, alone, acceleration };
 
-/// Where the values stand in the file. Recorded by the caller, where the file is.
+/// Layout of the values in the file. The caller records it with the file.
 TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   TableLayout layout;
   std::string extension = path.extension().string();
@@ -102,7 +102,7 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   return layout;
 }
 
-/// What the file holds, its values in the scene's units; in g where the scene has `unit`.
+/// Reads the file's values in the scene's units, or in g if the scene has `unit`.
 void read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
   constexpr std::size_t most_inline_rows = 10'000;  // a larger table stays in its file in run.toml
   for (const char* other : {"times", "values"}) {
@@ -164,7 +164,7 @@ void read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
   }
 }
 
-/// How often the shape begins anew before t_end.
+/// Number of repetitions of the shape before t_end.
 void read_period(Table& table, HistorySpec& spec, double t_end) {
   spec.shift = table.optional_number("shift").value_or(0.0);
   const auto period = table.optional_number("period");
@@ -187,7 +187,7 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   spec.rounds = static_cast<int>(rounds);
 }
 
-/// The whole history is in g, its offset too.
+/// True if the whole history is in g, including its offset.
 void read_unit(Table& table, HistorySpec& spec, Role role, const Units& units) {
   if (!table.has("unit")) return;
   if (role != Role::acceleration)

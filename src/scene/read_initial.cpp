@@ -121,7 +121,7 @@ std::optional<std::array<double, 5>> scales_of_run(const Json& model) {
   }
 }
 
-/// What pendulums carry there, by name: part of K, and so of its damping and of what counts as stored.
+/// Carried loads of pendulums in that run, by name: part of its K, and thus of damping and stored energy.
 std::vector<std::pair<std::string, double>> carried_in_run(const Json& model) {
   std::vector<std::pair<std::string, double>> found;
   const auto pendulums = model.find("pendulums");
@@ -166,7 +166,7 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   run.record("initial", record.inline_table());
 }
 
-/// `run` and `t` are keys unless a node is called so, whose state is a table.
+/// `run` and `t` are keys, unless a node has that name; its state is a table.
 bool is_of_run(Table& run, const toml::node* node) {
   const toml::table* table = node ? node->as_table() : nullptr;
   if (!table) return false;

@@ -36,7 +36,7 @@ void read_distributed(Table& table, LoadSpec& load, const Space& space) {
   load.amplitude = table.number("distributed");
 }
 
-/// On a boundary of a body.
+/// A load on a boundary of a body.
 void read_traction(Table& table, LoadSpec& load, const Space& space, const Scene& scene) {
   load.type = LoadType::traction;
   load.pressure = table.has("pressure");
@@ -60,7 +60,7 @@ BaseMotionSpec read_one_motion(Table& table, const Scene& scene) {
   return motion;
 }
 
-/// A name of its own; none of those by which stages call all loads of a kind.
+/// Takes a user's name of a load; names that stages use for all loads of a kind are refused.
 void take_name(const Table& table, const std::string& name, Names& names) {
   if (name.empty()) return;
   for (const char* kind : {"gravity", "temperature", "supports"})
@@ -72,7 +72,7 @@ void take_name(const Table& table, const std::string& name, Names& names) {
     table.fail("name", fmt::format("found \"{}\" twice, expected each load to have its own name", name));
 }
 
-/// Loads without a name are called by their number, and those that no table of loads describes by what they are.
+/// Refuses names that collide with generated ones: numbers of unnamed loads, and names of loads from other tables.
 void refuse_given_names(const std::vector<Table>& tables, const std::vector<LoadSpec>& loads) {
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const std::string& name = loads[i].name;

@@ -77,7 +77,7 @@ double matrix_entry(const MatrixSpec& matrix, int row, int column) {
   return there ? found->value : 0.0;
 }
 
-/// Refuses what no structure has; names the degrees of freedom.
+/// Refuses matrices that are not symmetric; names the degrees of freedom.
 void check_symmetric(const Table& table, std::string_view key, const MatrixSpec& matrix,
                      const std::vector<std::string>& dofs) {
   double greatest = 0.0;

@@ -48,7 +48,7 @@ std::string read_node(Table& table, std::string_view key, const Space& space) {
 
 namespace {
 
-/// "P12": its letters and its number, -1 where it ends in none.
+/// Letters and number of "P12"; -1 if the name has no number at its end.
 std::pair<std::string, long long> numbered(const std::string& name) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   const auto number = parse_integer(name.substr(digits));

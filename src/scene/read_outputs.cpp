@@ -14,7 +14,7 @@ namespace signorini {
 
 namespace {
 
-/// The names under `at`: one, or two.
+/// The names under `at`: one or two.
 std::vector<std::string> read_places(Table& table, std::size_t count, const char* expected) {
   const toml::node* node = table.raw("at");
   if (!node) table.fail("at", fmt::format("missing, expected {}", expected));
@@ -68,7 +68,7 @@ void read_quantity(Table& table, OutputSpec& output, const char* known) {
     table.wrong("quantity", fmt::format("one of {}", known));
 }
 
-/// Whether it may have a part in a combination.
+/// True if the output can be part of a combination.
 bool sum_of_motions(const OutputSpec& output) {
   return output.kind != OutputKind::envelope &&
          !(output.kind == OutputKind::stress && output.fibre == Fibre::both &&
@@ -163,7 +163,7 @@ void read_spring(Table& table, OutputSpec& output, const Scene& scene) {
   output.rotation = table.flag("rotation");
 }
 
-/// At a node of a body: a component in axes of which x goes along `direction`.
+/// A stress component at a node of a body, in axes of which x points along `direction`.
 void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, const Space& space) {
   output.at = read_places(table, 1, "the name of a node");
   const std::size_t node =

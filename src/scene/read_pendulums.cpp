@@ -1,9 +1,9 @@
-// [[pendulums]]: bearings that slide on a curved surface, as slider or contact, spring and stops.
+// [[pendulums]]: bearings that slide on a curved surface, made of a slider or contact, a spring and stops.
 //
-//   T = friction of N,   N u / R back to the middle,   |u| <= stop
+//   T = friction of N,   restoring force N u / R,   |u| <= stop
 //
-// Where N is a number the restoring force is a spring N / R. Where it varies, by a history or because the contact bears
-// what the structure puts on it, the spring holds what is carried at rest, and the contact's bowl the rest.
+// If N is constant, the restoring force is a spring N / R. If N varies, by a history or as the reaction of the
+// structure, the spring has the stiffness for the force at rest, and the contact's bowl adds the rest.
 #include <fmt/core.h>
 
 #include "scene/contact_tables.hpp"
@@ -13,7 +13,7 @@ namespace signorini {
 
 namespace {
 
-/// A contact of the pendulum without its friction: node, against and names are its own.
+/// A contact of the pendulum without its friction; node, against and name are set.
 ContactSpec part_of(const Table& table, const std::string& name) {
   ContactSpec part;
   part.name = name;
@@ -32,7 +32,7 @@ Direction along(const Table& table, const std::string& node, const std::string& 
   return direction;
 }
 
-/// What N varies with. Returns the force that its spring carries.
+/// Reads the source of a varying N. Returns the force that the spring is for.
 double read_force(Table& table, ContactSpec& contact, double radius, const Scene& scene) {
   const bool bears = table.has("normal_stiffness");
   if (!bears) table.require("normal_force", " (required without normal_stiffness)");
@@ -63,7 +63,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   return carried;
 }
 
-/// The rim on either side, of which the first is met along the tangent.
+/// Reads the rim on both sides; the first contact is met along the tangent.
 void read_rim(Table& table, const ContactSpec& contact, Names& names, Scene& scene) {
   const auto stop = table.optional_number("stop"), stiffness = table.optional_number("stop_stiffness");
   if (!stop) {

@@ -1,4 +1,4 @@
-// [reduction]: the cutoff, in cycles or in radians per time, or the tolerance that finds it.
+// [reduction]: the cutoff, in cycles or in radians per time, or the tolerance from which it is found.
 #include <numbers>
 
 #include "scene/readers.hpp"

@@ -1,4 +1,4 @@
-// Rigid bodies: nodes that move with a centre.
+// Rigid bodies: nodes that move rigidly with a centre.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void read_box(Table& table, PointMass& mass) {
   table.record("box", box.record().inline_table());
 }
 
-/// A node, or a place: then it is a new node, named after the body.
+/// The centre is a node, or a place: then it is a new node, named after the body.
 std::string read_centre(Table& table, const std::string& name, Scene& scene, Names& nodes) {
   table.require("centre", "");
   if (!table.raw("centre")->is_array()) {

@@ -1,4 +1,4 @@
-// [run]: how long, how accurately, and when to write.
+// [run]: duration, accuracy and output times.
 #include <fmt/core.h>
 
 #include "base/number.hpp"
@@ -55,7 +55,7 @@ void read_tolerances(Table& table, RunSpec& run) {
   run.atol.velocity = atol.optional_number("velocity");
   run.atol.force = atol.optional_number("force");
   atol.finish();
-  // Absent ones follow from the assembled scene.
+  // Absent tolerances follow from the assembled scene.
   if (table.has("atol")) table.record("atol", atol.record().inline_table());
 }
 
@@ -88,7 +88,7 @@ void read_certification(Table& table, RunSpec& run) {
                                          : Companion::automatic;
 }
 
-/// Keys of the engines with steps of given length.
+/// Keys of the engines with a given step.
 void read_steps(Table& table, RunSpec& run) {
   const EngineName* engine = run.engine == Engine::automatic ? nullptr : &name_of(run.engine);
   const bool steps = engine != nullptr && engine->accuracy == Accuracy::step;
@@ -146,8 +146,8 @@ std::vector<double> RunSpec::grid() const {
   const double dt_out = output_dt.value_or(t_end / 1000.0);
   if (!(t_end / dt_out <= most_output_rows))
     throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
-  // Multiples, not sums: row k stands at k dt to the last digit. A multiple that is t_end but for
-  // roundoff is t_end.
+  // Multiples, not sums: row k has the time k dt, correctly rounded. A multiple that equals t_end up to rounding is
+  // t_end.
   times.reserve(static_cast<std::size_t>(t_end / dt_out) + 2);
   for (long k = 0; static_cast<double>(k) * dt_out < t_end - 1e-6 * dt_out; ++k) {
     times.push_back(static_cast<double>(k) * dt_out);

@@ -1,4 +1,4 @@
-// From a file to a Scene: parse, apply --set, read concept by concept.
+// From a file to a Scene: parse, apply --set, read table by table.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -32,10 +32,10 @@ std::size_t end_of_string(const std::string& text, std::size_t i) {
   return text.size();
 }
 
-/// The parser builds and destroys a.a.a = { a.a.a = ... } by recursion: refuse what would overflow the stack.
+/// The parser builds and destroys a.a.a = { a.a.a = ... } recursively; input that would overflow the stack is refused.
 void check_depth(const std::string& text, const std::string& file) {
   constexpr int deepest = 1000;
-  std::vector<int> outer;  // parts of the keys around this one, each with its bracket
+  std::vector<int> outer;  // number of parts of each enclosing key, with its bracket
   int parts = 0, depth = 0, line = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -98,8 +98,8 @@ void check_schema(const toml::table& root, const std::string& file) {
   }
 }
 
-/// A run from which this one goes on: in the same units, or its numbers mean something else; and of the same
-/// structure, or what it left is no state of this one, which may be meant.
+/// Compares with the run that this one continues: its units must be the same, because its numbers depend on them; a
+/// different structure is allowed, because it may be intended, but reported.
 void compare_with_run(Scene& scene) {
   const std::filesystem::path path = std::filesystem::path(scene.initial.saved->run) / "run.toml";
   std::ifstream in(path);
@@ -191,7 +191,7 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   try {
     return build(text, file, overrides);
   } catch (const SceneError& error) {
-    // An override may have broken something elsewhere (kinetic above static).
+    // An override may have made another key invalid (kinetic above static).
     if (overrides.empty() || !can_be_read(text, file)) throw;
     message = error.what();
   }

@@ -14,7 +14,7 @@ namespace signorini {
 
 namespace {
 
-/// Of contacts, for each area.
+/// Contact law of a seam, per area.
 struct SeamLaw {
   ContactSpec contact;
   double normal_stiffness = 0.0, normal_damping = 0.0;
@@ -43,7 +43,7 @@ void read_springs_of(Table& table, SeamLaw& law) {
   table.require("normal_stiffness", " (required for law = \"compliant\" without layer)");
   law.normal_stiffness = table.number("normal_stiffness");
   if (!law.contact.friction.any()) {
-    static_cast<void>(table.optional_number("tangential_stiffness"));  // without friction nothing loads it
+    static_cast<void>(table.optional_number("tangential_stiffness"));  // no effect without friction
     return;
   }
   table.require("tangential_stiffness", " (required for law = \"compliant\" with friction, without layer)");
@@ -55,7 +55,7 @@ void read_springs_of(Table& table, SeamLaw& law) {
                "friction that falls with its rate leaves its motion undecided");
 }
 
-/// Not recorded: whoever reads the key does that.
+/// Does not record the key; its reader does.
 bool is_word(Table& table, const char* key, std::string_view word) {
   return table.has(key) && table.raw(key)->value_or(std::string()) == word;
 }
@@ -73,7 +73,7 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
                "depends on its mesh");
   contact.normal_force = constant_history(0.0);
   if (contact.law == Law::rigid && is_word(table, "contact_mass", "none")) {
-    // nothing rebounds there
+    // no rebound
   } else if (contact.law == Law::rigid) {
     contact.restitution = table.number("restitution");
     contact.capture_velocity = table.optional_number("capture_velocity");
@@ -85,7 +85,7 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
   return law;
 }
 
-/// Of a body, or a surface.
+/// A boundary of a body, or a surface.
 struct Boundary {
   const std::vector<PlaneMesh::Edge>* edges;
   double thickness;
@@ -106,7 +106,7 @@ Boundary find_side(const Table& table, std::string_view key, const std::string& 
                               there.empty() ? "none" : listed(there, 8)));
 }
 
-/// Edges of the slave's body, or of its surface.
+/// All edges of the slave's body, or of its surface.
 std::vector<PlaneMesh::Edge> outline_of(const Boundary& side, const Scene& scene) {
   if (!side.body) return *side.edges;
   SharedEdges all;
@@ -135,7 +135,7 @@ std::vector<std::string> mesh_names(const std::vector<int>& nodes, const Scene& 
   return names;
 }
 
-/// A node of both boundaries, the tip of a crack, never opens and is no contact.
+/// A node shared by both boundaries (the tip of a crack) never opens and is not a contact.
 void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) {
   std::set<int> master;
   for (const MortarNode& k : seam.nodes)
@@ -149,7 +149,7 @@ void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) 
                            first));
 }
 
-/// The mortar of a table, checked.
+/// Reads and checks the mortar of a table.
 MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
   const PlaceOf place = [&](int n) { return place_in(scene, n); };
   if (table.has("master") == table.has("line"))
@@ -186,7 +186,7 @@ MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) 
   return seam;
 }
 
-/// Of [matrices]: the form n . (u_k - sum_l w_kl u_l) on degrees of freedom by name.
+/// For [matrices]: the form n . (u_k - sum_l w_kl u_l) on degrees of freedom by name.
 Direction surface_form(const MortarNode& k, const std::array<double, 2>& n, const Scene& scene) {
   Direction form;
   const auto add = [&](int node, double factor) {

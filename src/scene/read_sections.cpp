@@ -18,10 +18,10 @@ namespace signorini {
 
 namespace {
 
-/// Of a cross-section: area, second moment of area, distance of the outermost fibre.
+/// Cross-section: area, second moment of area, distance of the outermost fibre.
 struct Shape {
   double area = 0.0, moment = 0.0, reach = 0.0;
-  double more_mass = 0.0;  ///< per length, beside that of the material
+  double more_mass = 0.0;  ///< per length, in addition to the material's mass
 };
 
 constexpr const char* all_shapes[] = {"pipe", "box", "i", "round"};
@@ -30,7 +30,7 @@ double ring(double thickness, double inner_diameter) {
   return std::numbers::pi * thickness * (inner_diameter + thickness);
 }
 
-/// A wall leaves room within what is so wide.
+/// Reads a wall thickness; refuses a wall that does not fit within `width`.
 double wall_within(Table& table, const char* key, double width, const char* of) {
   const double wall = table.number(key);
   if (!(2.0 * wall < width))

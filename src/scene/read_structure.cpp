@@ -13,7 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr int most_elements = 1'000'000;
-constexpr int elements_of_arc = 8;  // chosen: of a quarter they are 0.16 % shorter than it
+constexpr int elements_of_arc = 8;  // for a quarter circle; the chords are 0.16 % shorter than the arc
 
 void check_pieces(const Table& table, const Scene& scene, const std::vector<std::size_t>& nodes) {
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
@@ -56,7 +56,7 @@ std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
   return elements;
 }
 
-/// The inner nodes of a chain of bars could move sideways: nothing holds them.
+/// The inner nodes of a chain of bars would be free to move sideways.
 void check_bar(const Table& table, const Member& member) {
   if (member.type != MemberType::bar) return;
   for (const int n : member.elements) {
@@ -131,7 +131,8 @@ void read_strains(Table& table, Member& member, const Scene& scene) {
 
 namespace {
 
-/// Of a pipe, ASME B31: h = t R / r^2, flexibility 1.65 / h, intensification in its plane 0.9 / h^(2/3), not below 1.
+/// Bend factors of a pipe, ASME B31: h = t R / r^2, flexibility 1.65 / h, in-plane intensification 0.9 / h^(2/3), not
+/// below 1.
 Bend factors_of_pipe(const Section& section, double radius) {
   const double h = section.pipe_wall * std::abs(radius) / (section.pipe_radius * section.pipe_radius);
   return {radius, std::max(1.0, 1.65 / h), std::max(1.0, 0.9 / std::cbrt(h * h))};

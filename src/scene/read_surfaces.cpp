@@ -1,4 +1,4 @@
-// [[surfaces]]: boundaries of what [matrices] assemble, from which seams follow.
+// [[surfaces]]: boundaries of a structure given by [matrices], for seams.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace signorini {
 
 namespace {
 
-/// Two surfaces may have a node together, the tip of a crack: its degrees of freedom are the same.
+/// Two surfaces may share a node (the tip of a crack): its degrees of freedom then must be the same.
 int index_of(const Table& table, const SurfaceNode& node, Scene& scene) {
   const auto same =
       std::find_if(scene.surface_nodes.begin(), scene.surface_nodes.end(), [&](const SurfaceNode& other) {
@@ -48,7 +48,7 @@ std::vector<SurfaceNode> read_surface_nodes(Table& table, const Names& dofs) {
   return nodes;
 }
 
-/// Edges between nodes that follow each other; of quadratic ones every second node is a middle.
+/// Edges between consecutive nodes; with quadratic edges every second node is a middle node.
 std::vector<PlaneMesh::Edge> edges_of(Table& table, std::vector<int> nodes) {
   const bool quadratic = table.flag("quadratic"), closed = table.flag("closed");
   if (closed) nodes.push_back(nodes.front());

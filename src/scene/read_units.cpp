@@ -1,4 +1,4 @@
-// Units are names; what is checked is that Newton's law holds between them without a factor.
+// Units are names; the reader checks that Newton's law holds between them without a factor.
 #include <fmt/core.h>
 
 #include <cmath>

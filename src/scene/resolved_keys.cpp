@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_value =
-    60;  // of a value in a message; longer ones are told by their fingerprint
+    60;  // length of a value in a message; longer values are shown by their fingerprint
 
-/// Files stand in a resolved scene with their whole path.
+/// True if the text is the name of a file; a resolved scene has full paths of files.
 bool names_file(const std::string& text) {
   std::error_code error;
   return text.starts_with('/') && fs::is_regular_file(text, error);

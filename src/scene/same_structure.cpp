@@ -3,7 +3,7 @@
 namespace signorini {
 namespace {
 
-/// The table without what drives it.
+/// The table without keys of excitation.
 toml::table undriven(toml::table table) {
   for (const char* key : {"motion", "acceleration", "surface_velocity", "normal_force", "initial_shear",
                           "temperature", "initial_strain"})

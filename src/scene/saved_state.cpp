@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::string_view of_shear = ".T", of_state = ".state", of_own = ".own", of_memory = ".memory";
 
-/// "c" of "c.T".
+/// Contact name "c" in "c.T".
 std::string contact_in(const std::string& name, std::string_view end) {
   return name.substr(0, name.size() - end.size());
 }
 
-/// States and memories of laws of one's own. False: the column is none of those.
+/// Reads states and memories of user laws. False: the column is something else.
 bool take_own(const std::string& name, double value, std::vector<SavedState::Own>& own) {
   if (!name.ends_with(of_own) && !name.ends_with(of_memory)) return false;
   const bool memory = name.ends_with(of_memory);
@@ -37,7 +37,7 @@ bool take_own(const std::string& name, double value, std::vector<SavedState::Own
   return true;
 }
 
-/// The sign of the slip that the cell of a column "x.state" tells; none where it is no state.
+/// The sign of the slip in a cell of a column "x.state"; nullopt if the cell is not a state.
 std::optional<int> slip_in(const std::string& name, const std::string& cell) {
   if (!name.ends_with(of_state)) return std::nullopt;
   if (cell == "slip+") return 1;
@@ -85,7 +85,7 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
     }
     state.t = time;
     found.times.push_back(shortest(time));
-    // The file has the digits of the run; the scene may have fewer.
+    // The file has the run's digits; the scene may have fewer.
     if (!t || std::abs(time - *t) <= 1e-9 * std::abs(*t)) found.wanted = std::move(state);
   }
   return found;

@@ -1,11 +1,11 @@
-// saved_state.hpp: the states that a run kept, states.csv: everything that a motion goes on from.
+// saved_state.hpp: states saved by a run in states.csv: all data needed to continue the motion.
 //
 //   t,A.ux,A.uy,...,A.vx,A.vy,...,first.T,first.state
 //   1.2,0.0103,...
 //
-// Displacements, velocities, "support B.uy" and "support B.vy" of supports that move, "c.slip" of shear elements,
-// "c.surface" of surfaces that move, "c.T" and "c.state" of contacts with friction, "c.own" and "c.memory" of laws of
-// one's own. A column "x.state" that has numbers is of a degree of freedom that is called so.
+// Columns: displacements, velocities, "support B.uy" and "support B.vy" of moving supports, "c.slip" of shear elements,
+// "c.surface" of moving surfaces, "c.T" and "c.state" of contacts with friction, "c.own" and "c.memory" of user laws. A
+// column "x.state" with numbers belongs to a degree of freedom of that name.
 #pragma once
 
 #include <istream>
@@ -17,19 +17,19 @@
 
 namespace signorini {
 
-/// In SavedState::motions: Rayleigh factor of the mass that was in force, 1/time. alpha_over_omega1 means omega1 with
-/// the contacts that were closed at the very start.
+/// Name in SavedState::motions of the mass-proportional Rayleigh factor in use, 1/time. With alpha_over_omega1, omega1
+/// refers to the contacts that were closed at the start of the first run.
 inline constexpr const char* saved_alpha = "alpha";
 
-/// What SavedState::motions has under this name.
+/// Value of this name in SavedState::motions.
 [[nodiscard]] std::optional<double> saved_motion(const SavedState& state, const std::string& name);
 
 struct SavedStates {
   std::optional<SavedState> wanted;
-  std::vector<std::string> times;  ///< of all of them, as the file has them
+  std::vector<std::string> times;  ///< times of all states, as written in the file
 };
 
-/// The state at t, or the last one. Errors: SceneError at the line of the file; `key` stands in front.
+/// The state at t, or the last one. Errors: SceneError at the line of the file; `key` begins the message.
 [[nodiscard]] SavedStates read_saved_states(std::istream& in, const std::string& file, const std::string& key,
                                             std::optional<double> t);
 

@@ -15,7 +15,7 @@ Json default_json(const Key& key) {
   return json_of(*parsed.get("value"));
 }
 
-/// "contacts[].friction" as the name of a definition, which may stand in an address: contacts.friction
+/// "contacts[].friction" as the name of a definition, valid in an address: contacts.friction
 std::string definition_name(std::string_view table) {
   std::string name;
   for (const char c : table) {
@@ -66,12 +66,12 @@ Json direction_type() {
   return json;
 }
 
-/// Path of the table under a key.
+/// Path of the table that a key contains.
 std::string below(const Key& key) {
   return (key.table.empty() ? "" : std::string(key.table) + ".") + std::string(key.name);
 }
 
-/// Of one law or the other.
+/// The table of friction for either law.
 Json friction_table(const std::string& path) {
   const Json falls = {{"required", Json::array({"static"})}};
   const Json rises = {{"required", Json::array({"slow", "fast", "velocity"})}};
@@ -155,7 +155,7 @@ Json value_type(const Key& key) {
 Json key_schema(const Key& key) {
   Json json = value_type(key);
   if (key.table.empty() && key.name == "schema") json = {{"const", 1}};
-  // Beside a $ref, draft 7 reads nothing else.
+  // Draft 7 ignores all keywords beside a $ref.
   if (json.contains("$ref")) json = {{"allOf", Json::array({json})}};
   json["description"] =
       std::string(key.meaning) + (key.unit.empty() ? "" : " Unit: " + std::string(key.unit) + ".");
@@ -169,7 +169,7 @@ Json table_schema(std::string_view table) {
   for (const std::string& name : key_names(table)) {
     const Key& key = *find_key(table, name);
     properties[name] = key_schema(key);
-    // A name of the user's may be that of a key, too.
+    // A user's name may equal that of a key.
     if (any) properties[name] = any_of(properties[name], value_type(*any));
     if (key.fallback == "required") required.push_back(name);
   }

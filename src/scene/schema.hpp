@@ -3,8 +3,8 @@
 //   table T        { "type": "object", "properties": its keys, "additionalProperties": false or T.* }
 //   required keys  "required";   defaults "default";   meaning and unit "description"
 //
-// Draft 7, which the editors' TOML servers know. What one key asks of another (a slider needs a
-// normal_force), names of nodes and files are not in it: `signorini check` reads the whole scene.
+// Draft 7, which TOML servers of editors support. Not included: dependencies between keys (a slider needs a
+// normal_force), names of nodes, and files; `signorini check` reads the whole scene.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@ bool in_range(KeyType type, double value) {
     case KeyType::non_negative:
       return value >= 0.0;
     case KeyType::relative_tolerance:
-      return value >= 1e-14 && value < 1.0;  // below, steps would be refused for their roundoff
+      return value >= 1e-14 && value < 1.0;  // smaller tolerances would make steps fail by rounding
     case KeyType::count:
       return value >= 1.0;
     default:
@@ -40,7 +40,7 @@ std::optional<double> finite_value(const toml::node& node) {
   return number && std::isfinite(number->get()) ? std::optional(number->get()) : std::nullopt;
 }
 
-/// The defaults of the table of keys, parsed once: a scene asks for dozens, a sweep for millions.
+/// Defaults of the key table, parsed once: a scene needs dozens, a sweep millions.
 const toml::node* default_of(const Key& key) {
   static const std::vector<toml::table> parsed = [] {
     std::vector<toml::table> all;
@@ -124,7 +124,7 @@ Table::Table(const toml::table* node, std::string kind, std::string path, Source
   bool fits = true;
   for (const auto& [name, value] : *node_) fits = fits && can_stand(name);
   if (fits) return;
-  for (const Entry& entry : entries_of(*node_)) {  // the first in the file is named
+  for (const Entry& entry : entries_of(*node_)) {  // the message names the first one in the file
     if (!find_key(kind_, entry.name))
       refuse(entry.place(), this->path(entry.name), "unknown key" + suggestion(entry.name, key_names(kind_)));
   }

@@ -1,11 +1,11 @@
-// table.hpp: typed reads on one TOML table; they check, fill in defaults, record, and make all messages.
+// table.hpp: typed reads of one TOML table: check, fill in defaults, record, and report errors.
 //
 //   Table contact(node, "contacts[]", "contacts.first", place);
 //   spec.gap = contact.number("gap");      // type, range and default from the key table
-//   contact.finish();                      // refuses keys that nobody asked for
+//   contact.finish();                      // refuses keys that were not read
 //
-// Unknown keys are refused at once, with a suggestion. A key that is known but was not read has no
-// meaning where it stands (normal_stiffness of a slider); finish() says so.
+// Unknown keys are refused at once, with a suggestion. A known key that was not read has no meaning in its context
+// (normal_stiffness of a slider); finish() reports it.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ namespace signorini {
 
 class Table {
  public:
-  /// `kind` names the table in the key table, `path` in messages. An absent table is an empty one.
+  /// `kind` is the table's name in the key table, `path` its name in messages. An absent table is an empty one.
   Table(const toml::table* node, std::string kind, std::string path, SourcePlace place);
 
   [[nodiscard]] bool has(std::string_view key) const { return node_->contains(key); }
   /// The raw value, or null. Counts as read.
   [[nodiscard]] const toml::node* raw(std::string_view key);
 
-  // With a default or required, as the key table says:
+  // Keys with a default or required, according to the key table:
   [[nodiscard]] double number(std::string_view key);
   [[nodiscard]] int integer(std::string_view key);
   [[nodiscard]] bool flag(std::string_view key);
@@ -39,14 +39,14 @@ class Table {
   [[nodiscard]] std::string choice(std::string_view key);
   [[nodiscard]] std::array<double, 2> vector(std::string_view key);
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);
-  // Nothing where absent:
+  // nullopt if absent:
   [[nodiscard]] std::optional<double> optional_number(std::string_view key);
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key);
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key);
   /// A table below this one, kind "KIND.KEY"; empty where absent. Record it with record().
   [[nodiscard]] Table child(std::string_view key);
 
-  /// Refuses an absent key, saying why it is needed.
+  /// Refuses the absence of a key; `why` is the reason for the message.
   void require(std::string_view key, const std::string& why);
   /// "found X, expected Y" for a given key.
   [[noreturn]] void wrong(std::string_view key, const std::string& expected) const;
@@ -56,7 +56,7 @@ class Table {
   /// Refuses keys that were given but not read. `why` ends the message.
   void finish(const std::string& why = "has no meaning here") const;
 
-  /// Whether the key table calls it so.
+  /// True if `kind` is the table's name in the key table.
   [[nodiscard]] bool is(std::string_view kind) const { return kind_ == kind; }
   [[nodiscard]] SourcePlace place() const { return place_; }
   [[nodiscard]] SourcePlace place(std::string_view key) const;
@@ -65,12 +65,12 @@ class Table {
   [[nodiscard]] const toml::table& node() const { return *node_; }
 
   void record(std::string_view key, std::string value) { record_.set(key, std::move(value)); }
-  /// What was read: the keys of the file in its order, then the defaults.
+  /// Values read: keys in the order of the file, then defaults.
   [[nodiscard]] Record record() const;
 
  private:
   const Key& key(std::string_view name) const;
-  /// The given value or that of the default; null where there is neither.
+  /// The given or the default value; null if there is neither.
   const toml::node* value(const Key& key, std::string_view name);
 
   const toml::table* node_;
@@ -80,7 +80,7 @@ class Table {
   Record record_;
 };
 
-/// The tables under [[key]] of the top level; in messages "contacts.first" by name, or "loads.1".
+/// The tables under [[key]] of the top level; messages call them "contacts.first" by name, or "loads.1".
 [[nodiscard]] std::vector<Table> tables_of(Table& top, std::string_view key);
 
 /// A finite number at this place, or a refusal. `expected` ends the message.
@@ -91,9 +91,9 @@ class Table {
 [[nodiscard]] std::vector<double> number_array(const toml::node& node, const std::string& path,
                                                const std::string& expected);
 
-/// Refuses names that could not stand in a column of a CSV file or in the path of a --set.
+/// Refuses names that cannot be a column of a CSV file or part of a --set path.
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path);
-/// The same for what names something: a name, or BODY.NUMBER for a node of a mesh.
+/// Same for a reference: a name, or BODY.NUMBER for a node of a mesh.
 void check_reference(const std::string& name, const SourcePlace& place, const std::string& path);
 
 /// Names in the order of the file, with fast search.
@@ -103,7 +103,7 @@ class Names {
   Names(std::initializer_list<std::string> names) {
     for (const std::string& name : names) add(name);
   }
-  /// False if it is there already.
+  /// Returns false if the name already exists.
   bool add(const std::string& name);
   [[nodiscard]] std::optional<std::size_t> index(const std::string& name) const;
   [[nodiscard]] const std::vector<std::string>& list() const { return list_; }
@@ -114,7 +114,7 @@ class Names {
   std::unordered_map<std::string, std::size_t> index_;
 };
 
-/// Index of a name among the known ones, or a refusal. `what`: "node".
+/// Index of a name among the known names; throws otherwise. `what`: "node".
 std::size_t check_known(const std::string& name, const Names& known, const std::string& what,
                         const SourcePlace& place, const std::string& path);
 

@@ -16,14 +16,14 @@ bool is_override(const toml::source_region& region) {
   return region.path && region.path->starts_with(override_mark);
 }
 
-/// Where it stands among its neighbours; those of overrides, which have no lines, last.
+/// Sort key by position in the file; entries of overrides, which have no lines, are last.
 std::tuple<bool, toml::source_index, toml::source_index> position(const Entry& entry) {
   const toml::source_region& region = entry.key->source();
   return is_override(region) ? std::tuple(true, toml::source_index{}, toml::source_index{})
                              : std::tuple(false, region.begin.line, region.begin.column);
 }
 
-/// A message stays on its line, whatever stands in the names and strings of a file.
+/// Escapes control characters, so that a message stays on one line.
 std::string on_one_line(std::string text) {
   for (char& c : text) {
     if (is_control(c)) c = '?';
@@ -31,7 +31,7 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-/// A piece of text that is short enough for a message.
+/// The text in quotes, shortened for a message.
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 60;
   return '"' + std::string(text.substr(0, longest)) + (text.size() > longest ? "...\"" : "\"");

@@ -1,4 +1,4 @@
-// toml_node.hpp: what a TOML node is and where it stands, for messages.
+// toml_node.hpp: kind and place of a TOML node, for messages.
 //
 //   refuse(place_of(node), "run.rtol", "found " + describe(node) + ", expected a number");
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace signorini {
 
-/// Values that come from an Override carry this, which begins no name of a file, and its text as the name of their file.
+/// Source mark of values from an Override, which no file name begins with; the file name is the override's text.
 inline constexpr char override_mark = '\x1a';
 
 [[nodiscard]] SourcePlace place_of(const toml::source_region& region);
@@ -25,7 +25,7 @@ inline constexpr char override_mark = '\x1a';
 /// "the number -0.3", "the number 4.0" of a float, "the string \"abc\"", "an array of 3 values".
 [[nodiscard]] std::string describe(const toml::node& node);
 
-/// A SceneError, or a UsageError where the place is an Override.
+/// Throws a SceneError, or a UsageError if the place is an Override.
 [[noreturn]] void refuse(const SourcePlace& place, const std::string& key, const std::string& message);
 
 /// An entry of a table.
@@ -36,7 +36,7 @@ struct Entry {
   [[nodiscard]] SourcePlace place() const { return place_of(key->source()); }
 };
 
-/// The entries in the order of the file (toml++ sorts by name); those of overrides follow.
+/// The entries in the order of the file (toml++ sorts by name), then those of overrides.
 [[nodiscard]] std::vector<Entry> entries_of(const toml::table& table);
 
 }  // namespace signorini

@@ -6,7 +6,7 @@ namespace signorini {
 namespace {
 
 constexpr std::string_view against = "against";
-constexpr double beside = 1e-9;  // of the segment's length: rounding of coordinates in a file
+constexpr double beside = 1e-9;  // relative to the segment's length: rounding of coordinates in a file
 
 std::string node_name(Table& contact, const toml::node& item, const Space& space, const std::string& node) {
   if (!item.is_string()) contact.wrong(against, describe_type(*find_key("contacts[]", against)));

@@ -1,7 +1,7 @@
-// unit_of_output.hpp: what unit an output has.
+// unit_of_output.hpp: unit of an output.
 //
 //   N, V, T: force     M: force length     stress: force/length^2     gap, slip: length     loss: force length
-//   motions: length or 1, over time once or twice     combination: that of its terms, times that of their factors
+//   motions: length or 1, over time once or twice     combination: unit of its terms times that of their factors
 #pragma once
 
 #include "signorini/scene.hpp"
@@ -13,7 +13,7 @@ namespace signorini {
 
 /// `all`: the outputs of the scene, at least those before it.
 [[nodiscard]] Unit unit_of_output(const OutputSpec& spec, const std::vector<OutputSpec>& all);
-/// Of a term of a combination, with its factor. Its name must be known.
+/// Unit of a combination's term, with its factor. The term's name must be known.
 [[nodiscard]] Unit unit_of_term(const OutputTerm& term, const std::vector<OutputSpec>& all);
 
 }  // namespace signorini

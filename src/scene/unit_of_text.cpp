@@ -18,7 +18,7 @@ std::optional<Unit> unit_named(std::string_view name, const Units& names) {
   return std::nullopt;
 }
 
-/// "m^2" to the given power more.
+/// Multiplies the unit by "m^2" to the power of `sign`.
 bool add_word(std::string_view word, int sign, const Units& names, Unit& unit) {
   int power = 1;
   if (const std::size_t at = word.find('^'); at != std::string_view::npos) {

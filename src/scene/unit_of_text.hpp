@@ -1,8 +1,9 @@
-// unit_of_text.hpp: a unit as a scene writes it.
+// unit_of_text.hpp: parses a unit as a scene writes it.
 //
-//   "1/m^2", "kN m/s", "s^2/t"     names of the scene's units, each with a power; one '/', and all behind it below
+//   "1/m^2", "kN m/s", "s^2/t"     names of the scene's units, each with a power; one '/', all units after it in the
+// denominator
 //
-// The way back is unit_text() (signorini/output.hpp).
+// The inverse is unit_text() (signorini/output.hpp).
 #pragma once
 
 #include <optional>
@@ -12,7 +13,7 @@
 
 namespace signorini {
 
-/// Nothing where it is none. mass = force time^2 / length; "1" and "rad" are plain numbers.
+/// nullopt: not a unit. mass = force time^2 / length; "1" and "rad" are plain numbers.
 [[nodiscard]] std::optional<Unit> unit_of_text(std::string_view text, const Units& names);
 
 }  // namespace signorini

@@ -13,7 +13,7 @@
 namespace signorini {
 namespace {
 
-constexpr double independent = 1e-9;  // of 1: what is left of a direction beside the others
+constexpr double independent = 1e-9;  // relative to 1: remainder of a direction after the others are removed
 
 [[noreturn]] void refuse_borrowing(const Scene& scene, std::size_t k, const char* key,
                                    const std::string& why) {
@@ -30,10 +30,10 @@ const Dof* first_massless(const Model& model, const Combination& form) {
 struct Row {
   std::size_t contact;
   bool normal;
-  const Dof* dof;  ///< one of those that it moves
+  const Dof* dof;  ///< one of the degrees of freedom that it moves
 };
 
-/// Of contacts that act on parts without mass.
+/// Rows of contacts that act on parts without mass.
 std::vector<Row> rows_of(const Scene& scene, const Model& model) {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -94,7 +94,7 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
   return s;
 }
 
-/// Nothing may damp motions along S.
+/// Refuses dampers on motions along S.
 void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vector<Row>& rows,
                  const SparseMatrix& s) {
   const bool beta = scene.damping.beta > 0.0;
@@ -112,7 +112,7 @@ void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vec
   }
 }
 
-/// f' = f + K S X S^T f, and what is seen of f beside u'.
+/// f' = f + K S X S^T f, and the corrections of the displayed displacements and energies for u'.
 void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::MatrixXd& x, Model& model) {
   std::vector<Vector> pushes;
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
@@ -160,11 +160,11 @@ SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eige
   return k + added;
 }
 
-/// F of parts without mass: displacements along n of contacts that borrow, by forces along n and t.
+/// Compliance F of parts without mass: displacements along the normals of these contacts, by forces along n and t.
 struct Compliance {
   std::vector<std::size_t> contacts;
   Eigen::MatrixXd nn, nt;
-  Eigen::VectorXd friction;  ///< the greater coefficient
+  Eigen::VectorXd friction;  ///< larger friction coefficient
 };
 
 Compliance compliance_of(const Model& model) {

@@ -1,9 +1,9 @@
-// build_model: the scene as matrices, in the order in which one thing needs the other:
+// build_model: assembles the scene's matrices, in the order of dependence:
 //
 //   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
-//   -> doubts -> reduction, or undamped massless motions apart -> shear elements -> outputs
+//   -> warnings -> reduction, or separation of undamped massless motions -> shear elements -> outputs
 //
-// All of it in the machine's units, and then in the scene's: so a change of units changes no bit of it.
+// The assembly uses the machine's units and is then converted to the scene's, so a change of units changes no bit.
 #include "model/build.hpp"
 
 #include <fmt/core.h>
@@ -48,8 +48,8 @@
 namespace signorini {
 namespace {
 
-/// The shears that contacts had, from which their anchors follow, and which of them slipped; where laws of one's own
-/// stood.
+/// Takes from a saved run the shears of contacts, from which the anchors follow, their slip directions, and the states
+/// of user laws.
 void take_contacts(const SavedState& saved, Model& model) {
   for (Contact& c : model.contacts) {
     for (const SavedState::Own& own : saved.own)
@@ -62,7 +62,7 @@ void take_contacts(const SavedState& saved, Model& model) {
   }
 }
 
-/// Each of the model's contacts, once; else nothing.
+/// Rows of all contacts of the model, in order; empty unless every contact has exactly one.
 std::vector<SavedState::Left> left_contacts(const SavedState& saved, const Model& model) {
   if (!saved.differing.empty() || saved.left.size() != model.contacts.size()) return {};
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
@@ -101,7 +101,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   model.statics = std::move(found.start);
 }
 
-/// Sliders are always closed; compliant contacts where they press at the start.
+/// Closed contacts: all sliders, and compliant contacts that are compressed at the start.
 std::vector<bool> closed_at_start(const Model& model) {
   std::vector<bool> closed;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -116,7 +116,7 @@ std::vector<bool> closed_at_start(const Model& model) {
   return closed;
 }
 
-/// Of the run that this one goes on from, if it was of the same structure.
+/// The run that this one continues, if it has the same structure.
 const SavedState* same_run(const Scene& scene) {
   const auto& saved = scene.initial.saved;
   return saved && saved->differing.empty() ? &*saved : nullptr;
@@ -144,7 +144,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
 }
 
-/// The initial state, and the forces that are frozen.
+/// Finds the initial state and the frozen forces, with the geometric stiffness that follows from them.
 void start_as_stiff_as_it_is(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.matrices)
     throw SceneError(scene.run.geometric_place, "run.geometric", "has nothing to act on beside [matrices]");
@@ -158,7 +158,7 @@ void start_as_stiff_as_it_is(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.initial.is_frictional) check_massless(scene, model, map);
 }
 
-/// With what pendulums bear.
+/// Finds the initial state, with the forces carried by pendulums.
 void start(const Scene& scene, DofMap& map, Model& model) {
   const bool stands = scene.initial.is_static || scene.initial.is_frictional;
   if (!stands || !has_pressed_pendulums(scene)) {
@@ -174,7 +174,7 @@ void start(const Scene& scene, DofMap& map, Model& model) {
   });
 }
 
-/// What results show of the degrees of freedom that are computed.
+/// Adds the mapping from computed to displayed degrees of freedom.
 void add_results(const Scene& scene, const DofMap& map, const std::optional<BorrowedSprings>& borrowed,
                  Model& model) {
   if (borrowed) {
@@ -186,11 +186,11 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Borr
   make_outputs(scene, map, model);
 }
 
-/// A saved state at rest has velocities of rounding alone. Displacements are known to rounding, and within the period of
-/// the fastest mode that makes
-///     |v| <= of_many omega_max max |u|,   translations and rotations each.
-/// They would tell which way a contact at its limit slips. Beside bodies that move the same holds of a contact that was left
-/// without slip: what it sticks to rests where all velocities along its tangent are as small.
+/// Sets velocities of rounding size in a saved state to zero. Displacements are known to rounding; the fastest mode
+/// turns this into velocities of
+///     |v| <= of_many omega_max max |u|,   translations and rotations separately. Such velocities would decide the slip
+/// direction of a contact at its friction limit. If other bodies move, the same applies to a contact that was left
+/// without slip and whose tangential velocities are all that small.
 void take_out_rounding(const SavedState& saved, Model& model) {
   double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
   for (int i = 0; i < model.size(); ++i) {
@@ -218,8 +218,8 @@ void take_out_rounding(const SavedState& saved, Model& model) {
         for (const auto& term : c.tangent.terms) model.v0[term.first] = 0.0;
 }
 
-/// A static start that bends nothing has displacements of rounding alone, below that of the scene's. They would tell when
-/// a contact closes that just touches.
+/// A static start without deformation has displacements of rounding size, below those of the scene. They would decide
+/// when a contact that just touches closes.
 void take_out_rounding_of_statics(Model& model) {
   for (Eigen::Index i = 0; i < model.u0.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
@@ -229,7 +229,7 @@ void take_out_rounding_of_statics(Model& model) {
   model.u0.setZero();
 }
 
-/// What the clock cannot tell apart is one.
+/// Merges times that double precision cannot separate.
 void resolve_times(double t_end, Model& model) {
   for (Load& load : model.loads) load.history = resolved(load.history, t_end);
   for (Contact& c : model.contacts) {
@@ -238,7 +238,7 @@ void resolve_times(double t_end, Model& model) {
   }
 }
 
-/// What is frozen is not damped: beta times the model's stiffness is too much by that of these forces.
+/// Frozen forces are not damped: beta times the model's stiffness would include their stiffness.
 void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly) {
   assembly.dampers -= scene.damping.beta * assemble_geometric(scene, map).matrix;
 }
@@ -302,7 +302,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   }
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
     reduce(scene, assembly.dampers, dashpots, model);
-    check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit
+    check_rigid_contacts(scene, model);  // contact gaps that are zero at the start become exactly zero
     model.omega_max = highest_frequency(model);
   } else {
     separate_undamped(model);
@@ -325,7 +325,7 @@ Model built(const Scene& scene, Extent extent) {
       if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
     return model;
   } catch (const SceneError&) {
-    static_cast<void>(assembled(scene, {}));  // refuses it with numbers in the scene's units
+    static_cast<void>(assembled(scene, {}));  // throws with numbers in the scene's units
     throw;
   }
 }

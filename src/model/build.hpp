@@ -1,12 +1,11 @@
-// build.hpp: build_model() (signorini/model.hpp) for those who build many models of one scene.
+// build.hpp: build_model() (signorini/model.hpp) for callers that build many models of one scene.
 #pragma once
 
 #include "signorini/model.hpp"
 
 namespace signorini {
 
-/// The same model without what may be doubted of it (doubts.hpp), which costs as much as all else and adds
-/// nothing but warnings.
+/// The same model without model warnings (doubts.hpp), which take as long as all other steps together.
 [[nodiscard]] Model build_undoubted(const Scene& scene);
 
 /// The structure that a reduction starts from: all degrees of freedom of build_model's M, C and K, whatever [reduction] says. The

@@ -11,8 +11,8 @@
 namespace signorini {
 namespace {
 
-// Forces that an equilibrium gives again to so many roundings of what they are computed from are the same. Chosen; each
-// round is one solve with K.
+// Forces that an equilibrium reproduces within this number of roundings of their inputs are converged. Chosen value;
+// each round is one solve with K.
 constexpr double settled = rounding::of_many;
 constexpr int rounds = 50;
 
@@ -20,8 +20,8 @@ bool is_pressed_pendulum(const ContactSpec& contact) {
   return contact.bowl && contact.capabilities().normal_spring;
 }
 
-/// To begin with: what is given, or all that loads push, shared out. Its size decides nothing but the number of rounds;
-/// it is not zero, lest a structure that stands on pendulums alone is one that nothing holds.
+/// Initial guess: the given forces, or the sum of the loads shared evenly. Its size affects only the number of rounds;
+/// it is not zero, because a structure that stands on pendulums alone would then be a mechanism.
 std::vector<double> first_guess(const Scene& scene, const Model& model) {
   double pushed = 0.0, bearings = 0.0;
   for (const Load& load : model.loads)
@@ -37,8 +37,8 @@ std::vector<double> first_guess(const Scene& scene, const Model& model) {
   return forces;
 }
 
-/// What rounding is relative to in N = kn (g0 + n . u): N itself, its terms, which are far greater where the structure
-/// stands far along the surface and the axes are not those of the surface, and the forces K u that balance it. Unit: force.
+/// Magnitude to which the rounding of N = kn (g0 + n . u) is relative: N itself; its terms, which are much larger if
+/// the structure lies far along an inclined surface; and the forces K u that balance it. Unit: force.
 std::vector<double> summed(const Scene& scene, const Model& model) {
   const Vector forces = model.stiffness.cwiseAbs() * model.u0.cwiseAbs();
   double greatest = 0.0;

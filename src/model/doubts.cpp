@@ -29,8 +29,8 @@ namespace signorini {
 namespace {
 
 constexpr double greatest_friction = 2.0;
-constexpr double least_drag = 0.01;  // of a velocity, in the time of the run
-constexpr double along = 1e-9;       // of a motion, that a contact must see of it
+constexpr double least_drag = 0.01;  // relative, of a velocity, during the run
+constexpr double along = 1e-9;       // relative; part of a motion that a contact must see
 constexpr std::size_t most_named = 3;
 
 /// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
@@ -40,8 +40,8 @@ std::string names(const Model& model, const std::vector<std::size_t>& contacts) 
   return (list.size() == 1 ? "contact " : "contacts ") + listed(list, most_named);
 }
 
-/// Is f anywhere between these of its starts outside of what it has before and after? On a clock that begins with the piece
-/// that is asked: on that of the run there may be no time between two starts.
+/// True if f has values between these starts that exceed those before and after. Evaluated with a clock that begins at
+/// the piece; on the run's clock the starts may coincide.
 bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
   const std::vector<double>& starts = f.starts();
   struct Known {
@@ -92,7 +92,7 @@ class Doubts {
 
  private:
   void idle_loads() {
-    if (scene_.run.geometric) return;  // what supports hold may press members and bodies
+    if (scene_.run.geometric) return;  // fixed loads may still compress members and bodies
     for (const Load& load : model_.loads) {
       if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support ||
           load.kind == LoadKind::support_rate)
@@ -106,7 +106,7 @@ class Doubts {
     }
   }
 
-  /// The contacts that act on one part only, part by part; sliders have no normal and may hold by friction.
+  /// Checks the contacts of each part separately; sliders have no normal and may hold a part by friction.
   void falls() {
     if (weight_.isZero(0.0)) return;
     const Parts parts({&model_.mass, &model_.stiffness});
@@ -202,7 +202,7 @@ class Doubts {
         names(model_, high)));
   }
 
-  /// What lasts less than the clock can tell is passed at once, and with it a pulse.
+  /// A pulse shorter than the time resolution has no effect.
   void pulses() {
     for (const Load& load : model_.loads) {
       const std::vector<double>& starts = load.history.starts();
@@ -218,7 +218,7 @@ class Doubts {
     }
   }
 
-  /// The initial state is the one just after t = 0: what a support does there suddenly gives no impulse.
+  /// The initial state is just after t = 0: a sudden motion of a support gives no impulse.
   void sudden_supports() {
     for (const Load& load : model_.loads) {
       if (load.kind != LoadKind::support || scene_.initial.saved) continue;
@@ -238,7 +238,8 @@ class Doubts {
     }
   }
 
-  /// Static and frictional starts are without histories that are not constant; heat that is there from the start is meant.
+  /// Static and frictional starts ignore histories that are not constant; a temperature present from the start is
+  /// intended.
   void sudden_heat() {
     if (scene_.initial.saved || !scene_.initial.stages.empty()) return;
     if (!scene_.initial.is_static && !scene_.initial.is_frictional) return;
@@ -294,7 +295,7 @@ class Doubts {
         names(model_, found->contacts), found->omega / model_.unit.time, model_.units.time, rate));
   }
 
-  /// run.geometric: some motion has negative energy where contacts are open.
+  /// run.geometric: some motion has negative energy while contacts are open.
   void runs_away() {
     if (!model_.geometric) return;
     const auto fastest = fastest_growth(model_.stiffness, model_.mass);
@@ -314,7 +315,7 @@ class Doubts {
   const DofMap& map_;
   const Model& model_;
   Vector weight_;
-  std::vector<std::size_t> falling_;  // contacts
+  std::vector<std::size_t> falling_;  // indices of contacts
   std::vector<std::string> found_;
 };
 

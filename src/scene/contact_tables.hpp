@@ -11,7 +11,7 @@ namespace signorini {
 [[nodiscard]] Friction read_friction(Table& table);
 /// Reads the spring and the dashpot along the tangent; to be called after the friction.
 void read_elements(Table& table, ContactSpec& contact);
-/// Refuses a compression that would pull at any time of the run.
+/// Refuses a normal force that would be tensile at any time of the run.
 void check_pressing(const Table& table, const HistorySpec& spec, double t_end);
 /// The tangent (ny, -nx) of a normal.
 [[nodiscard]] Direction tangent_of(const Direction& normal);

@@ -128,8 +128,7 @@ class TableReader {
   bool next() {
     while (read_line(in_, line_)) {
       ++number_;
-      if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // byte order mark of
-                                                                                 // spreadsheets
+      if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // byte order mark
       if (is_binary(line_)) fail("found binary data, expected lines of time and value");
       if (line_.size() > longest_line)
         fail(fmt::format("found a line of more than {} characters", longest_line));

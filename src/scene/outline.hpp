@@ -1,6 +1,6 @@
 // outline.hpp: the drawn outline of a rigid body: the convex hull of its nodes, the centre included.
 //
-//   for (const auto& [from, to] : outline_of(scene, body)) ...   // a line each; one where all lie on a line
+//   for (const auto& [from, to] : outline_of(scene, body)) ...   // each line; a single one if all nodes are collinear
 #pragma once
 
 #include <string>

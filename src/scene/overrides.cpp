@@ -133,7 +133,7 @@ class Change {
     fail("the value is not TOML, expected a number, a word, \"text\", [...] or { ... }");
   }
 
-  /// What a part of a key that is left out is a part of: numbers as they are by default, or a table.
+  /// Default of the value that contains the omitted part of a key: a list of numbers, or an empty table.
   std::string left_out(Segments rest) const {
     const Key* key = rest.size() == segments_.size() ? find_key("", rest[0]) : nullptr;
     const bool numbers = key != nullptr && key->fallback.starts_with('[');

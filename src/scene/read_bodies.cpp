@@ -123,7 +123,7 @@ void read_material(Table& table, BodySpec& body, const Scene& scene) {
   body.temperature = read_standing_history(table, "temperature", scene);
 }
 
-/// Names for nodes at given places.
+/// Names the nodes at given places.
 void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene) {
   if (!table.has("points")) return;
   Table points = table.child("points");

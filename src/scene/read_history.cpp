@@ -187,7 +187,7 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   spec.rounds = static_cast<int>(rounds);
 }
 
-/// True if the whole history is in g, including its offset.
+/// The unit g applies to the whole history, including its offset.
 void read_unit(Table& table, HistorySpec& spec, Role role, const Units& units) {
   if (!table.has("unit")) return;
   if (role != Role::acceleration)

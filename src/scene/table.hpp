@@ -48,9 +48,9 @@ class Table {
 
   /// Refuses the absence of a key; `why` is the reason for the message.
   void require(std::string_view key, const std::string& why);
-  /// "found X, expected Y" for a given key.
+  /// Error "found X, expected Y" at a given key.
   [[noreturn]] void wrong(std::string_view key, const std::string& expected) const;
-  /// A free message at the value of the key, or at the table when the key is absent.
+  /// Error with a free message, at the key's value, or at the table if the key is absent.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
   /// Refuses keys that were given but not read. `why` ends the message.

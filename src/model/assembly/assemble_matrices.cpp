@@ -7,7 +7,8 @@
 namespace signorini {
 namespace {
 
-constexpr double printed_digits = 1e-9;  // of the greatest entry: so far apart count as symmetric
+constexpr double printed_digits = 1e-9;  // relative to the largest entry: smaller differences count as
+                                         // symmetric
 
 double largest(const SparseMatrix& a) {
   double result = 0.0;
@@ -30,7 +31,7 @@ SparseMatrix read(const MatrixSpec& spec, int n, const std::string& key) {
   return a;
 }
 
-/// Other programs print symmetric matrices with rounded digits.
+/// Other programs print symmetric matrices with rounded digits, so small differences are averaged.
 SparseMatrix read_symmetric(const MatrixSpec& spec, int n, const std::string& key) {
   const SparseMatrix a = read(spec, n, key);
   const SparseMatrix transposed = a.transpose();

@@ -18,12 +18,12 @@ struct Builder {
   const Scene& scene;
   const DofMap& map;
   Triplets mass, dampers, stiffness;
-  Vector weight, weight_size;  // size: of the terms of each sum
-  std::vector<Vector> base;    // one a motion
+  Vector weight, weight_size;  // size: sum of the magnitudes of the terms
+  std::vector<Vector> base;    // one per base motion
   std::vector<SupportColumns> moving;
 
-  /// Adds an element matrix with the numbers of its unknowns; what rests is left out, what moves with a
-  /// support adds to its column.
+  /// Adds an element matrix by the numbers of its unknowns. Fixed unknowns are left out; those of moving supports are
+  /// added to the support's column.
   template <class Matrix, class Numbers>
   void add(Triplets& target, Column column, const Matrix& a, const Numbers& numbers) {
     if (!any_tied(map, numbers.data(), numbers.size())) return add_own(target, column, a, numbers);
@@ -58,7 +58,7 @@ struct Builder {
                   [&](int n, double force) { map.add(base[i], n, force); });
   }
 
-  /// W^T m W; W maps translations of everything to themselves, so that weight and base act on the whole mass.
+  /// W^T m W; W maps rigid translations to themselves, so weight and base motion act on the whole mass.
   void add_moved_mass(const ElementMatrix& m, const MovedMass& moved) {
     std::vector<int> numbers;
     ElementVector gravity(static_cast<Eigen::Index>(2 * moved.nodes.size()));
@@ -77,7 +77,7 @@ struct Builder {
       add_inertia(own * along[k], numbers, [&](int n, double force) { map.add(base[k], n, force); });
   }
 
-  /// Into what else holds stiffnesses.
+  /// Adds the geometric stiffness to every structure that holds stiffnesses.
   void add_geometric(std::size_t number) {
     const FiniteElement& e = map.mesh.element(number);
     const AxialForces forces = map.frozen_in(number);
@@ -92,7 +92,7 @@ struct Builder {
       weight_size[term.number] += std::abs(force * term.factor);
     }
   }
-  /// Above the support of a body its weight turns nothing, whatever rounding leaves of arms.
+  /// The weight of a body directly above its support has no moment; this removes the rounding of its arm.
   void drop_rounding() {
     for (Eigen::Index i = 0; i < weight.size(); ++i)
       if (std::abs(weight[i]) <= rounding::of_few * weight_size[i]) weight[i] = 0.0;
@@ -138,7 +138,7 @@ struct Builder {
     add(dampers, &SupportColumns::dampers, Eigen::Matrix2d(s.rotation_damping * turning), turns);
   }
 
-  /// k a a^T with a the elongation as a form: one that cancels holds nothing.
+  /// k a a^T, a being the form of the elongation; terms of a that cancel add no stiffness.
   void add_tied_spring(const Spring& s, const std::array<double, 2>& d, const std::array<int, 3>& na,
                        const std::array<int, 3>& nb) {
     const double length = std::hypot(d[0], d[1]);

@@ -1,10 +1,10 @@
-// assembly.hpp: mass, stiffness and dampers of a structure, and its weight.
+// assembly.hpp: mass, stiffness and damper matrices of a structure, and its weight.
 //
 //   M = sum_e M_e + masses,  K = sum_e K_e + springs,  C = dampers,  P_g = M r g,  P_base = -M r a(t)
 //   moving supports s(t):  P = -K_fs s - C_fs s' - M_fs s''
 //
-// r g: the acceleration of gravity on all translations, fixed ones included, so that the weight of a
-// beam next to a support arrives complete. Shapes: n x n, symmetric, both triangles stored.
+// r g: the acceleration of gravity on all translations, fixed ones included, so that the weight of a beam next to a
+// support is complete. Shapes: n x n, symmetric, both triangles stored.
 #pragma once
 
 #include "model/assembly/dofs.hpp"
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// What a unit motion of a support does to the free degrees of freedom: columns of M_fs, dampers, K_fs.
+/// Forces on the free degrees of freedom by a unit motion of a support: columns of M_fs, dampers, K_fs.
 struct SupportColumns {
   Vector mass, dampers, stiffness;
 };
@@ -27,7 +27,7 @@ struct Assembly {
 
 [[nodiscard]] Assembly assemble_nodes(const Scene& scene, const DofMap& map);
 
-/// The matrices of the file. Errors: SceneError for wrong sizes, M or K not symmetric.
+/// Matrices from files. Errors: SceneError for wrong sizes, or if M or K is not symmetric.
 [[nodiscard]] Assembly assemble_matrices(const Scene& scene, const DofMap& map);
 
 }  // namespace signorini

@@ -48,7 +48,8 @@ void check_compliant(const ContactSpec& spec, const Contact& contact) {
                      "a compliant contact with friction needs a tangential stiffness > 0");
 }
 
-/// Friction that depends on N: p' follows from the rate of N, which a dashpot would make a matter of accelerations.
+/// With friction that depends on N, p' follows from the rate of N; a normal dashpot would make it depend on
+/// accelerations.
 void check_friction_by_force(const ContactSpec& spec) {
   if (!spec.friction.by_force()) return;
   const auto refuse = [&](const std::string& what) {
@@ -60,7 +61,7 @@ void check_friction_by_force(const ContactSpec& spec) {
   if (spec.tangential_damping != 0.0) refuse("cannot be combined with tangential_damping");
 }
 
-/// A law of one's own: what it may be made of.
+/// Checks the rows and guards of a user law.
 void check_own(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
   const OwnLaw& law = *spec.own;
@@ -89,7 +90,8 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
                                  contact.normal_force.value(t), t));
 }
 
-/// At a node of a seam that a support holds along the tangent, on a plane of symmetry, nothing slides: the support bears T.
+/// At a node of a seam that a support fixes along the tangent (a plane of symmetry) there is no slip: the support
+/// carries T.
 void leave_out_held_friction(const Scene& scene, std::size_t k, Contact& contact) {
   const bool of_seam = std::any_of(scene.seams.begin(), scene.seams.end(), [k](const SeamSpec& seam) {
     return k >= seam.first_contact && k < seam.first_contact + seam.nodes.size();

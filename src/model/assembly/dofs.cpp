@@ -81,7 +81,7 @@ void add_columns(DofMap& map) {
   }
 }
 
-/// The one thing that support i holds moves.
+/// Lets the single component that support i fixes follow the support's motion.
 void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool, 3>& fix) {
   const std::string key = s.key + ".motion";
   auto& moving = map.moving[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, key))];
@@ -96,7 +96,7 @@ void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool,
   map.supports.push_back(i);
 }
 
-/// One that rests and one that moves would contradict.
+/// A fixed and a moving support of the same component would contradict each other.
 void check_moving(const Scene& scene, const DofMap& map) {
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -110,7 +110,7 @@ void check_moving(const Scene& scene, const DofMap& map) {
   }
 }
 
-/// What elements have of their own: "A-B.A.rz", a hinged end.
+/// Numbers the elements' own degrees of freedom: "A-B.A.rz", a hinged end.
 void add_own(DofMap& map) {
   for (const MeshPiece& piece : map.mesh.pieces) {
     const std::string& from = map.mesh.node(piece.from).name;

@@ -1,12 +1,11 @@
-// dofs.hpp: which degrees of freedom exist, which are fixed, and their numbers.
+// dofs.hpp: degrees of freedom that exist, those that are fixed, and their numbers.
 //
 //   node i, component c (0 ux, 1 uy, 2 rz)  ->  number, or `absent`, or `fixed`
 //
-// A degree of freedom exists only where a member, mass, spring or contact needs it: beams need ux, uy
-// and rz of all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the
-// components of their directions. Supports fix what exists. Numbers follow the order of the nodes; behind
-// them stand the rotations of members' hinged ends. A support that moves has a number of its own, of those
-// that move. Numbers from size() on are tied: motions of a rigid body's nodes (ties.hpp).
+// A degree of freedom exists only if a member, mass, spring or contact needs it: beams need ux, uy and rz of all their
+// nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the components of their directions.
+// Supports fix existing ones. Numbers follow the order of the nodes, then come the rotations of members' hinged ends.
+// Moving supports are numbered separately. Numbers from size() on are tied: motions of a rigid body's nodes (ties.hpp).
 #pragma once
 
 #include <array>
@@ -20,60 +19,63 @@
 
 namespace signorini {
 
-/// Part of a tied motion: factor times a degree of freedom, or a support that moves (its code).
+/// Term of a tied motion: factor times a degree of freedom, or times a moving support (its code).
 struct TiedTerm {
   int number = 0;
   double factor = 1.0;
 };
 
-/// A motion that follows from others.
+/// A motion that is a combination of others.
 struct TiedDof {
   Dof dof;
   std::vector<TiedTerm> terms;
 };
 
 struct DofMap {
-  static constexpr int absent = -1, fixed = -2, needed = 0;  // needed: while numbers are given
+  static constexpr int absent = -1, fixed = -2, needed = 0;  // needed: while numbers are assigned
 
   Mesh mesh;                               ///< empty in matrix scenes
-  std::vector<std::array<int, 3>> number;  ///< a mesh node; empty in matrix scenes
+  std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
   std::map<std::pair<std::size_t, std::size_t>, int>
-      own;                                 ///< an element's own unknowns: element, index into unknowns()
-  std::vector<std::array<int, 3>> moving;  ///< a mesh node: which of `supports` it follows, or `absent`
-  std::vector<std::size_t> supports;       ///< that move: index into Scene::supports
+      own;                                 ///< elements' own unknowns: element, index into unknowns()
+  std::vector<std::array<int, 3>> moving;  ///< per mesh node: index into `supports` that it follows, or
+                                           ///< `absent`
+  std::vector<std::size_t> supports;       ///< moving supports: indices into Scene::supports
   std::vector<Dof> dofs;
-  std::vector<std::pair<int, int>> where;  ///< a degree of freedom: mesh node, component
-  std::vector<int> body;                   ///< a mesh node: index into Scene::rigid, or `absent`
-  std::vector<AxialForces> frozen;         ///< an element: what stands in it (geometric.hpp); empty: none
-  std::vector<double> body_stiffness;  ///< a rigid body: of its frozen forces (geometric.hpp); empty: none
-  std::vector<TiedDof> tied;           ///< numbers size(), size() + 1, ...
+  std::vector<std::pair<int, int>> where;  ///< per degree of freedom: mesh node, component
+  std::vector<int> body;                   ///< per mesh node: index into Scene::rigid, or `absent`
+  std::vector<AxialForces> frozen;         ///< per element: its frozen axial forces (geometric.hpp); empty:
+                                           ///< none
+  std::vector<double> body_stiffness;  ///< per rigid body: stiffness of its frozen forces (geometric.hpp);
+                                       ///< empty: none
+  std::vector<TiedDof> tied;           ///< for the numbers size(), size() + 1, ...
   std::vector<Column> columns;
-  double shown_length = 1.0;  ///< what one of the lengths here is in the names of motions
+  double shown_length = 1.0;  ///< length shown in names of motions, per length here
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool matrices() const { return number.empty(); }
-  /// What stands for moving support i in numbers_at() and element_numbers().
+  /// Code of moving support i in numbers_at() and element_numbers().
   [[nodiscard]] static int code_of_moving(int i) { return -3 - i; }
   [[nodiscard]] static int moving_of_code(int code) { return -3 - code; }
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
-  /// All nodes move with one rigid body, and no unknown is its own: nothing strains the element.
+  /// True if all nodes move with one rigid body and no unknown is the element's own: the element is not strained.
   [[nodiscard]] bool within_body(const FiniteElement& e) const;
-  /// All of these mesh nodes move with one rigid body.
+  /// True if all of these mesh nodes move with one rigid body.
   [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
-  /// Lets component c of a mesh node follow these.
+  /// Makes component c of a mesh node follow these terms.
   void tie(int node, std::size_t c, std::vector<TiedTerm> terms);
-  /// What a number stands for: degrees of freedom and codes of moving supports; nothing where fixed or absent.
+  /// Meaning of a number: degrees of freedom and codes of moving supports; empty if fixed or absent.
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
-  /// form += factor times the motion under a number; what supports move drops out.
+  /// form += factor times the motion with this number; terms of moving supports are dropped.
   void add(Vector& form, int n, double factor) const;
-  /// Of the motion x (size()).
+  /// Value of a numbered motion for x (size()).
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// Numbers, `fixed`, `absent`, or codes of moving supports.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
   [[nodiscard]] AxialForces frozen_in(std::size_t element) const {
     return frozen.empty() ? AxialForces{} : frozen[element];
   }
-  /// Of its unknowns, in the same way.
+  /// Numbers of the element's unknowns, coded in the same way.
   [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
 };
 
@@ -83,19 +85,18 @@ struct DofMap {
 /// The tangent of a normal: n = (nx, ny) has t = (ny, -nx); both unit vectors.
 [[nodiscard]] std::array<double, 2> tangent_of(const std::array<double, 2>& normal);
 
-/// The vector along which a contact of a node scene slides; zero when it has neither tangent nor normal.
+/// The vector along which a contact of a node scene slides; zero if it has neither tangent nor normal.
 [[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
 
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
-/// mesh: of the scene, or with elements that no type of member has.
+/// mesh: mesh of the scene, or one with additional element types.
 [[nodiscard]] DofMap number_nodes(const Scene& scene, Mesh mesh);
-/// The error of a moment or a turn at a node whose rotation is absent.
+/// Throws the error for a moment or a rotation at a node without rotation.
 [[noreturn]] void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node);
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
 
-/// A direction as a form on the numbered degrees of freedom, less what it is against. Fixed ones drop out;
-/// one that does not exist is an error that names it, unless `skip_absent`. `unit`: normalise the plane
-/// vector.
+/// A direction as a form on the numbered degrees of freedom, minus the counterpart's. Fixed components are dropped; an
+/// absent one is an error with its name, unless `skip_absent`. `unit`: normalise the plane vector.
 [[nodiscard]] Combination combination(const DofMap& map, const Direction& direction, const std::string& key,
                                       bool unit, bool skip_absent = false);
 

@@ -15,7 +15,7 @@
 namespace signorini {
 namespace {
 
-constexpr double no_force = 1e-9;  // of the forces on a body: what a solve leaves of a sum that is zero
+constexpr double no_force = 1e-9;  // relative to the forces on a body: error of a solve in a sum that is zero
 
 using Plane = std::array<double, 2>;
 
@@ -25,14 +25,14 @@ std::array<double, 2> unit_of(const Plane& v) {
   return length > 0.0 ? Plane{clean[0] / length, clean[1] / length} : Plane{0.0, 0.0};
 }
 
-/// Forces on the nodes, but for those of supports and of bodies within themselves.
+/// Forces on the nodes, without those of supports and without internal forces of bodies.
 class Gathering {
  public:
   Gathering(const Scene& scene, const DofMap& map, const Model& model, const StandingForces& standing)
       : scene_(scene), map_(map), standing_(standing), on_node_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
     for (std::size_t i = 0; i < map.supports.size(); ++i)
       supports_.push_back(motion_of_support(scene, map, static_cast<int>(i)).value(0.0));
-    double weight = 1.0;  // how much of it acts
+    double weight = 1.0;  // fraction of the load that acts
     std::vector<double> bases;
     for (std::size_t i = 0; i < model.loads.size(); ++i) {
       const Load& load = model.loads[i];
@@ -145,7 +145,7 @@ class Gathering {
             forces[static_cast<Eigen::Index>(j)];
   }
 
-  /// It turns with the body, and its two forces have no moment however the body turns.
+  /// True for a spring within the body: it turns with it, and its two forces have no moment.
   [[nodiscard]] bool is_within_body(const Spring& spring) const {
     return !spring.against.empty() &&
            map_.in_one_body({map_.mesh.by_name.at(spring.node), map_.mesh.by_name.at(spring.against)});
@@ -183,7 +183,7 @@ class Gathering {
     for (const auto& [name, weight] : at->against) add(name, force, -weight);
   }
 
-  /// Where the supports of a body hold component c: x of ux, y of uy; its centre where they do not.
+  /// Position at which the supports of a body fix component c: x for ux, y for uy; the centre if none does.
   [[nodiscard]] double origin(std::size_t number, std::size_t c, const Plane& total,
                               const Plane& size) const {
     const RigidBody& body = scene_.rigid[number];
@@ -205,7 +205,7 @@ class Gathering {
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));
   }
 
-  /// sum F . r; reactions stand at the origin.
+  /// sum F . r; reactions are placed at the origin.
   [[nodiscard]] double body(std::size_t number) const {
     const auto owner = static_cast<int>(number);
     const int centre = map_.mesh.by_name.at(scene_.rigid[number].centre);
@@ -232,11 +232,11 @@ class Gathering {
   const Scene& scene_;
   const DofMap& map_;
   const StandingForces& standing_;
-  std::vector<Plane> on_node_, uniform_;                   // a node; an element: force per length that acts
-  std::vector<double> supports_;                           // where those that move are
-  std::vector<double> bowls_;                              // a contact: what drives a pendulum back
-  Plane pull_{0.0, 0.0};                                   // on a unit of mass: of gravity, and of the base
-  std::map<std::pair<bool, std::string>, double> values_;  // of loads and strains, by name
+  std::vector<Plane> on_node_, uniform_;                   // per node; per element: force per length
+  std::vector<double> supports_;                           // positions of moving supports
+  std::vector<double> bowls_;                              // per contact: restoring force of a pendulum
+  Plane pull_{0.0, 0.0};                                   // acceleration of gravity minus that of the base
+  std::map<std::pair<bool, std::string>, double> values_;  // factors of loads and strains, by name
 };
 
 }  // namespace

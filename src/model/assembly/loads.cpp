@@ -24,7 +24,7 @@ Combination form_of(const Vector& v, double factor) {
   return form;
 }
 
-/// A constant without a start has held since ever.
+/// True for a constant without `start`: it has always acted.
 bool holds_since_ever(const HistorySpec& spec, const History& history) {
   return spec.type == HistoryType::constant && history.is_constant();
 }
@@ -45,7 +45,7 @@ void add_to(Vector& form, const ElementVector& forces, const DofMap& map, std::s
     map.add(form, numbers[i], forces[static_cast<Eigen::Index>(i)]);
 }
 
-/// Adds what a force per length of one does to one element.
+/// Adds the nodal forces of a unit force per length on one element.
 void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, bool backwards, Vector& form) {
   const LineElement& e = map.mesh.line(element);
   add_to(form, e.spread(along_line(spec, e.axis(), backwards)), map, element);
@@ -69,7 +69,7 @@ Vector traction_form(const Scene& scene, const LoadSpec& spec, const DofMap& map
   return form;
 }
 
-/// The history, unless factors that are finite each have made it something else.
+/// The history; throws if the product of finite factors has overflowed.
 History finite(History history, const SourcePlace& place, const std::string& key) {
   for (const Piece& p : history.pieces()) {
     bool all = std::isfinite(p.amplitude);
@@ -81,7 +81,7 @@ History finite(History history, const SourcePlace& place, const std::string& key
   return history;
 }
 
-/// Adds one of the kinds of [[loads]].
+/// Converts one of [[loads]] to a form and a history.
 Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std::size_t number) {
   const std::string key = fmt::format("loads.{}", number);
   Load load;
@@ -113,7 +113,7 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
   return load;
 }
 
-/// What rounding of places does to the forces of an element, in eps of them: its directions are differences of places.
+/// Rounding of node coordinates in the forces of an element, in eps: its directions are differences of coordinates.
 double rounded_by_places(const DofMap& map, const FiniteElement& e) {
   double reach = 0.0, least = std::numeric_limits<double>::infinity();
   for (const int i : e.nodes()) {
@@ -127,8 +127,8 @@ double rounded_by_places(const DofMap& map, const FiniteElement& e) {
   return reach / least;
 }
 
-/// Forces at the ends of its elements that hold a unit strain of a member. Of forces that cancel, at inner nodes of a
-/// straight line, only rounding is left: it would drive a string that nothing else holds across its line.
+/// Forces at the ends of the elements that balance a unit strain of a member. At inner nodes of a straight line these
+/// forces cancel; their rounding must not drive a string that has no transverse stiffness.
 Combination strain_form(const DofMap& map, int member) {
   Vector form = Vector::Zero(map.size()), size = form;
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
@@ -182,7 +182,7 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
   }
 }
 
-/// A spring that is stretched pulls its node back, against its direction.
+/// A stretched spring pulls its node back, against its direction.
 void add_preloads(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& spring = scene.springs[i];
@@ -212,19 +212,19 @@ void add_base(const Scene& scene, const Assembly& assembly, std::vector<Load>& l
   }
 }
 
-/// Whether f jumps between 0 and t_end; the time, or -1.
+/// Time of a jump of f between 0 and t_end, or -1.
 double jump_of(const History& f, double t_end) {
   for (const Breakpoint& b : f.breakpoints())
     if (b.jump && b.time > 0.0 && b.time < t_end) return b.time;
   return -1.0;
 }
 
-/// Where the support was in the run that this one goes on from; 0 where none is.
+/// Position of the support at the end of the run that this one continues; 0 if there is none.
 double last_motion(const Scene& scene, const std::string& name) {
   return scene.initial.saved ? saved_motion(*scene.initial.saved, name).value_or(0.0) : 0.0;
 }
 
-/// What a support follows, and how it is called.
+/// Motion of a moving support, and its name.
 struct SupportMotion {
   std::string name, key;
   SourcePlace place;
@@ -334,7 +334,7 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   gravity.kind = LoadKind::weight;
   gravity.of_direction = unit::force;
   gravity.of_history = unit::plain;
-  // Where supports hold all of it, it still stiffens and softens.
+  // Gravity on fixed degrees of freedom alone still contributes to the geometric stiffness.
   const bool stiffens = scene.run.geometric && (scene.gravity[0] != 0.0 || scene.gravity[1] != 0.0);
   if (!gravity.direction.terms.empty() || stiffens) loads.push_back(std::move(gravity));
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
@@ -397,7 +397,7 @@ Vector static_load(const std::vector<Load>& loads, int n) {
     load.direction.add_to(p, value);
     for (const auto& [dof, factor] : load.direction.terms) size[dof] += std::abs(factor * value);
   }
-  // What rounding leaves of loads that cancel drives nothing.
+  // Loads that cancel to rounding drive nothing.
   return (p.array().abs() > rounding::of_many * size.array()).select(p, 0.0);
 }
 

@@ -1,4 +1,4 @@
-// loads.hpp: what acts on the structure as forms on its degrees of freedom, times functions of time.
+// loads.hpp: loads as forms on the structure's degrees of freedom, times functions of time.
 //
 //   P(t) = sum_i d_i f_i(t)
 //
@@ -21,40 +21,40 @@ namespace signorini {
 
 /// "support A.ux" -> "support A.vx"
 [[nodiscard]] std::string rate_of(const std::string& support_motion);
-/// Of [[loads]], counted from 1: its own name, or "load 1".
+/// Name of one of [[loads]], counted from 1: its given name, or "load 1".
 [[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
-/// Of a strain of a member, temperature or initial strain.
+/// Name of a member's strain load: temperature or initial strain.
 [[nodiscard]] std::string name_of_strain(LoadKind kind, int member);
-/// Forces of a traction of one on nodes of the mesh.
+/// Nodal forces of a unit traction.
 struct NodeForce {
   int node = 0;
   std::array<double, 2> force{0.0, 0.0};
 };
 [[nodiscard]] std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh,
                                                      const LoadSpec& spec);
-/// Of the preload of a spring, counted from 0.
+/// Name of a spring's preload, springs counted from 0.
 [[nodiscard]] std::string name_of_preload(std::size_t spring);
-/// Load::of_history.
+/// Unit of Load::of_history.
 [[nodiscard]] Unit unit_of_history(LoadType type);
-/// Gravity first (when it acts), then the loads in the order of the file, strains of members, the motion of
-/// the base, where supports that move are. Errors: SceneError.
+/// Gravity first (if it acts), then the loads in the order of the file, strains of members, base motion, and
+/// displacements of moving supports. Errors: SceneError.
 [[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly);
 
-/// What support i of DofMap::supports follows, from where it was in a run that goes on.
+/// Prescribed motion of support i of DofMap::supports; a continued run begins at the support's last position.
 [[nodiscard]] History motion_of_support(const Scene& scene, const DofMap& map, int i);
-/// The same of one of Scene::supports that moves.
+/// Same for a moving support of Scene::supports.
 [[nodiscard]] History motion_of_support(const Scene& scene, const Support& support);
 
-/// Appends what the velocities and accelerations of supports add, once the damping is known. Errors:
-/// SceneError for a motion that jumps or has a kink where dampers or masses would answer with an impulse.
+/// Appends loads from velocities and accelerations of supports, once the damping is known. Errors: SceneError for a
+/// motion with a jump or a kink if dampers or masses would respond with an impulse.
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
                        double beta, std::vector<Load>& loads);
 
-/// What the geometric stiffness adds to where supports are, -K_fs s: one column for each of DofMap::supports.
+/// Adds the geometric stiffness to the support loads -K_fs s: one column for each of DofMap::supports.
 void add_geometric_supports(const Scene& scene, const DofMap& map, const std::vector<Vector>& columns,
                             std::vector<Load>& loads);
 
-/// Sum of the static loads; n.
+/// Sum of the static loads; length n.
 [[nodiscard]] Vector static_load(const std::vector<Load>& loads, int n);
 
 }  // namespace signorini

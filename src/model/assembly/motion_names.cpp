@@ -7,7 +7,7 @@
 namespace signorini {
 namespace {
 
-constexpr double at_rest = 1e-3;  // a null motion of a fine mesh has few digits
+constexpr double at_rest = 1e-3;  // relative; a null motion of a fine mesh has few digits
 
 struct NodeMotion {
   const MeshNode* node;
@@ -52,7 +52,7 @@ std::string largest_name(const Vector& motion, const DofMap& map, double size, b
                     : fmt::format("motion of {}", name);
 }
 
-/// theta and the centre of the rigid rotation that all nodes follow, if they do.
+/// Angle and centre of a rigid rotation of all nodes, if the motion is one.
 bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double shown, std::string& name) {
   double theta = 0.0;
   for (const NodeMotion& m : nodes)
@@ -74,10 +74,10 @@ bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double sh
   return true;
 }
 
-/// All nodes by the same vector, without a turn.
+/// True if all nodes translate by the same vector without rotating.
 bool translates(const std::vector<NodeMotion>& nodes, double size) {
   const NodeMotion& first = nodes.front();
-  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest is none
+  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest counts as none
   for (const NodeMotion& m : nodes) {
     if (std::hypot(m.x - first.x, m.y - first.y) > at_rest * size) return false;
     turning = std::max(turning, std::abs(m.turn));

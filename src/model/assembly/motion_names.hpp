@@ -1,9 +1,9 @@
-// motion_names.hpp: a motion in an engineer's words.
+// motion_names.hpp: describes a motion in words.
 //
 //   u = a                    "horizontal motion", "vertical motion", "motion along (0.8, 0.6)"
 //   u = a + theta x (r - c)  "rotation about (12, 6)"
 //
-// with "of node 'A'" when only one node moves, and the degree of freedom that moves most otherwise.
+// The text adds "of node 'A'" if only one node moves; other motions are named by their largest degree of freedom.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace signorini {
 
-/// motion: n. What moves less than 1e-3 of the greatest counts as at rest.
+/// motion: length n. Entries below 1e-3 of the largest count as at rest.
 [[nodiscard]] std::string describe_motion(const Vector& motion, const DofMap& map);
 
-/// Whether all nodes move as one body.
+/// True if all nodes move as one rigid body.
 [[nodiscard]] bool is_rigid(const Vector& motion, const DofMap& map);
 
-/// How far the node goes that moves most (matrix scenes: the greatest component).
+/// Largest displacement of a node (matrix scenes: the largest component).
 [[nodiscard]] double greatest_translation(const Vector& motion, const DofMap& map);
 
 }  // namespace signorini

@@ -10,9 +10,9 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t most_pieces = 2000000;  // of histories in all copies: some 300 MB
+constexpr std::size_t most_pieces = 2000000;  // pieces of histories in all copies together: about 300 MB
 
-/// All that a contact acts on, one a contact.
+/// All motions that each contact acts on, one form per contact.
 std::vector<Combination> reaches(const Model& model) {
   std::vector<Combination> forms;
   for (const Contact& contact : model.contacts) {
@@ -29,7 +29,7 @@ std::size_t pieces_of(const Model& model) {
   return count;
 }
 
-/// Which part has what, and what it is called there.
+/// Assigns degrees of freedom, contacts and loads to parts, with their numbers there.
 class Split {
  public:
   explicit Split(const Model& model) : model_(model), part_of_(model.dofs.size()), place_(model.dofs.size()) {
@@ -37,7 +37,7 @@ class Split {
     const Parts coupled({&model.mass, &model.damping, &model.stiffness}, forms);
     std::vector<std::size_t> part_of_set(coupled.count(), none);
     for (std::size_t k = 0; k < forms.size(); ++k) {
-      // What acts on nothing goes with the first degree of freedom.
+      // A form without terms goes with the first degree of freedom.
       const int dof = forms[k].terms.empty() ? 0 : forms[k].terms.front().first;
       std::size_t& part = part_of_set[coupled.part_of(dof)];
       if (part == none) {
@@ -59,7 +59,7 @@ class Split {
     }
   }
 
-  /// Parts that have contacts.
+  /// Number of parts that have contacts.
   [[nodiscard]] std::size_t with_contacts() const { return with_contacts_; }
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
@@ -81,7 +81,7 @@ class Split {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
   void divide_loads() {
-    std::vector<std::size_t> last(parts_.size(), none);  // load that the part was given
+    std::vector<std::size_t> last(parts_.size(), none);  // last load given to each part
     for (std::size_t i = 0; i < model_.loads.size(); ++i) {
       const Load& load = model_.loads[i];
       const auto give = [&](std::size_t part) -> Load& {
@@ -101,7 +101,7 @@ class Split {
 
   const Model& model_;
   std::vector<PartModel> parts_;
-  std::vector<std::size_t> part_of_;  // one a degree of freedom
+  std::vector<std::size_t> part_of_;  // one per degree of freedom
   std::vector<int> place_;            // its number in its part
   std::size_t with_contacts_ = 0;
 };

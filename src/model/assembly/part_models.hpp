@@ -1,10 +1,10 @@
-// part_models.hpp: a model as several that nothing couples.
+// part_models.hpp: splits a model into uncoupled models.
 //
-//   M, C, K, n_k, t_k:   block by block (parts.hpp);   P_i: what of P(t) acts on the block i
+//   M, C, K, n_k, t_k:   block by block (parts.hpp);   P_i: restriction of P(t) to block i
 //
-// A part has contacts that reach each other; what no contact reaches is one part more, the last. Each has a load if that
-// acts on it; one that acts on nothing is the first's. Scales, frequencies and factors are those of the whole, so that
-// what is decided by them is decided as there.
+// The contacts of one part are coupled with each other; the last part is everything without contacts. A part has the
+// loads that act on it; loads that act nowhere belong to the first part. Scales, frequencies and factors are those of
+// the whole model, so that decisions are the same as in the whole model.
 #pragma once
 
 #include <vector>
@@ -14,13 +14,13 @@
 namespace signorini {
 
 struct PartModel {
-  Model model;            ///< what runs of a model need: no outputs, no names but its own, nothing drawn
-  std::vector<int> dofs;  ///< its own in the whole, ascending
-  std::vector<std::size_t> contacts;  ///< the same
+  Model model;                        ///< data needed by a run: without outputs, foreign names and drawing
+  std::vector<int> dofs;              ///< its degrees of freedom in the whole model, ascending
+  std::vector<std::size_t> contacts;  ///< its contacts in the whole model, ascending
 };
 
-/// In the order of their first contacts. Empty: contacts reach each other, or the model is one of amplitudes, of rigid
-/// bodies, or asks for outputs, which may be sums over parts; or its loads are histories too long for a copy a part.
+/// Parts in the order of their first contacts. Empty if all contacts are coupled; if the model is reduced, has rigid
+/// bodies or has outputs, which may be sums over parts; or if the histories are too long for one copy per part.
 [[nodiscard]] std::vector<PartModel> part_models(const Model& model);
 
 }  // namespace signorini

@@ -59,21 +59,21 @@ std::vector<Combination> Part::forms(const std::vector<Combination>& forms) cons
 
 std::vector<std::vector<std::size_t>> coupled_forms(const std::vector<Combination>& forms) {
   DisjointSets sets(forms.size());
-  std::unordered_map<int, std::size_t> first;  // that acts on a degree of freedom
+  std::unordered_map<int, std::size_t> first;  // first form that acts on a degree of freedom
   for (std::size_t i = 0; i < forms.size(); ++i)
     for (const auto& term : forms[i].terms) sets.join(i, first.emplace(term.first, i).first->second);
   return sets.sets();
 }
 
 std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model) {
-  std::vector<Combination> forms;  // one a contact
+  std::vector<Combination> forms;  // one per contact
   for (const Contact& c : model.contacts) {
     Combination& form = forms.emplace_back(c.normal);
     form.terms.insert(form.terms.end(), c.tangent.terms.begin(), c.tangent.terms.end());
   }
   const Parts parts({&model.mass, &model.damping, &model.stiffness}, forms);
   DisjointSets sets(forms.size());
-  std::unordered_map<std::size_t, std::size_t> first;  // contact on a part
+  std::unordered_map<std::size_t, std::size_t> first;  // first contact on a part
   for (std::size_t i = 0; i < forms.size(); ++i)
     if (!forms[i].terms.empty())
       sets.join(i, first.emplace(parts.part_of(forms[i].terms.front().first), i).first->second);

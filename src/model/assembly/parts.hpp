@@ -1,9 +1,9 @@
-// parts.hpp: the parts of a structure that nothing couples.
+// parts.hpp: uncoupled parts (substructures) of a structure.
 //
 //   P^T A P = diag(A_1, A_2, ...)   for all given matrices at once; every form acts on one part only
 //
-// A hundred blocks on a floor are a hundred structures: what costs n^3 then costs the sum of n_i^3, and a
-// frequency that all of them have is found once in each.
+// A hundred blocks on a floor are a hundred structures: an O(n^3) cost becomes the sum of n_i^3, and a frequency that
+// all parts share is found once in each.
 //
 //   const Parts parts({&mass, &k}, fixed);
 //   for (const Part& part : parts) use(part.matrix(mass), part.forms(fixed));
@@ -17,7 +17,7 @@ namespace signorini {
 
 class Parts;
 
-/// Some degrees of freedom, ascending, and what of matrices and forms lies on them.
+/// A set of degrees of freedom, ascending, and the restriction of matrices and forms to it.
 class Part {
  public:
   Part(const Parts& all, std::size_t number) : all_(&all), number_(number) {}
@@ -26,7 +26,7 @@ class Part {
   [[nodiscard]] int size() const { return static_cast<int>(dofs().size()); }
   /// n_i x n_i
   [[nodiscard]] SparseMatrix matrix(const SparseMatrix& a) const;
-  /// Those that act on this part, on its own numbers, in their order. A form without terms is on none.
+  /// Forms that act on this part, on its own numbers, in their order. A form without terms is on no part.
   [[nodiscard]] std::vector<Combination> forms(const std::vector<Combination>& forms) const;
 
  private:
@@ -36,7 +36,7 @@ class Part {
 
 class Parts {
  public:
-  /// Matrices n x n, n > 0, with symmetric patterns; entries that are zero couple nothing.
+  /// Matrices n x n, n > 0, with symmetric patterns; zero entries couple nothing.
   explicit Parts(const std::vector<const SparseMatrix*>& matrices,
                  const std::vector<Combination>& forms = {});
   Parts(const Parts&) = delete;
@@ -50,16 +50,16 @@ class Parts {
  private:
   friend class Part;
   std::vector<std::vector<int>> dofs_;
-  std::vector<std::size_t> part_of_;  // one a degree of freedom
+  std::vector<std::size_t> part_of_;  // one per degree of freedom
   std::vector<int> place_in_;         // its number in its part
   std::vector<Part> parts_;
 };
 
-/// Forms that act on common degrees of freedom, directly or through others: indices, ascending, in the order
-/// of the first of each group. Forms without terms are alone.
+/// Groups of forms that act on common degrees of freedom, directly or through others: ascending indices, groups in the
+/// order of their first forms. A form without terms is a group of its own.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_forms(const std::vector<Combination>& forms);
 
-/// Contacts whose forces reach each other through M, C, K and other contacts, in the same way.
+/// Groups of contacts whose forces are coupled through M, C, K and other contacts, in the same order.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model);
 
 }  // namespace signorini

@@ -8,12 +8,12 @@
 
 namespace signorini {
 
-/// The one piece of a member between two nodes, and whether it runs the other way. Errors: SceneError.
+/// The piece of a member between two nodes, and whether it runs in the opposite direction. Errors: SceneError.
 [[nodiscard]] std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a,
                                                               const std::string& b, const SourcePlace& place,
                                                               const std::string& key);
 
-/// Components along x and y of a distributed load of one on an element; backwards: given against its course.
+/// Components along x and y of a unit distributed load on an element; backwards: given against the element's direction.
 [[nodiscard]] std::array<double, 2> along_line(const LoadSpec& spec, const Axis& axis, bool backwards);
 
 }  // namespace signorini

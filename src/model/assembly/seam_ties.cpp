@@ -18,7 +18,7 @@ namespace {
                                map.mesh.node(tie.node).name, why));
 }
 
-/// Component c of what a node follows: what cancels to a rounding is left out.
+/// Terms of component c that a tied node follows; terms that cancel to rounding are left out.
 std::vector<TiedTerm> followed(const TieSpec& tie, std::size_t c, const DofMap& map) {
   struct Sum {
     TiedTerm term;

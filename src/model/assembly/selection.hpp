@@ -1,6 +1,6 @@
 // selection.hpp: some rows and columns of a sparse matrix.
 //
-//   S = [e_i1 e_i2 ...],   S^T A S = A(i, i),   S x puts x back to where it was
+//   S = [e_i1 e_i2 ...],   S^T A S = A(i, i),   S x scatters x to its original positions
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace signorini {
 
-/// Columns are unit vectors; n x m, m the number of indices.
+/// Columns are unit vectors; n x m, m being the number of indices.
 [[nodiscard]] SparseMatrix selection(const std::vector<int>& indices, int n);
 
-/// Degrees of freedom whose mass is > 0, or the others.
+/// Selection of the degrees of freedom with mass > 0, or of the others.
 [[nodiscard]] SparseMatrix select_by_mass(const SparseMatrix& mass, bool with_mass);
 
-/// How many degrees of freedom have mass.
+/// Number of degrees of freedom with mass.
 [[nodiscard]] int degrees_with_mass(const SparseMatrix& mass);
 
 }  // namespace signorini

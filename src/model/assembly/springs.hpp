@@ -1,4 +1,4 @@
-// springs.hpp: stiffness with line springs, and equations with such a matrix.
+// springs.hpp: stiffness matrix plus line springs, and linear solvers for such matrices.
 //
 //   K + sum_k s_k a_k a_k^T,    K x = b
 //
@@ -19,13 +19,13 @@ struct LineSpring {
 
 [[nodiscard]] SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs);
 
-/// Of all contacts, as if closed and sticking.
+/// Springs of all contacts, as if closed and sticking.
 [[nodiscard]] std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts);
 
 /// The form as a full vector of length n.
 [[nodiscard]] Vector full(const Combination& form, int n);
 
-/// |x|^T |K| |x|: the size of the terms of x^T K x, whose roundoff is this times machine epsilon.
+/// |x|^T |K| |x|: magnitude of the terms of x^T K x; its rounding error is this times machine epsilon.
 [[nodiscard]] double term_size(const SparseMatrix& k, const Vector& x);
 
 /// L D L^T of a symmetric sparse matrix, with a fill-reducing order.
@@ -36,12 +36,12 @@ class SymmetricSolver {
   SymmetricSolver(SymmetricSolver&&) noexcept;
   SymmetricSolver& operator=(SymmetricSolver&&) noexcept;
 
-  /// False when a pivot was exactly zero.
+  /// False if a pivot is exactly zero.
   [[nodiscard]] bool ok() const;
   [[nodiscard]] Vector solve(const Vector& b) const;
   /// The smallest pivot.
   [[nodiscard]] double smallest_pivot() const;
-  /// The smallest pivot over the diagonal entry that it stands for: whatever the units of the rows.
+  /// Smallest ratio of a pivot to its diagonal entry; independent of the units of the rows.
   [[nodiscard]] double smallest_share() const;
   /// Number of negative eigenvalues (Sylvester's law of inertia).
   [[nodiscard]] int negative_pivots() const;

@@ -14,13 +14,13 @@ namespace {
 
 std::size_t place_of_node(int i) { return static_cast<std::size_t>(i); }
 
-/// y of a node for ux, x for uy.
+/// Coordinate across a component: y of the node for ux, x for uy.
 double across(const DofMap& map, int node, std::size_t c) {
   const MeshNode& at = map.mesh.nodes[place_of_node(node)];
   return c == 0 ? at.y : at.x;
 }
 
-/// a - b; zero within the rounding of coordinates that were meant to be equal.
+/// a - b; zero within the rounding of coordinates that are meant to be equal.
 double arm_between(double a, double b) {
   const double d = a - b;
   return std::abs(d) <= rounding::of_few * (std::abs(a) + std::abs(b)) ? 0.0 : d;
@@ -54,7 +54,7 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
                    fmt::format("node '{}' is part of rigid body '{}': {}", s.node, body.name, why));
 }
 
-/// Adds one support to what holds the body; `turn` is set where it holds rz together with another.
+/// Adds one support to the constraints of the body; `turn` is set if it fixes rz together with another one.
 void add_hold(const Scene& scene, const RigidBody& body, const BodyHold& hold, std::size_t c,
               BodyMotion& motion, std::optional<BodyHold>& turn) {
   std::optional<BodyHold>& before = motion.holds[c];
@@ -94,7 +94,7 @@ void find_holds(const Scene& scene, const RigidBody& body, int number, const Dof
   motion.holds[2] = turn;
 }
 
-/// Component c of a node of a body.
+/// Terms of component c of a body's node.
 std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, const DofMap& map) {
   std::vector<TiedTerm> terms;
   const auto add = [&](std::size_t of, double factor) {
@@ -114,7 +114,7 @@ std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, 
 void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map) {
   int& moving = map.moving[place_of_node(node)][c];
   std::vector<TiedTerm> terms = terms_of(body, node, c, map);
-  // As a node does that the support itself holds; times an arm it is another motion.
+  // A node fixed by the support itself follows it; with an arm it is a different motion.
   const bool follows = body.holds[c] && body.holds[c]->moving >= 0 && terms.size() == 1;
   moving = follows ? DofMap::moving_of_code(terms[0].number) : DofMap::absent;
   if (terms.empty() || follows) {

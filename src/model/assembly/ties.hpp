@@ -1,4 +1,4 @@
-// ties.hpp: rigid bodies, whose nodes move with their centre; small rotations.
+// ties.hpp: rigid bodies, whose nodes move with a centre; small rotations.
 //
 //   ux_P = ux_C - rz (y_P - y_C),   uy_P = uy_C + rz (x_P - x_C),   rz_P = rz_C          u = T q
 //
@@ -7,8 +7,8 @@
 //
 //   ux_P = -rz (y_P - y_A),   uy_P = rz (x_P - x_B),
 //
-// and two nodes held in x at different heights, or in y beside each other, hold rz. One that moves stands
-// for its motion, s - rz (y_P - y_A). What is then no degree of freedom is tied, the centre's motions too.
+// Two nodes held in x at different heights, or in y at different x, also fix rz. A moving support contributes its
+// motion, s - rz (y_P - y_A). Motions that are no degrees of freedom any more are tied, the centre's included.
 #pragma once
 
 #include <optional>
@@ -18,28 +18,28 @@
 
 namespace signorini {
 
-/// A component of a body's motion that supports hold, at a coordinate across it.
+/// A component of a body's motion that a support fixes, with the coordinate across it.
 struct BodyHold {
-  double at = 0.0;                    ///< of the held node: y for ux, x for uy
+  double at = 0.0;                    ///< coordinate of the held node: y for ux, x for uy
   int moving = DofMap::absent;        ///< index into DofMap::supports
   std::size_t support = 0, node = 0;  ///< index into Scene::supports, mesh node
 };
 
-/// What of a body's motion is free.
+/// Free and fixed components of a body's motion.
 struct BodyMotion {
   int centre = 0;                                ///< mesh node
-  std::vector<int> nodes;                        ///< all, the centre first
+  std::vector<int> nodes;                        ///< all nodes, the centre first
   std::array<std::optional<BodyHold>, 3> holds;  ///< ux, uy, rz
 };
 
-/// Sets DofMap::body, and marks what is free of the centres' motions as needed, all else of bodies as absent.
-/// Errors: SceneError for a node of two bodies, for supports that contradict.
+/// Sets DofMap::body, and marks the free components of the centres as needed, all other components of bodies as absent.
+/// Errors: SceneError for a node that is in two bodies, and for contradictory supports.
 [[nodiscard]] std::vector<BodyMotion> find_bodies(const Scene& scene, DofMap& map);
 
-/// Numbers what is tied, once all degrees of freedom are.
+/// Numbers the tied motions, after all degrees of freedom.
 void tie(const std::vector<BodyMotion>& bodies, DofMap& map);
 
-/// Supports of a body's nodes: node and component, one each.
+/// Supported components of a body's nodes: (node, component) pairs.
 [[nodiscard]] std::vector<std::pair<int, std::size_t>> held_in_body(const Scene& scene, const DofMap& map,
                                                                     int body);
 
@@ -49,14 +49,14 @@ struct Elongation {
   Vector factors;
 };
 
-/// A form that is gathered number by number; what cancels is zero.
+/// A form that is summed number by number; terms that cancel become zero.
 class TiedForm {
  public:
   explicit TiedForm(const DofMap& map) : map_(map) {}
   void add(int number, double factor);
-  /// A support that moves has a part in it.
+  /// True if a moving support contributes.
   [[nodiscard]] bool follows_support() const { return follows_; }
-  /// Of the degrees of freedom alone.
+  /// The form on degrees of freedom, without moving supports.
   [[nodiscard]] Combination combination() const;
   [[nodiscard]] Elongation with_supports() const;
 
@@ -70,22 +70,22 @@ class TiedForm {
   bool follows_ = false;
 };
 
-/// The unknowns of an element of which some are tied: its own are T times others.
+/// The unknowns of an element with tied nodes: they are T times other unknowns.
 struct TiedElement {
   TiedElement(const DofMap& map, const int* numbers, std::size_t count);
   std::vector<int> numbers;  ///< degrees of freedom, codes of moving supports
   Eigen::MatrixXd t;         ///< count x numbers
 
-  /// T^T A T for symmetric A, to the last bit, too; what cancels is zero.
+  /// T^T A T for symmetric A, bitwise symmetric; terms that cancel become zero.
   [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& a) const;
 };
 
-/// Whether one of these is tied.
+/// True if one of these numbers is tied.
 [[nodiscard]] bool any_tied(const DofMap& map, const int* numbers, std::size_t count);
 
-/// Sets Model::ties. The model's degrees of freedom are those of the map.
+/// Sets Model::ties. The model's degrees of freedom must be those of the map.
 void add_ties(const Scene& scene, const DofMap& map, Model& model);
-/// Ties::dofs, anew once the model is reduced or points that slide are there.
+/// Recomputes Ties::dofs, after a reduction or after sliding points were added.
 void name_tied(const DofMap& map, Model& model);
 
 }  // namespace signorini

@@ -11,20 +11,20 @@
 namespace signorini {
 namespace {
 
-/// Loads that last longer than this part of 1/w keep their amplitude: scales are sizes, and what they measure of longer
-/// pulses is right within this factor.
+/// Loads that last longer than this fraction of 1/w keep their amplitude: scales are orders of magnitude, accurate
+/// within this factor for longer pulses.
 constexpr double full_above = 1.0 / 16.0;
 
-/// rad: what turns by less than one in the run is free, and has as short pulses as what turns by so many. A thousandth of
-/// the run then counts in full.
+/// rad: a motion that rotates by less than 1 rad during the run counts as free, with this value for the limit of its
+/// pulses. A thousandth of the run then counts in full.
 constexpr double of_free = 64.0;
 
-/// felt / A at this frequency.
+/// Effective over full amplitude at this frequency.
 double share_at(const History& f, double amplitude, double t_end, double omega) {
   return std::min(1.0, omega * greatest_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
 }
 
-/// Frequencies of the swings along the static answers to loads; 0 where there is none.
+/// Frequencies of the oscillations along the static responses to loads; 0 if there is none.
 class Swings {
  public:
   Swings(const Model& model, const Holding& holding) : model_(model) {
@@ -48,7 +48,7 @@ class Swings {
 Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, double t_end) {
   std::optional<Swings> swings;
   const auto own = [&](double along) { return along * t_end > 1.0 ? along : of_free / t_end; };
-  // The share only grows with the frequency, and the lowest one is known.
+  // The share increases with the frequency, and the lowest frequency is known.
   const double lowest = std::max(omega, 1.0 / t_end);
   const auto lasts = [&](const History& f, double amplitude) {
     return f.is_constant() || !(amplitude > 0.0) || share_at(f, amplitude, t_end, lowest) == 1.0;

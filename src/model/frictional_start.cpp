@@ -13,7 +13,7 @@
 namespace signorini {
 namespace {
 
-/// All loads of a kind have one word in stages.
+/// Name in stages for all loads of a kind.
 std::string word_of(LoadKind kind) {
   switch (kind) {
     case LoadKind::temperature:
@@ -48,7 +48,7 @@ std::string word_of(LoadKind kind) {
                    fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
 }
 
-/// A kind of load that the scene has, though all its values are zero, as an override may set them: nothing grows then.
+/// True for a kind of load whose values are all zero, as an override may set them: the stage then changes nothing.
 bool is_zero_kind(const Scene& scene, const std::string& name) {
   const auto expands = [](const auto& part) { return part.thermal_expansion != 0.0; };
   if (name == word_of(LoadKind::temperature))
@@ -58,12 +58,12 @@ bool is_zero_kind(const Scene& scene, const std::string& name) {
   return name == word_of(LoadKind::base) && !scene.base_motion.empty();
 }
 
-/// A stage names loads one by one, or all of a kind.
+/// True if the stage's name refers to the load, by its own name or by its kind.
 bool is_called(const Load& load, const std::string& name) {
   return name == load.name || name == word_of(load.kind);
 }
 
-/// Adds the loads of one stage, and counts how often each was taken.
+/// Adds up the loads of one stage, and counts how often each load was taken.
 Stage made(const Scene& scene, std::size_t number, const Model& model, std::vector<int>& taken) {
   const StageSpec& spec = scene.initial.stages[number - 1];
   const std::string key = fmt::format("run.stages.{}.loads", number);
@@ -86,7 +86,7 @@ Stage made(const Scene& scene, std::size_t number, const Model& model, std::vect
   return stage;
 }
 
-/// acts: which loads stand in some stage.
+/// acts: loads that act in some stage.
 std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector<bool>& acts) {
   std::vector<Stage> stages;
   if (scene.initial.stages.empty()) {
@@ -112,7 +112,7 @@ std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector
   return stages;
 }
 
-/// What supports hold presses members and bodies.
+/// True if a load of the stage is not zero; even on fixed degrees of freedom it then compresses members and bodies.
 bool presses(const StageSpec& spec, const Model& model) {
   return std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
     return load.history.value(0.0) != 0.0 &&

@@ -14,7 +14,7 @@ namespace {
 constexpr int shown_factors = 5;
 constexpr const char* asked_by = "run.geometric";
 
-/// Normals of contacts that are closed, and tangents of those that stick.
+/// Normals of closed contacts, and tangents of sticking ones.
 Holding held_at(const std::vector<Contact>& contacts, const std::vector<State>& states) {
   Holding holding;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -30,7 +30,7 @@ Holding held_at(const std::vector<Contact>& contacts, const std::vector<State>& 
   return holding;
 }
 
-/// Of contacts that are closed, with friction that holds.
+/// Contact states: stick for closed contacts with friction, closed for those without, open for all others.
 std::vector<State> sticking(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
   std::vector<State> states;
   for (std::size_t k = 0; k < contacts.size(); ++k)
@@ -47,7 +47,7 @@ std::vector<double> factors_at(const Scene& scene, const DofMap& map, const Mode
   return load_factors(elastic, geometric, held_at(model.contacts, states), count);
 }
 
-/// A slender structure is safe, a beginning without equilibrium is none.
+/// Refuses a start beyond the buckling load, which is no stable equilibrium.
 void refuse_buckled(const Scene& scene, const DofMap& map, const Model& model,
                     const std::vector<State>& states) {
   const std::vector<double> factors = factors_at(scene, map, model, states, 1);

@@ -1,14 +1,14 @@
 // geometric_start.hpp: P-delta in two passes (run.geometric).
 //
-//   first:   K u = P - contacts,  which gives the axial forces of members and the forces on rigid bodies, frozen
-//   second:  (K + K_g) u = P - contacts,  the state in which a static start begins
+//   first:   K u = P - contacts,  gives the axial forces of members and the forces on rigid bodies, frozen
+//   second:  (K + K_g) u = P - contacts,  the initial state of a static start
 //
-// A frictional start comes to its end by K alone; then K_g grows on the states of its contacts as one more stage,
+// A frictional start ends with K alone; then K_g grows, with the contact states at that end, as one more stage,
 //
-//   (K + K_g) u' = dP - K_g u_1     u_1: at the end of the last stage, dP: what K_g adds for supports that moved
+//   (K + K_g) u' = dP - K_g u_1     u_1: at the end of the last stage, dP: K_g terms of moved supports
 //
-// A run that goes on from another has that run's forces. A given start has those of the static start, which need not be
-// stable where contacts are open then.
+// A continued run uses the forces of the previous run. A given start uses those of the static start, which then may be
+// unstable while contacts are open.
 #pragma once
 
 #include "model/modes/modes.hpp"
@@ -19,25 +19,25 @@ namespace signorini {
 
 struct FirstPass {
   FrozenForces forces;
-  std::vector<bool> closed;  ///< one a contact; none where the forces are those of another run
+  std::vector<bool> closed;  ///< one per contact; empty if the forces come from another run
 };
 
-/// Of a start without friction. Errors: SceneError where there is no equilibrium.
+/// First pass of a start without friction. Errors: SceneError if there is no equilibrium.
 [[nodiscard]] FirstPass first_pass(const Scene& scene, const DofMap& map, const Model& model);
 
-/// Sets Model::geometric, freezes the forces and adds their stiffness to the model, and to the loads of supports.
+/// Sets Model::geometric, freezes the forces and adds their stiffness to the model and to the loads of supports.
 void stiffen(const Scene& scene, FrozenForces forces, DofMap& map, Model& model);
 
 /// Errors: SceneError where the structure buckles under its static loads.
 [[nodiscard]] Equilibrium second_pass(const Scene& scene, const DofMap& map, const Model& model,
                                       const std::vector<bool>& closed);
 
-/// Freezes the forces at the end of a frictional start and lets their stiffness grow; acts: one a load.
-/// Errors: SceneError where the structure buckles.
+/// Freezes the forces at the end of a frictional start and increases their stiffness; acts: one per load. Errors:
+/// SceneError if the structure buckles.
 [[nodiscard]] FrictionalEquilibrium stiffened_end(const Scene& scene, const std::vector<bool>& acts,
                                                   FrictionalEquilibrium found, DofMap& map, Model& model);
 
-/// Sets Model::geometric's load factors, on contacts that are closed; of a frictional start: in their states.
+/// Sets Model::geometric's load factors, with contacts closed; for a frictional start with their states.
 void set_load_factors(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, Model& model);
 
 }  // namespace signorini

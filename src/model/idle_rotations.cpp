@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t rotation = 2, most_listed = 3;
 
-/// What elements make of the rotations of nodes.
+/// Rotations of nodes that elements connect to.
 class Turning {
  public:
   explicit Turning(const DofMap& map) : map_(map), nodes_(map.mesh.nodes.size()) {
@@ -25,7 +25,7 @@ class Turning {
         if (!unknown.own && unknown.component == rotation) at(e->nodes()[unknown.place]).turns = true;
     }
   }
-  /// Elements end there, none of them turns with it, nor does a rigid body.
+  /// True if elements end at the node but none of them, and no rigid body, rotates with it.
   [[nodiscard]] bool idle(const std::string& node) const {
     const int n = map_.mesh.by_name.at(node);
     const Node& here = nodes_[static_cast<std::size_t>(n)];
@@ -45,7 +45,7 @@ class Turning {
   std::vector<Node> nodes_;
 };
 
-/// Nodes by what they are named for, in the order of the scene.
+/// Table keys and the nodes that they name, in the order of the scene.
 using Named = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 void name(Named& list, const std::string& key, const std::string& node) {

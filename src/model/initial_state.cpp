@@ -28,7 +28,7 @@ Vector given_vector(const std::vector<double>& values, int n, const InitialSpec&
   throw SceneError(spec.place, "run.initial.run", why + ": expected a run of the same structure");
 }
 
-/// Both have the contacts with friction.
+/// Checks that the run and the scene have the same contacts with friction.
 void check_saved_contacts(const Scene& scene) {
   std::unordered_set<std::string> contacts, saved;
   for (const auto& [name, T] : scene.initial.saved->shears) saved.insert(name);
@@ -60,7 +60,7 @@ std::string key_of(const InitialSpec::Component& c) {
   return fmt::format("run.initial.{}.{}", c.node, c.component);
 }
 
-/// Of a run: the degrees of freedom of the same names.
+/// State of a run: values of the degrees of freedom with the same names.
 InitialState saved_state(const Scene& scene, const DofMap& map) {
   const InitialSpec& spec = scene.initial;
   InitialState state{Vector::Zero(map.size()), Vector::Zero(map.size())};
@@ -79,11 +79,12 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
     state.u[i] = value_of(map.dofs[static_cast<std::size_t>(i)].displacement);
     state.v[i] = value_of(map.dofs[static_cast<std::size_t>(i)].velocity);
   }
-  for (const TiedDof& tied : map.tied) {  // they follow
+  for (const TiedDof& tied : map.tied) {  // they follow others
     values.erase(tied.dof.displacement);
     values.erase(tied.dof.velocity);
   }
-  for (const ContactSpec& contact : scene.contacts)  // sliding points and surfaces, which contacts take
+  for (const ContactSpec& contact : scene.contacts)  // sliding points and surfaces; contacts take their
+                                                     // values
     for (const char* of : {".slip", ".slip_rate", ".surface"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
     if (values.contains(name) && !name.starts_with("support "))
@@ -95,7 +96,7 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
 
 namespace {
 
-/// Where a given component stands; nothing: the node's degree of freedom is fixed.
+/// Index of a given component; nullopt: the degree of freedom is fixed.
 struct GivenPlace {
   bool velocity = false;
   int dof = 0;
@@ -120,7 +121,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap
   if (number == DofMap::fixed && c.value != 0.0)
     throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
   if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
-    return std::nullopt;  // of a tied seam
+    return std::nullopt;  // a tied seam
   if (map.is_tied(number))
     throw SceneError(
         c.place, key,
@@ -131,7 +132,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap
   return GivenPlace{named->rate, number};
 }
 
-/// Does something begin from the displacement of each degree of freedom without mass?
+/// True for each degree of freedom whose initial displacement a damper, or a contact's dashpot or friction, needs.
 std::vector<bool> begins_from(const Model& model) {
   std::vector<bool> result(static_cast<std::size_t>(model.size()), false);
   for (int k = 0; k < model.damping.outerSize(); ++k)
@@ -146,7 +147,7 @@ std::vector<bool> begins_from(const Model& model) {
   return result;
 }
 
-/// Of a value that is given for a degree of freedom without mass.
+/// Warning for a value given for a degree of freedom without mass.
 std::string unused(const Model& model, const GivenPlace& at, double value, const SourcePlace& place,
                    const std::string& key) {
   const Dof& dof = model.dofs[static_cast<std::size_t>(at.dof)];

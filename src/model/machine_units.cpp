@@ -9,14 +9,15 @@
 namespace signorini {
 namespace {
 
-// Of an exponent: no product of four units leaves the range of a double then (mass = force time^2 / length).
+// Limit of the exponents: products of four units then stay in the range of a double (mass = force time^2 / length).
 constexpr int farthest = 120;
 
-// Of the run without any stiffness: a quarter of it, 2^-2, as long as one of its motions may well be. Scales
-// of displacement follow from it (a time^2). Chosen; changing it moves the tests of validation/published.
+// For scenes without stiffness: the unit of time is a quarter of the run, 2^-2, the likely duration of one motion.
+// Scales of displacement follow from it (a time^2). Chosen value; changing it changes the tests of
+// validation/published.
 constexpr int motions = 2;
 
-/// Greatest of magnitudes, and its exponent: x = 2^e (1 to 2).
+/// Largest of several magnitudes, and its exponent: x = 2^e (1 to 2).
 class Greatest {
  public:
   void add(double x) {
@@ -32,7 +33,7 @@ class Greatest {
   double most_ = 0.0;
 };
 
-/// The greater extent along an axis.
+/// Larger extent along an axis.
 Greatest extent_of(const std::vector<Node>& nodes) {
   Greatest extent;
   if (nodes.empty()) return extent;
@@ -62,7 +63,7 @@ void add_initial(const InitialSpec& initial, Sizes& sizes) {
   }
 }
 
-/// `length`: exponent of the extent, where there are members.
+/// `length`: exponent of the extent, if there are members.
 Sizes sizes_of(const Scene& scene, int length) {
   Sizes sizes;
   if (scene.matrices) add_matrices(*scene.matrices, sizes);
@@ -70,7 +71,7 @@ Sizes sizes_of(const Scene& scene, int length) {
     sizes.stiffness.add(std::ldexp(s.EA, -length));
     sizes.mass.add(std::ldexp(s.mass_per_length, length));
   }
-  for (const BodySpec& b : scene.bodies) {  // a square of the extent
+  for (const BodySpec& b : scene.bodies) {  // treated as a square of the extent
     sizes.stiffness.add(b.E * b.thickness);
     sizes.mass.add(std::ldexp(b.density * b.thickness, 2 * length));
   }
@@ -96,7 +97,7 @@ Sizes sizes_of(const Scene& scene, int length) {
   return sizes;
 }
 
-/// Where there is no structure with an extent; 0 where nothing has a length.
+/// Exponent of length for scenes without an extended structure; 0 if the scene has no lengths.
 int length_of_motion(const Sizes& sizes, int time, int mass) {
   if (sizes.gap.any()) return sizes.gap.exponent();
   if (sizes.displacement.any()) return sizes.displacement.exponent();
@@ -106,7 +107,7 @@ int length_of_motion(const Sizes& sizes, int time, int mass) {
   return 0;
 }
 
-int half(int exponent) { return exponent >> 1; }  // to the lower side, also below zero
+int half(int exponent) { return exponent >> 1; }  // rounds down, also for negative exponents
 
 }  // namespace
 

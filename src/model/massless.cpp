@@ -13,10 +13,10 @@
 namespace signorini {
 namespace {
 
-/// Times what makes C count as much as K, where K alone does not resist: half of the digits.
+/// Factor that gives C as much weight as K, where K alone does not resist: half of the digits.
 constexpr double by_far = 1e8;
 
-/// The rows and columns whose `keep` is true, scaled to s_i A_ij s_j.
+/// The rows and columns with `keep`, scaled to s_i A_ij s_j.
 SparseMatrix block(const SparseMatrix& a, const std::vector<int>& position, int size, const Vector& s) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < a.outerSize(); ++k)
@@ -67,7 +67,7 @@ void mark_massless(const Scene& scene, const DofMap& map, const Assembly& assemb
     position[static_cast<std::size_t>(i)] = heavy++;
   }
   if (heavy == 0) throw SceneError(place_of_structure(scene), "", "nothing in the scene has mass");
-  // Scaled to a unit diagonal, the pivots are pure numbers.
+  // After scaling to a unit diagonal the pivots are dimensionless.
   const SymmetricSolver solver(block(assembly.mass, position, heavy, s));
   if (!solver.ok() || solver.smallest_pivot() <= rounding::of_many * heavy)
     throw SceneError(
@@ -96,8 +96,8 @@ void check_massless(const Scene& scene, const Model& model, const DofMap& map) {
       block(with_springs(model.stiffness, contact_springs(model.contacts)), position, count, ones);
   const SparseMatrix c = block(model.damping, position, count, ones);
   const SparseMatrix symmetric = 0.5 * (c + SparseMatrix(c.transpose()));
-  // Where K resists all motions, either holds one, so any positive weights will do; these make both count. Where
-  // it does not, C must count for more: null_motions takes what has negative energy for null, too.
+  // If K resists all motions, any positive weights will do; these make both matrices count. If it does not, C must
+  // count for more, because null_motions also returns motions of negative energy.
   const double weight = largest_diagonal(c) > 0.0 && largest_diagonal(k) > 0.0
                             ? largest_diagonal(k) / largest_diagonal(c)
                             : 1.0;

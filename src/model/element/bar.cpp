@@ -5,7 +5,7 @@
 namespace signorini {
 namespace {
 
-/// Without the rotations.
+/// The matrix without rows and columns of the rotations.
 ElementMatrix of_translations(const BeamMatrix& a) {
   constexpr std::array<int, 4> kept{0, 1, 3, 4};
   return a(kept, kept);

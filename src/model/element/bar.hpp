@@ -2,9 +2,9 @@
 //
 //   K = EA/L [ e e^T  -e e^T; -e e^T  e e^T ],   M = rho L/6 [2 I  I; I  2 I],   e = (dx, dy)/L
 //
-// in the scene's axes; its mass resists in both directions, or a bar could be turned for nothing. A lumped
-// mass is rho L/2 at each end. Unknowns of the matrices as in beam.hpp, rows and columns of the rotations zero; the element
-// itself has only ux and uy of both ends.
+// in the scene's axes. The mass acts in both directions; otherwise a bar would have no rotational inertia. A lumped
+// mass is rho L/2 at each end. The matrices have the unknowns of beam.hpp, with zero rows and columns of the rotations;
+// the element itself has only ux and uy of both ends.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.4 and 11.2.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace signorini {
 [[nodiscard]] BeamMatrix bar_stiffness(double dx, double dy, double ea);
 
 /// Geometric stiffness of a bar that spans (dx, dy) under an axial force, tension positive: that of a string, N/L
-/// across it. Where the force goes linearly from a to b its mean counts.
+/// across it. For a force that varies linearly from a to b the mean is used.
 [[nodiscard]] BeamMatrix bar_geometric(double dx, double dy, double force_a, double force_b);
 
 /// Mass matrix of a bar that spans (dx, dy).

@@ -5,9 +5,9 @@
 //
 //   force N  N/30L [36 3L -36 3L; ...]  for v, rz: the integral of N v'^2, N linear from a to b
 //
-// in its own axes (x from a to b, y to the left), turned into the scene's axes. Unknowns of an element:
-// ux, uy, rz at a, then at b; rz counter-clockwise. rho: mass per length. A lumped mass puts rho L/2 on
-// ux and uy of both ends and nothing on the rotations.
+// in its own axes (x from a to b, y to the left), rotated into the scene's axes. Unknowns of an element: ux, uy, rz at
+// a, then at b; rz counter-clockwise. rho: mass per length. A lumped mass puts rho L/2 on ux and uy of both ends and
+// none on the rotations.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.6, 11.3 and 15.2.
 #pragma once
 
@@ -20,14 +20,14 @@ using BeamMatrix = Eigen::Matrix<double, 6, 6>;
 /// Stiffness in the scene's axes of a beam that spans (dx, dy); force per length, moments per radian.
 [[nodiscard]] BeamMatrix beam_stiffness(double dx, double dy, double ea, double ei);
 
-/// Geometric stiffness in the scene's axes of a beam that spans (dx, dy) under an axial force, tension positive,
-/// that goes linearly from a to b.
+/// Geometric stiffness in the scene's axes of a beam that spans (dx, dy) under an axial force, tension positive, that
+/// varies linearly from a to b.
 [[nodiscard]] BeamMatrix beam_geometric(double dx, double dy, double force_a, double force_b);
 
 /// Mass matrix in the scene's axes of a beam that spans (dx, dy).
 [[nodiscard]] BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind);
 
-/// Its bends' flexibility stands in EI.
+/// The flexibility of its bend is included in EI.
 class BeamElement final : public LineElement {
  public:
   using LineElement::LineElement;

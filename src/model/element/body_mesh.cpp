@@ -11,10 +11,10 @@
 namespace signorini {
 namespace {
 
-/// Which node's motion, by how much.
+/// Weights of nodes: index and factor.
 using Shares = std::vector<std::pair<int, double>>;
 
-/// Of a node without mass, by nodes around it.
+/// Moves the mass of a node to nodes around it.
 class MassMover {
  public:
   MassMover(const Mesh& mesh, const BodySpec& body) : mesh_(mesh), body_(body) {
@@ -51,7 +51,7 @@ class MassMover {
                     mesh_.node(node).name));
   }
 
-  /// Least w with A w = (1, 0, 0), rows of A: 1, x - x_b, y - y_b; nothing where A has no full rank.
+  /// Least-norm w with A w = (1, 0, 0), rows of A: 1, x - x_b, y - y_b; empty if A is rank deficient.
   [[nodiscard]] Shares weights_of(int node, const std::vector<int>& near) const {
     const MeshNode& at = mesh_.node(node);
     Eigen::MatrixXd a(3, static_cast<Eigen::Index>(near.size()));
@@ -63,7 +63,7 @@ class MassMover {
     }
     a.bottomRows<2>() /= size;
     const Eigen::Matrix3d square = a * a.transpose();
-    // In lengths of the greatest distance; flatter than this the weights would be some thousands.
+    // Relative to the largest distance; flatter sets of nodes would have weights of some thousands.
     constexpr double flat = 1e-6;
     if (square.determinant() <= flat) return {};
     const Eigen::VectorXd w = a.transpose() * (square.inverse() * Eigen::Vector3d(1.0, 0.0, 0.0));

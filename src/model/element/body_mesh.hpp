@@ -1,11 +1,11 @@
-// body_mesh.hpp: a body as plane elements, and its mass taken off nodes of contact surfaces.
+// body_mesh.hpp: a body as plane elements, and removal of the mass from nodes of contact surfaces.
 //
 //   u_b = sum_i w_bi u_i,   sum_i w_bi = 1,   sum_i w_bi x_i = x_b       b: a node without mass, i: nodes near it
 //   M' = W^T M W
 //
-// W gives every motion of a rigid body back, so M' has the total mass, centre and inertia of M, and rows of zeros at b.
-// The weights are the least ones, sum w^2, over the nodes with mass of the elements at b, and of their neighbours where
-// those lie on one line.
+// W reproduces every rigid-body motion, so M' has the total mass, centre and inertia of M, and zero rows at b. The
+// weights have the least sum w^2 over the nodes with mass of the elements at b; if those are collinear, also over their
+// neighbours.
 #pragma once
 
 #include "model/element/mesh.hpp"

@@ -1,10 +1,11 @@
-// element.hpp: what a finite element answers: all that the rest of the program knows of one.
+// element.hpp: interface of a finite element to the rest of the program.
 //
-//   forces on its unknowns:  k u + k_g u + m (a - r g) - (what is spread along it) - (what a strain of its member holds)
+//   forces on its unknowns:  k u + k_g u + m (a - r g) - (distributed load) - (forces of a strain of its member)
 //
-// k, m, k_g: stiffness(), mass(), geometric(); r: translation(). Unknowns are ux, uy, rz of its nodes, or its own. It lies in
-// the plane and has an extent, its length, or its area; density() is mass per extent, so that density() g spreads its weight.
-// Bars and beams are lines (line_element.hpp); how a member becomes elements stands in element_kinds.cpp.
+// k, m, k_g: stiffness(), mass(), geometric(); r: translation(). Unknowns are ux, uy, rz of its nodes, or the element's
+// own. An element lies in the plane and has an extent, its length or its area; density() is mass per extent, so
+// density() g is the distributed weight. Bars and beams are lines (line_element.hpp); element_kinds.cpp converts
+// members to elements.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,17 +26,18 @@ struct ElementUnknown {
   std::size_t place = 0;      ///< index into nodes()
   std::size_t component = 0;  ///< 0 ux, 1 uy, 2 rz
   bool own =
-      false;  ///< it does not follow the node: the rotation of a hinged end; in pieces of members alone
+      false;  ///< unknown of the element, not of the node: the rotation of a hinged end; only in pieces of
+              ///< members
 };
 
-/// Frozen forces along an element at both of its ends, tension positive (assembly/geometric.hpp).
+/// Frozen axial forces at both ends of an element, tension positive (assembly/geometric.hpp).
 struct AxialForces {
   double a = 0.0, b = 0.0;
   [[nodiscard]] bool none() const { return a == 0.0 && b == 0.0; }
 };
 
-/// A force within an element, or a stress, as a functional: factors, by unknown, of the forces on its unknowns, of the
-/// acceleration; of a load q = (x, y) per extent; of the displacements (what frozen forces add).
+/// A section force or a stress as a linear functional: factors, by unknown, of the forces on the element's unknowns and
+/// of the acceleration; of a load q = (x, y) per extent; of the displacements (contribution of frozen forces).
 struct Cut {
   explicit Cut(std::size_t unknowns)
       : forces(ElementVector::Zero(static_cast<Eigen::Index>(unknowns))),
@@ -46,7 +48,7 @@ struct Cut {
   ElementVector deflection;
 };
 
-/// A straight line between two of its nodes, of which it is drawn; beam: bent as a beam is.
+/// A straight line between two nodes, for drawing; beam: drawn bent.
 struct ElementLine {
   std::size_t from = 0, to = 1;
   bool bends = false;
@@ -54,7 +56,7 @@ struct ElementLine {
 
 class FiniteElement {
  public:
-  /// nodes: of the mesh; member: index into Scene::members.
+  /// nodes: nodes of the mesh; member: index into Scene::members.
   FiniteElement(std::vector<int> nodes, int member) : nodes_(std::move(nodes)), member_(member) {}
   virtual ~FiniteElement() = default;
   FiniteElement(const FiniteElement&) = delete;
@@ -63,39 +65,40 @@ class FiniteElement {
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
   [[nodiscard]] int member() const { return member_; }
   [[nodiscard]] virtual std::vector<ElementUnknown> unknowns() const = 0;
-  /// Does it have unknowns of its own?
+  /// True if the element has unknowns of its own.
   [[nodiscard]] virtual bool has_own() const { return false; }
 
-  /// Length or area, and mass for each of it.
+  /// Length or area; mass per extent.
   [[nodiscard]] virtual double extent() const = 0;
   [[nodiscard]] virtual double density() const = 0;
 
-  // In the scene's axes, symmetric to rounding; forces on unknowns by their displacements or accelerations.
+  // Matrices in the scene's axes, symmetric to rounding; forces on unknowns by displacements or accelerations.
   [[nodiscard]] virtual ElementMatrix mass() const = 0;
   [[nodiscard]] virtual ElementMatrix stiffness() const = 0;
-  /// Whether frozen forces have a stiffness: without one run.geometric is refused.
+  /// True if frozen forces have a stiffness; otherwise run.geometric is refused.
   [[nodiscard]] virtual bool has_geometric() const { return false; }
   [[nodiscard]] virtual ElementMatrix geometric(const AxialForces& forces) const;
-  /// What stands in it under displacements of its unknowns, a strain of its member, a load per extent, and a pull on each
-  /// unit of its mass (gravity, the base's acceleration).
+  /// Axial forces under given displacements of the unknowns, a strain of its member, a load per extent, and a body
+  /// acceleration (gravity minus that of the base).
   [[nodiscard]] virtual AxialForces axial_forces(const ElementVector& u, double strain,
                                                  const PlaneVector& load, const PlaneVector& pull) const;
 
-  /// Forces on its unknowns of a load that is spread evenly, per extent.
+  /// Forces on its unknowns by a uniform load, given per extent.
   [[nodiscard]] virtual ElementVector spread(const PlaneVector& load) const = 0;
-  /// Work of the forces that a strain of one (heat) puts on its unknowns.
+  /// Work, on the given motion, of the forces of a unit strain (heat).
   [[nodiscard]] virtual double strain_work(const ElementVector& motion) const = 0;
 
-  /// A section force at a part of its length. Elements without sections have none, and no member is made of them.
+  /// A section force at a position along its length. Elements without sections have none, and members never consist of
+  /// them.
   [[nodiscard]] virtual Cut cut(OutputQuantity quantity, const PlaneVector& at,
                                 const AxialForces& forces) const;
 
-  /// Of what it is drawn.
+  /// Lines for drawing.
   [[nodiscard]] virtual std::vector<ElementLine> lines() const = 0;
 
-  /// A motion of everything by (x, y), as its unknowns have it.
+  /// Rigid translation by (x, y), as values of the unknowns.
   [[nodiscard]] ElementVector translation(const PlaneVector& by) const;
-  /// The forces of strain_work.
+  /// Forces whose work is strain_work.
   [[nodiscard]] ElementVector strain_forces() const;
 
  private:

@@ -12,7 +12,7 @@ Axis axis_between(double dx, double dy) {
 LineShapes cubic_at(double s, bool hinged_a, bool hinged_b) {
   const double s2 = s * s, s3 = s2 * s;
   LineShapes h{1.0 - 3.0 * s2 + 2.0 * s3, s - 2.0 * s2 + s3, 3.0 * s2 - 2.0 * s3, s3 - s2};
-  // Without a moment at a: turn_a = 3/2 (b - a) - turn_b / 2; at both ends: turn_a = turn_b = b - a.
+  // Hinge at a (no moment): turn_a = 3/2 (b - a) - turn_b / 2; hinges at both ends: turn_a = turn_b = b - a.
   if (hinged_a && hinged_b) return {1.0 - s, 0.0, s, 0.0};
   if (hinged_a) return {h.a - 1.5 * h.turn_a, 0.0, h.b + 1.5 * h.turn_a, h.turn_b - 0.5 * h.turn_a};
   if (hinged_b) return {h.a - 1.5 * h.turn_b, h.turn_a - 0.5 * h.turn_b, h.b + 1.5 * h.turn_b, 0.0};
@@ -41,7 +41,7 @@ double LineElement::stretch(const ElementVector& motion) const {
 AxialForces LineElement::axial_forces(const ElementVector& u, double strain, const PlaneVector& load,
                                       const PlaneVector& pull) const {
   const double l = axis().length;
-  PlaneVector along = load;  // between the ends; a lumped weight lies at them
+  PlaneVector along = load;  // between the ends; a lumped weight acts at the ends
   for (std::size_t c = 0; c < 2; ++c)
     if (data_.mass == MassKind::consistent) along[c] += density() * pull[c];
   const double mean = data_.EA * (stretch(u) / l - strain);
@@ -66,7 +66,8 @@ LineElement::Ends LineElement::deflection(OutputQuantity quantity, double part,
     return force * slope(s);
   };
   if (quantity == OutputQuantity::V) return pull(part);
-  const double half = 0.5 * part, gauss = half / std::sqrt(3.0);  // cubic: two places are exact
+  const double half = 0.5 * part, gauss = half / std::sqrt(3.0);  // cubic integrand: two Gauss points are
+                                                                  // exact
   return half * axis().length * (pull(half - gauss) + pull(half + gauss));
 }
 
@@ -76,7 +77,7 @@ Cut LineElement::cut(OutputQuantity quantity, const PlaneVector& at, const Axial
   PlaneVector load;
   LineShapes shapes;
   double dx = -s, dy = c,
-         sign = -1.0;  // the direction that counts, and the sign of rho times its acceleration
+         sign = -1.0;  // direction of the section force, and the sign of rho times its acceleration
   if (quantity == OutputQuantity::N) {
     forces << -c, -s, 0.0, 0.0, 0.0, 0.0;
     load = {-x * c, -x * s};

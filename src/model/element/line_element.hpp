@@ -1,18 +1,18 @@
-// line_element.hpp: bars and beams: straight lines from a to b, x along them, y to their left.
+// line_element.hpp: bars and beams: straight lines from a to b, with x along them and y to their left.
 //
 //   element  a ----- x ----- b;  f: forces of the nodes on its ends;  p: loads along it
 //
 //   N(x) = -f_ax - int_0^x p_x            tension is positive
 //   V(x) =  f_ay + int_0^x p_y            V = dM/dx
-//   M(x) = -m_a  + int_0^x V              positive where it stretches the right-hand side, y < 0
+//   M(x) = -m_a  + int_0^x V              positive: tension on the right-hand side, y < 0
 //
-// With frozen axial forces (run.geometric) N v' is added to V, which stays square to the bent axis, so that V = dM/dx.
+// With frozen axial forces (run.geometric) N v' is added to V, which stays normal to the bent axis, so that V = dM/dx.
 //
-// Along it lie what is spread, q, and with a consistent mass -rho times the acceleration, interpolated as the element's
-// displacements are: linear along it (a bar: across it, too), cubic across. A lumped mass lies at the ends: N and V step at
-// the nodes, and nothing is left between them.
+// Loads between the ends are the distributed load q and, with a consistent mass, -rho times the acceleration,
+// interpolated like the element's displacements: linear along the line (for a bar also across it), cubic across. A
+// lumped mass is at the ends: N and V jump at the nodes, and there is no inertia between them.
 //
-//   spread:  q_x L/2, q_y L/2 at both ends, and, where it bends, +- q_across L^2/12 as moments
+//   distributed:  q_x L/2, q_y L/2 at both ends, and for beams +- q_across L^2/12 as moments
 //   strain:  EA strain (-e, e), e along it
 #pragma once
 
@@ -20,28 +20,29 @@
 
 namespace signorini {
 
-/// Length, cosine and sine of the direction, and what it spans.
+/// Length, cosine and sine of the direction, and the vector from a to b.
 struct Axis {
   double length, c, s, dx, dy;
 };
 [[nodiscard]] Axis axis_between(double dx, double dy);
 
-/// What a bar or a beam is made of.
+/// Properties of a bar or a beam.
 struct LineData {
   std::array<int, 2> nodes{0, 0};
   int member = 0;
   Axis axis{};
   double EA = 0.0, EI = 0.0, mass_per_length = 0.0;
   MassKind mass = MassKind::consistent;
-  bool hinged_a = false, hinged_b = false;  ///< its end has a rotation of its own
+  bool hinged_a = false, hinged_b = false;  ///< the end has a rotation of its own
 };
 
-/// What displacements and rotations of both ends do to a place between them, in one direction; or integrals of it.
+/// Displacement in one direction at a position between the ends, by displacements and rotations of the ends; or its
+/// integrals.
 struct LineShapes {
   double a = 0.0, turn_a = 0.0, b = 0.0, turn_b = 0.0;
 };
-/// Across a line of length 1 at a part of it that bends, its ends turning; those that are hinged turn so that no moment
-/// bends them.
+/// Transverse displacement at a position of a beam of length 1, by its end rotations; hinged ends rotate so that they
+/// carry no moment.
 [[nodiscard]] LineShapes cubic_at(double part, bool hinged_a = false, bool hinged_b = false);
 
 class LineElement : public FiniteElement {
@@ -58,22 +59,22 @@ class LineElement : public FiniteElement {
                                          const PlaneVector& pull) const override;
   [[nodiscard]] ElementVector spread(const PlaneVector& load) const override;
   [[nodiscard]] double strain_work(const ElementVector& motion) const override;
-  /// N, V, M at the part at[0] of the way from a to b, 0 to 1.
+  /// N, V, M at the position at[0] between a and b, 0 to 1.
   [[nodiscard]] Cut cut(OutputQuantity quantity, const PlaneVector& at,
                         const AxialForces& forces) const override;
 
  protected:
   using Ends = Eigen::Matrix<double, 6, 1>;  // ux, uy, rz at a and b
 
-  /// Without the rotations that it does not have.
+  /// Drops the rotations that the element does not have.
   [[nodiscard]] ElementVector of_unknowns(const Ends& ends) const;
-  /// How far b has moved from a, along the line.
+  /// Elongation of the line.
   [[nodiscard]] double stretch(const ElementVector& motion) const;
 
-  /// Once and twice integrated up to a part of the length: across the line.
+  /// Transverse displacement, integrated once and twice up to a position.
   [[nodiscard]] virtual LineShapes across_once(double part) const = 0;
   [[nodiscard]] virtual LineShapes across_twice(double part) const = 0;
-  /// v' at a part of the length.
+  /// v' at a position along the length.
   [[nodiscard]] virtual Ends slope(double part) const = 0;
 
  private:
@@ -82,7 +83,7 @@ class LineElement : public FiniteElement {
   LineData data_;
 };
 
-/// Shapes of displacements that go linearly from end to end, once and twice integrated.
+/// Linear shape functions, integrated once and twice.
 [[nodiscard]] LineShapes linear_once(double length, double part);
 [[nodiscard]] LineShapes linear_twice(double length, double part);
 

@@ -26,12 +26,13 @@ const Section& find_section(const Scene& scene, const Member& member, const std:
   return *it;
 }
 
-/// At a part s of the way from a to b: on the straight line, or on the arc, which lies to the right where it turns left.
+/// Point at the fraction s of a piece from a to b: on the straight line, or on the arc, which is on the right if it
+/// turns left.
 std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const Member& member, double s) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   if (!member.bend) return {a.x + s * dx, a.y + s * dy};
   const double length = std::hypot(dx, dy), radius = std::abs(member.bend->radius);
-  // Of half a circle rounding of the nodes would move the angle by the root of it.
+  // Near a half circle, asin would amplify rounding of the nodes to its square root.
   const double sine = 0.5 * length / radius;
   const double half = sine < 1.0 - rounding::of_many ? std::asin(sine) : 0.5 * std::numbers::pi;
   const double turn = (2.0 * s - 1.0) * half;

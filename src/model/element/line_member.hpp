@@ -1,4 +1,4 @@
-// line_member.hpp: a member of bars or beams as elements: a chain of pieces, each with elements of equal parts.
+// line_member.hpp: a member of bars or beams: a chain of pieces, each with elements of equal length.
 #pragma once
 
 #include "model/element/mesh.hpp"
@@ -8,7 +8,7 @@ namespace signorini {
 /// Appends the inner nodes, pieces and elements of a member. Errors: SceneError.
 void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number);
 
-/// Whether the member turns without a node of its own, an index into Member::nodes: at its ends alone.
+/// True if the member's end at this node, an index into Member::nodes, is hinged; false for inner nodes.
 [[nodiscard]] bool is_hinged(const Member& member, std::size_t node);
 
 /// The section of a member of the mesh.

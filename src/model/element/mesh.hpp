@@ -1,7 +1,7 @@
 // mesh.hpp: nodes and elements of a node scene.
 //
-// Named nodes come first, in the order of the file; then the inner nodes of the members, in the order
-// of the file: on piece B-D of a member, "B-D.1", "B-D.2", ... from B to D.
+// Named nodes come first, then the inner nodes of the members, both in the order of the file: on piece B-D of a member,
+// "B-D.1", "B-D.2", ... from B to D.
 #pragma once
 
 #include <string>
@@ -14,31 +14,31 @@ namespace signorini {
 struct MeshNode {
   std::string name;
   double x = 0.0, y = 0.0;  ///< length
-  bool listed = true;       ///< it has columns in history.csv; not of the inside of a body's mesh
+  bool listed = true;       ///< it has columns in history.csv; false inside a body's mesh
 };
 
-/// Mass that an element has on other nodes: of the unknowns of its nodes by those of `nodes`.
+/// Mass of an element that is moved to other nodes: unknowns of its nodes by those of `nodes`.
 struct MovedMass {
-  std::vector<int> nodes;   ///< of the mesh, two unknowns each
-  Eigen::MatrixXd weights;  ///< element's unknowns x 2 nodes
+  std::vector<int> nodes;   ///< nodes of the mesh, two unknowns each
+  Eigen::MatrixXd weights;  ///< unknowns of the element x 2 nodes
 };
 
-/// A piece of a member of bars or beams between two named nodes; an arc has nodes on it, and chords as elements.
+/// A piece of a member of bars or beams between two named nodes; an arc has inner nodes, its elements are chords.
 struct MeshPiece {
   int from = 0, to = 0;
-  std::size_t first = 0, count = 0;  ///< of its elements, all of them lines
+  std::size_t first = 0, count = 0;  ///< range of its elements, all of them lines
 };
 
 struct Mesh {
   std::vector<MeshNode> nodes;
   std::vector<std::shared_ptr<const FiniteElement>> elements;
   std::vector<MeshPiece> pieces;
-  std::unordered_map<std::size_t, MovedMass> moved;  ///< an element: contact_mass = "none"
+  std::unordered_map<std::size_t, MovedMass> moved;  ///< by element: contact_mass = "none"
   int named = 0;                                     ///< the first `named` nodes are those of the file
-  std::unordered_map<std::string, int> by_name;      ///< of the named ones
+  std::unordered_map<std::string, int> by_name;      ///< indices of named nodes
 
   [[nodiscard]] const FiniteElement& element(std::size_t i) const { return *elements[i]; }
-  /// An element of a piece.
+  /// The i-th element, which must be a line.
   [[nodiscard]] const LineElement& line(std::size_t i) const {
     return static_cast<const LineElement&>(*elements[i]);
   }

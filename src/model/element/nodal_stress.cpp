@@ -14,14 +14,15 @@
 namespace signorini {
 namespace {
 
-// Of an error at the points, in the sum at a node: sum |c_j| >= 1. Chosen, body_stresses depends on them: at an inner node of squares
-// it is 1 (plane) and below 1.5 (parabola); at a boundary a line through two evenly spaced points has 2, a plane 2.5 at a corner.
+// Limits for the growth sum |c_j| >= 1 of errors at the points in the sum at a node. Chosen values, on which
+// body_stresses depends: at an inner node of squares the sum is 1 (plane) and below 1.5 (parabola); at a boundary, a
+// line through two evenly spaced points has 2, a plane 2.5 at a corner.
 constexpr double inside = 1.5, most_amplified = 10.0;
-constexpr double alike = 1e-6;  // of sum |c_j|: patches that mirror each other
+constexpr double alike = 1e-6;  // relative to sum |c_j|: patches that are mirror images
 constexpr double met =
-    1e-9;  // of 1: conditions of the polynomials; elements are larger than that of their ring
+    1e-9;  // relative to 1: fitting conditions; elements may be larger than those of their ring
 
-/// 1, x, y, and of quadratic elements x^2, x y, y^2.
+/// Monomials 1, x, y, for quadratic elements also x^2, x y, y^2.
 Eigen::VectorXd powers(double x, double y, bool quadratic) {
   Eigen::VectorXd q(quadratic ? 6 : 3);
   q.head<3>() << 1.0, x, y;
@@ -29,10 +30,10 @@ Eigen::VectorXd powers(double x, double y, bool quadratic) {
   return q;
 }
 
-/// The stresses of a body by its displacements.
+/// The stresses of a body as functions of its displacements.
 class BodyStresses {
  public:
-  /// mesh: mesh_body() has made the elements.
+  /// mesh: must contain the elements of the body, from mesh_body().
   BodyStresses(const Mesh& mesh, const Scene& scene, std::size_t body)
       : mesh_(mesh),
         first_(static_cast<int>(scene.bodies[body].first_node)),
@@ -74,9 +75,9 @@ class BodyStresses {
 
   const Mesh& mesh_;
   int first_;
-  std::vector<std::vector<std::size_t>> around_;  // elements at a node of the body
+  std::vector<std::vector<std::size_t>> around_;  // elements at each node of the body
   std::vector<const PlaneElement*> elements_;
-  std::vector<std::vector<PlaneElement::StressSample>> samples_;  // empty: not asked for yet
+  std::vector<std::vector<PlaneElement::StressSample>> samples_;  // computed on first use; empty before
 
   [[nodiscard]] std::size_t own(int node) const { return static_cast<std::size_t>(node - first_); }
 
@@ -84,7 +85,7 @@ class BodyStresses {
     if (samples_[element].empty()) samples_[element] = elements_[element]->stress_samples();
     return samples_[element];
   }
-  /// Of the elements at a node.
+  /// Nodes of the elements at a node.
   [[nodiscard]] std::set<int> neighbours(int node) const {
     std::set<int> nodes;
     for (const std::size_t e : around_[own(node)])
@@ -103,7 +104,7 @@ class BodyStresses {
     return terms;
   }
 
-  /// By the points of some elements.
+  /// Fit through the stress points of some elements.
   Fit fitted(int node, const std::vector<std::size_t>& ring) {
     std::vector<const PlaneElement::StressSample*> points;
     std::vector<const PlaneElement*> of;

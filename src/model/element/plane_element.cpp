@@ -5,7 +5,7 @@
 namespace signorini {
 namespace {
 
-/// Rows of (e_x, e_y, g_xy) for motions whose derivatives by x and y these are.
+/// Rows of (e_x, e_y, g_xy) from the derivatives of shape functions by x and y.
 template <class Rows, class Slopes>
 void fill_strains(const Slopes& slopes, Rows& rows) {
   for (Eigen::Index k = 0; k < slopes.rows(); ++k) {
@@ -18,7 +18,7 @@ void fill_strains(const Slopes& slopes, Rows& rows) {
 
 Eigen::Matrix3d PlaneMaterial::stresses() const {
   const double across =
-      strain ? nu / (1.0 - nu) : nu;  // plane strain: nu and E of the plane stress that is alike
+      strain ? nu / (1.0 - nu) : nu;  // plane strain: nu and E of the equivalent plane stress
   const double modulus = strain ? E / (1.0 - nu * nu) : E;
   return modulus / (1.0 - across * across) *
          Eigen::Matrix3d{{1.0, across, 0.0}, {across, 1.0, 0.0}, {0.0, 0.0, 0.5 * (1.0 - across)}};
@@ -75,7 +75,7 @@ Eigen::Matrix<double, 3, 4> PlaneElement::inner_rows(double a, double b, double 
   return rows;
 }
 
-/// Amplitudes of the incompatible modes by the unknowns: 4 x unknowns; nothing but of q4.
+/// Amplitudes of the incompatible modes by the unknowns: 4 x unknowns; empty except for q4.
 Eigen::MatrixXd PlaneElement::inner_motion() const {
   const Eigen::Matrix3d D = material_.stresses();
   Eigen::Matrix4d inner = Eigen::Matrix4d::Zero();
@@ -104,7 +104,7 @@ ElementMatrix PlaneElement::stiffness() const {
   return 0.5 * (k + k.transpose());
 }
 
-/// Of one direction.
+/// Mass matrix for one direction.
 Eigen::MatrixXd PlaneElement::mass_of_nodes() const {
   const auto n = static_cast<Eigen::Index>(at_.size());
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);

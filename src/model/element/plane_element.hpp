@@ -5,12 +5,13 @@
 //   plane stress  D = E/(1 - nu^2) [1 nu 0; nu 1 0; 0 0 (1 - nu)/2],             e = (1, 1, 0)
 //   plane strain  D = E/((1 + nu)(1 - 2 nu)) [1 - nu, nu, 0; nu, 1 - nu, 0; 0 0 (1 - 2 nu)/2],  e = (1 + nu)(1, 1, 0)
 //
-// q4 has two incompatible modes, 1 - a^2 and 1 - b^2, each for ux and uy (QM6): their derivatives by x, y are taken with the
-// Jacobian of the element's middle and det J_0 / det J, so that they do no work in a constant stress and distorted patches are
-// exact; they are eliminated in the element, as they have no mass.
-// A lumped mass: t3 and q4 by sums of rows; t6 and q8 by the diagonal, scaled to the whole mass, so that none is negative.
-// Stresses are taken at Barlow's points and extended to the nodes: there their error has the order of the displacements' next to
-// a node, not that of the strains.
+// q4 has two incompatible modes, 1 - a^2 and 1 - b^2, each for ux and uy (QM6). Their derivatives by x, y use the
+// Jacobian at the element's centre and det J_0 / det J, so they do no work in a constant stress, and distorted patches
+// are exact. They have no mass and are eliminated in the element.
+// A lumped mass: row sums for t3 and q4; for t6 and q8 the diagonal, scaled to the total mass, so that no entry is
+// negative.
+// Stresses are evaluated at Barlow's points and extrapolated to the nodes; their error there has nearly the order of
+// the displacements, one better than that of direct strains.
 // Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211;
 // Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4 (1976) 245.
 #pragma once
@@ -20,10 +21,10 @@
 
 namespace signorini {
 
-/// Of force/length^2 and mass/length^3.
+/// Young's modulus etc.: force/length^2 and mass/length^3.
 struct PlaneMaterial {
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
-  bool strain = false;  ///< plane strain, else plane stress
+  bool strain = false;  ///< plane strain; false: plane stress
 
   [[nodiscard]] Eigen::Matrix3d stresses() const;        ///< D
   [[nodiscard]] Eigen::Vector3d thermal_strain() const;  ///< e
@@ -31,7 +32,7 @@ struct PlaneMaterial {
 
 class PlaneElement final : public FiniteElement {
  public:
-  /// at: places of the nodes.
+  /// at: positions of the nodes.
   PlaneElement(std::vector<int> nodes, int member, PlaneShape shape, std::vector<PlaneVector> at,
                const PlaneMaterial& material, MassKind mass);
 
@@ -48,20 +49,20 @@ class PlaneElement final : public FiniteElement {
   [[nodiscard]] const PlaneMaterial& material() const { return material_; }
   /// sigma_x, sigma_y, tau_xy at (a, b) by the unknowns, without heat: 3 x unknowns.
   [[nodiscard]] Eigen::MatrixXd stress_rows(double a, double b) const;
-  /// Where they are most accurate: the middle of t3 and q4, 3 points of t6, 2 x 2 of q8.
+  /// Points of highest accuracy: the centre of t3 and q4, 3 points of t6, 2 x 2 of q8.
   struct StressSample {
     PlaneVector at{0.0, 0.0};
-    Eigen::MatrixXd rows;  ///< of stress_rows()
+    Eigen::MatrixXd rows;  ///< rows of stress_rows()
   };
   [[nodiscard]] std::vector<StressSample> stress_samples() const;
-  /// The same at its nodes, rows 3 k to 3 k + 2 at node k: through the points where stresses are most accurate, extended to
-  /// the nodes. t3: constant; t6: linear through 3 points; q4, q8: bilinear through 2 x 2.
+  /// Stresses at its nodes, rows 3 k to 3 k + 2 for node k, extrapolated from the points of highest accuracy. t3:
+  /// constant; t6: linear through 3 points; q4, q8: bilinear through 2 x 2.
   [[nodiscard]] Eigen::MatrixXd nodal_stress_rows() const;
 
  private:
   struct Place {
     Eigen::VectorXd values;
-    Eigen::MatrixX2d slopes;  // by x and y
+    Eigen::MatrixX2d slopes;  // derivatives by x and y
     double det;
   };
   [[nodiscard]] Place at_point(double a, double b) const;

@@ -13,24 +13,25 @@
 namespace signorini {
 namespace {
 
-constexpr double no_factor = 1e-12;   // of the greatest |nu|: rounding of a motion that forces do not bend
-constexpr double least_share = 1e-7;  // the smallest s: below it K + s K_g is K to half of the digits
+constexpr double no_factor = 1e-12;   // relative to the largest |nu|: rounding for a motion without geometric
+                                      // stiffness
+constexpr double least_share = 1e-7;  // smallest s: below it K + s K_g equals K in half of the digits
 
-/// K and K_g where nothing is left that neither resists.
+/// K and K_g without their common null motions.
 struct Pencil {
   SparseMatrix elastic, geometric;
 
   [[nodiscard]] SparseMatrix at(double s) const { return elastic + s * geometric; }
 };
 
-/// Common null motions that respect what is fixed, held each where it moves most: they bend nothing, so that this
-/// changes no factor.
+/// Fixes the common null motions that respect the constraints, each where it moves most; they have no energy, so the
+/// factors do not change.
 Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
                    const std::vector<Combination>& fixed) {
   const SparseMatrix elastic = fixed.empty() ? loose : with_grips(loose, fixed);
   Vector size = elastic.diagonal().cwiseAbs() + geometric.diagonal().cwiseAbs();
   for (double& d : size) d = d > 0.0 ? d : 1.0;
-  // K_g D^-1 K_g has the null motions of K_g, and no negative energy.
+  // K_g D^-1 K_g has the null motions of K_g and is positive semidefinite.
   const SparseMatrix square = geometric * SparseMatrix(size.cwiseInverse().asDiagonal() * geometric);
   const auto greatest = [&](const SparseMatrix& a) {
     return a.rows() == 0 ? 0.0 : a.diagonal().cwiseQuotient(size).cwiseAbs().maxCoeff();
@@ -52,7 +53,7 @@ Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
 
 bool is_definite(const SparseMatrix& a) { return null_motions(a).cols() == 0; }
 
-/// s, and what is added to K + s K_g so that it is definite: springs along the forms that are fixed.
+/// s, and the terms that make K + s K_g positive definite: springs along the fixed forms.
 struct Shift {
   double s = 1.0;
   SparseMatrix matrix;
@@ -74,7 +75,7 @@ std::optional<Shift> find_shift(const Pencil& pencil, const std::vector<Combinat
   return std::nullopt;
 }
 
-/// From nu, in any order.
+/// Factors from nu, unsorted.
 std::vector<double> factors_of(double s, const Vector& nu) {
   std::vector<double> factors;
   const double most = nu.size() == 0 ? 0.0 : nu.cwiseAbs().maxCoeff();

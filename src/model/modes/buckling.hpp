@@ -1,12 +1,12 @@
-// buckling.hpp: by how much forces could grow until their geometric stiffness takes the elastic one away.
+// buckling.hpp: buckling load factors, at which the geometric stiffness cancels the elastic stiffness.
 //
 //   (K + lambda K_g) x = 0,   T^T x = 0,   lambda > 0
 //   -K_g x = nu (K + s K_g) x,   lambda = s + 1/nu        for any s at which K + s K_g is positive definite
 //
-// K is positive semidefinite. At s = 1 the forces themselves stand, s = 0 is the structure without them; where neither
-// is definite (a motion that only forces hold, and forces that are too great) a small s is. Motions that neither
-// matrix resists have no part in it. Dense up to 200 degrees of freedom; above, part by part (parts.hpp), large parts by
-// Lanczos iteration in the norm of K + s K_g.
+// K is positive semidefinite. s = 1 is the structure under the given forces, s = 0 the structure without them; if
+// neither is definite (a motion stabilised by the forces only, and forces that are too large), a small s is used.
+// Common null motions of both matrices are excluded. Dense up to 200 degrees of freedom; above, part by part
+// (parts.hpp), with Lanczos iteration in the norm of K + s K_g for large parts.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@
 
 namespace signorini {
 
-/// The lowest `count` of all lambda, ascending; 0, alone: under the smallest forces some motion falls.
+/// The lowest `count` of all lambda, ascending; a single 0: unstable under arbitrarily small forces.
 [[nodiscard]] std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
                                                const Holding& holding, int count);
 

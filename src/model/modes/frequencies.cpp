@@ -15,12 +15,14 @@
 namespace signorini {
 namespace {
 
-constexpr double without_mass = 1e-12;  // of the greatest inertia of a free motion of size 1
-constexpr double hardly_any = 1e-13;    // of the greatest 1/omega^2: rounding of a motion without mass
-constexpr double no_part = 1e-9;        // of a motion's greatest entry
-constexpr double shift_of_free = 1e-8;  // of the greatest K_ii/M_ii: free motions have half of the digits
-constexpr double still_near = 1e-11;    // relative change of omega^2 a round, where shifts approach it
-constexpr double still_high = 1e-12, still_each = 1e-9;  // else: of the greatest, and of each one's own
+constexpr double without_mass = 1e-12;  // relative to the largest inertia of a rigid-body motion of size 1
+constexpr double hardly_any = 1e-13;    // relative to the largest 1/omega^2: rounding for a motion without
+                                        // mass
+constexpr double no_part = 1e-9;        // relative to a motion's largest entry
+constexpr double shift_of_free = 1e-8;  // relative to the largest K_ii/M_ii: free motions keep half of the
+                                        // digits
+constexpr double still_near = 1e-11;    // relative change of omega^2 per round, while shifts approach it
+constexpr double still_high = 1e-12, still_each = 1e-9;  // else: relative to the largest, and to each one
 
 NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
                     const SparseMatrix& damping) {
@@ -28,10 +30,10 @@ NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& 
   return {omega, m > 0.0 ? x.dot(damping * x) / (2.0 * omega * m) : 0.0};
 }
 
-/// The null motions of K, turned so that each has mass or has none.
+/// The null motions of K, in a basis in which each has mass or has none.
 struct FreeMotions {
   Eigen::MatrixXd heavy, massless;
-  int unstable = 0;  ///< of the heavy ones
+  int unstable = 0;  ///< number of unstable ones among the heavy ones
 };
 
 int count_unstable(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
@@ -55,8 +57,7 @@ FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
   return {heavy, null * pairs.vectors.leftCols(without), count_unstable(k, heavy)};
 }
 
-/// How many motions with mass are left when forms are fixed: n - rank F, of them without mass those massless
-/// motions that F lets pass.
+/// Number of motions with mass when forms are fixed: n - rank F - number of massless motions that respect F.
 int motions_with_mass(const SparseMatrix& mass, const std::vector<Combination>& fixed) {
   const int heavy = degrees_with_mass(mass);
   if (fixed.empty()) return heavy;
@@ -83,7 +84,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   result.free_motions = static_cast<int>(free.heavy.cols());
   result.unstable = free.unstable;
   if (free.unstable > 0) {
-    // Motions of negative energy are no eigenvectors: what is M-orthogonal to them are not the other modes.
+    // Motions of negative energy are not eigenvectors, so the other modes are not M-orthogonal to them.
     const EigenPairs all = generalized_eigen(stiff, m);
     for (Eigen::Index j = result.free_motions; j < all.values.size() && count > 0; ++j, --count)
       result.modes.push_back(mode_of(std::sqrt(all.values[j]), q * all.vectors.col(j), mass, damping));
@@ -97,7 +98,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   if (rest.cols() == 0) return result;
   const EigenPairs pairs =
       generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
-  // The others have none, whatever rounding makes of it.
+  // All further ones have no mass, whatever rounding produced.
   const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
   count = std::min(count, with_mass);
   for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
@@ -108,7 +109,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   return result;
 }
 
-/// Holds motions that have neither mass nor stiffness; nothing else shares their degrees of freedom.
+/// Fixes motions that have neither mass nor stiffness; their degrees of freedom belong to no other motion.
 SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
   std::vector<Combination> forms;
   for (Eigen::Index j = 0; j < motions.cols(); ++j) {
@@ -122,22 +123,22 @@ SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motion
   return with_grips(k, forms);
 }
 
-/// Shifted inverse iteration with a whole subspace. Long structures have their lowest frequencies so close
-/// together (a chain of n masses on springs: 1/n^2 of their size) that K^-1 hardly tells them apart. Once
-/// rough values are known, a shift just below the lowest does.
+/// Shifted inverse iteration with a subspace. Long structures have their lowest frequencies so close together (a chain
+/// of n masses on springs: 1/n^2 of their size) that K^-1 hardly separates them. Once rough values are known, a shift
+/// just below the lowest one does.
 class Subspace {
  public:
   Subspace(const SparseMatrix& k, const SparseMatrix& mass, const std::vector<Combination>& fixed,
            double shift, int size)
       : k_(k), mass_(mass), fixed_(fixed), shift_(shift), solver_(SparseMatrix(k + shift * mass), fixed) {
-    std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
+    std::mt19937 random(1);  // fixed seed: reproducible results
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     x_.resize(k.rows(), size);
     for (Eigen::Index j = 0; j < x_.cols(); ++j)
       for (Eigen::Index i = 0; i < x_.rows(); ++i) x_(i, j) = uniform(random);
   }
 
-  /// False: the matrices do not allow it.
+  /// Returns false if the matrices do not allow the iteration.
   bool iterate() {
     for (Eigen::Index j = 0; j < x_.cols(); ++j) x_.col(j) = solver_.solve(mass_ * x_.col(j));
     x_ = orthonormal(x_);
@@ -152,23 +153,23 @@ class Subspace {
   [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
   /// The motions, in the same order.
   [[nodiscard]] const Eigen::MatrixXd& motions() const { return x_; }
-  /// The `wanted` lowest omega^2, the lowest last.
+  /// The `wanted` lowest omega^2, the smallest one last.
   [[nodiscard]] Eigen::VectorXd squares(Eigen::Index wanted) const {
     return (values_.tail(wanted).cwiseInverse().array() - shift_).matrix();
   }
-  /// Rounding of omega^2 of the lowest motion.
+  /// Rounding error of the lowest omega^2.
   [[nodiscard]] double noise() const {
     const Vector lowest = x_.col(x_.cols() - 1);
     return rounding::eps * term_size(k_, lowest) / lowest.dot(mass_ * lowest);
   }
-  /// Moves the shift to just below the lowest omega^2, by about what the wanted ones lie apart.
+  /// Moves the shift to just below the lowest omega^2, by about the spacing of the wanted ones.
   void approach(Eigen::Index wanted) {
     const Eigen::VectorXd found = squares(wanted);
     const double lowest = found[wanted - 1];
     double gap = std::max(found[0] - lowest, 1e4 * noise());
     for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
       HeldStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
-      if (!closer.definite()) continue;  // Ritz values are too high by more than the gap
+      if (!closer.definite()) continue;  // Ritz values exceed the true ones by more than the gap
       shift_ = gap - lowest;
       solver_ = std::move(closer);
       return;
@@ -195,7 +196,7 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
   const int size = std::min(result.free_motions + count + 11, motions_with_mass(mass, fixed));
   if (size <= 0) return result;
 
-  // (K + shift M) x = (omega^2 + shift) M x: regular also with free motions.
+  // (K + shift M) x = (omega^2 + shift) M x: regular even with rigid-body motions.
   double shift = 0.0;
   if (result.free_motions > 0)
     for (int i = 0; i < n; ++i)

@@ -1,13 +1,12 @@
-// frequencies.hpp: the first natural frequencies of a structure whose contacts hold it or not, with their
-// damping ratios.
+// frequencies.hpp: the first natural frequencies of a structure with given contact constraints, and their damping
+// ratios.
 //
 //   K x = omega^2 M x,   T^T x = 0,   zeta = x^T C x / (2 omega x^T M x)
 //
-// M and K may be singular. Motions with mass but without stiffness are the free motions, omega = 0; the
-// others are M-orthogonal to them. Motions with neither mass nor stiffness (a massless node whose only
-// hold is an open contact) are no modes and stay at rest. Dense up to 200 degrees of freedom; above, part by
-// part (parts.hpp), large parts by inverse subspace iteration (Bathe, Finite Element Procedures,
-// section 11.6).
+// M and K may be singular. Motions with mass but without stiffness are the free motions, omega = 0; the other modes are
+// M-orthogonal to them. Motions with neither mass nor stiffness (a massless node supported only by an open contact) are
+// not modes and stay at rest. Dense up to 200 degrees of freedom; above, part by part (parts.hpp), large parts by
+// inverse subspace iteration (Bathe, Finite Element Procedures, section 11.6).
 #pragma once
 
 #include <vector>
@@ -18,12 +17,12 @@ namespace signorini {
 
 struct NaturalMode {
   double omega = 0.0;          ///< rad per time, > 0
-  double damping_ratio = 0.0;  ///< of C, coupling between modes left out
+  double damping_ratio = 0.0;  ///< from C, coupling between modes neglected
 };
 
 struct Frequencies {
   int free_motions = 0;            ///< modes with omega = 0, and unstable ones
-  int unstable = 0;                ///< of them, those that grow: omega^2 < 0
+  int unstable = 0;                ///< unstable ones among them: omega^2 < 0
   std::vector<NaturalMode> modes;  ///< ascending, the first ones with omega > 0
 };
 

@@ -17,19 +17,19 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
 
 namespace {
 
-constexpr double no_inertia = 1e-14;  // of the terms of x.Mx: rounding
-constexpr double no_faster = 1e-9;    // relative, of a rate: its motion has half as many digits
+constexpr double no_inertia = 1e-14;  // relative to the terms of x.Mx: rounding
+constexpr double no_faster = 1e-9;    // relative change of a rate; its motion then has half as many digits
 
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
-  Eigen::MatrixXd null = null_motions(k);  // those of negative energy are among them
+  Eigen::MatrixXd null = null_motions(k);  // includes motions of negative energy
   if (null.cols() == 0) return std::nullopt;
   for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
   Growth growth;
   growth.motion = null * symmetric_eigen(null.transpose() * (k * null)).vectors.col(0);
   if (!has_negative_energy(k, growth.motion)) return std::nullopt;
 
-  // Inverse iteration on K + s M with s beyond the greatest sigma^2 found so far. Every Rayleigh quotient is
-  // a rate that some motion reaches, so an early end errs to the slow side only.
+  // Inverse iteration on K + s M with s above the largest sigma^2 found so far. Every Rayleigh quotient is a rate that
+  // some motion reaches, so an early end can only underestimate the rate.
   Vector x = growth.motion;
   for (int round = 0; round < 100; ++round) {
     const double energy = x.dot(k * x), inertia = x.dot(mass * x);

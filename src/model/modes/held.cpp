@@ -8,7 +8,8 @@
 namespace signorini {
 namespace {
 
-constexpr double fixed_twice = 1e-12;  // of the greatest compliance: a motion that another contact has fixed
+constexpr double fixed_twice = 1e-12;  // relative to the largest compliance: the motion is already fixed by
+                                       // another contact
 
 }  // namespace
 

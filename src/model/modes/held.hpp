@@ -1,9 +1,9 @@
-// held.hpp: static answers of a structure whose contacts hold some motions.
+// held.hpp: static response of a structure with constraints from contacts.
 //
 //   K u + T r = b,   T^T u = 0
 //
-// K: n x n, springs included, without any null motion that respects T^T u = 0; T: n x m, forms that are
-// fixed. K is made regular by springs along T, which do not change u.
+// K: n x n, springs included, without null motions that respect T^T u = 0; T: n x m, fixed forms. Springs along T make
+// K regular and do not change u.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,7 @@ class HeldStructure {
   HeldStructure(const SparseMatrix& k, const std::vector<Combination>& fixed);
 
   [[nodiscard]] Vector solve(const Vector& b) const;
-  /// True: K with the springs along T is positive definite, and so is K on the motions that respect T^T u =
-  /// 0.
+  /// True: K with the springs along T is positive definite, and so is K on the motions with T^T u = 0.
   [[nodiscard]] bool definite() const { return solver_.ok() && solver_.smallest_pivot() > 0.0; }
 
  private:
@@ -31,10 +30,11 @@ class HeldStructure {
   std::vector<Grip> grips_;
 };
 
-/// K with springs of the structure's own size along the forms.
+/// K with springs along the forms, as stiff as the structure.
 [[nodiscard]] SparseMatrix with_grips(const SparseMatrix& k, const std::vector<Combination>& forms);
 
-/// Q^T A Q for symmetric A; what cancels is zero, since nothing else may be left to compare it with.
+/// Q^T A Q for symmetric A; terms that cancel become zero, because rounding would be the only entry left to compare
+/// with.
 [[nodiscard]] SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q);
 
 /// The forms as columns, n x m.

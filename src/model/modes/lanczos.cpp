@@ -13,7 +13,7 @@ namespace {
 constexpr int most_restarts = 300;
 constexpr double converged = 1e-12;  // residual of a Ritz value, relative
 
-/// What Spectra asks of an operator.
+/// Operator interface for Spectra.
 class Products {
  public:
   using Scalar = double;
@@ -40,11 +40,11 @@ double greatest_eigenvalue(int n, const Operator& apply, double tolerance) {
   try {
     Products op(n, apply);
     Spectra::SymEigsSolver<Products> solver(op, 1, std::min(n, 40));
-    solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
+    solver.init();  // Spectra's fixed start vector: reproducible results
     solver.compute(Spectra::SortRule::LargestAlge, 1000, tolerance);
     if (solver.info() == Spectra::CompInfo::Successful) return solver.eigenvalues()[0];
   } catch (const std::exception&) {
-    // Few different eigenvalues end its iteration early, and its small matrix may then not be one to solve.
+    // With few distinct eigenvalues the iteration ends early, and Spectra's small eigenproblem may then fail.
   }
   double value = 0.0;
   for (int i = 0; i < 200; ++i) {
@@ -60,7 +60,7 @@ Vector greatest_eigenvalues(int n, int count, const Operator& apply) {
   try {
     Products op(n, apply);
     Spectra::SymEigsSolver<Products> solver(op, count, std::min(n, std::max(2 * count + 1, 60)));
-    solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
+    solver.init();  // Spectra's fixed start vector: reproducible results
     solver.compute(Spectra::SortRule::LargestAlge, most_restarts, converged);
     return solver.eigenvalues();
   } catch (const std::exception&) {
@@ -76,11 +76,11 @@ EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, dou
     Mass product(mass);
     Spectra::SymGEigsShiftSolver<Products, Mass, Spectra::GEigsMode::ShiftInvert> solver(op, product, count,
                                                                                          width, -shift);
-    solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
+    solver.init();  // Spectra's fixed start vector: reproducible results
     solver.compute(Spectra::SortRule::LargestMagn, most_restarts, converged, Spectra::SortRule::SmallestAlge);
     if (solver.info() == Spectra::CompInfo::Successful) return {solver.eigenvalues(), solver.eigenvectors()};
   } catch (const std::exception&) {
-    // Few different eigenvalues end its iteration early: the caller has other ways.
+    // With few distinct eigenvalues the iteration ends early: the caller has alternatives.
   }
   return {Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
 }

@@ -11,12 +11,12 @@
 namespace signorini {
 namespace {
 
-constexpr double nothing_new = 1e-20;  // of a square: ten of sixteen digits are gone
+constexpr double nothing_new = 1e-20;  // relative, of a square: ten of sixteen digits are lost
 constexpr double settled = 1e-8;       // residual of a Ritz vector; the error of its omega^2 is its square
 constexpr int widest_block = 100;
 constexpr int most_rounds = 50;
 
-/// The modes of `pairs` up to the limit and of the others the lowest, after sorting.
+/// The modes of `pairs` up to the limit and the lowest of the others, sorted.
 EigenPairs sorted(const EigenPairs& pairs, double limit) {
   std::vector<Eigen::Index> order;
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j) order.push_back(j);
@@ -40,8 +40,8 @@ EigenPairs join(const EigenPairs& a, const EigenPairs& b) {
   return both;
 }
 
-/// What a single start vector finds. Free motions are taken out of each answer: rounding would fill it with
-/// them.
+/// Modes that a single start vector finds. Free motions are removed from each solution; rounding would otherwise make
+/// them dominate.
 EigenPairs lanczos(int count, const SymmetricSolver& solver, const SparseMatrix& mass,
                    const Eigen::MatrixXd& free, double shift, int heavies) {
   const Eigen::MatrixXd inertia = mass * free;
@@ -64,14 +64,14 @@ class BlockKrylov {
         shift_(shift),
         basis_(mass.rows(), 0),
         images_(mass.rows(), 0) {
-    std::mt19937 random(seed);  // fixed seeds: the same scene gives the same answer
+    std::mt19937 random(seed);  // fixed seeds: reproducible results
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     Eigen::MatrixXd x(mass.rows(), width);
     for (Eigen::Index j = 0; j < x.cols(); ++j)
       for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, j) = uniform(random);
     next_ = image(x);
   }
-  /// False: the space is invariant, or as large as it may become.
+  /// Returns false if the space is invariant or has its maximal size.
   bool grow(Eigen::Index greatest) {
     Eigen::MatrixXd x = next_;
     const Vector before = (x.transpose() * (mass_ * x)).diagonal();
@@ -88,8 +88,8 @@ class BlockKrylov {
     images_.rightCols(x.cols()) = next_;
     return true;
   }
-  /// Ritz pairs whose residual is settled, from the lowest up to the first above the limit or the first that
-  /// is not settled.
+  /// Ritz pairs with a converged residual, from the lowest up to the first above the limit, or up to the first that has
+  /// not converged.
   [[nodiscard]] EigenPairs modes(double limit) const {
     const Eigen::MatrixXd h = basis_.transpose() * (mass_ * images_);
     const EigenPairs ritz = symmetric_eigen(0.5 * (h + h.transpose()));
@@ -111,7 +111,7 @@ class BlockKrylov {
     take_out(known_, mass_, y);
     return y;
   }
-  /// Columns that lost nearly all of what they were, `before` = x^T M x, are dropped: they add nothing new.
+  /// Drops columns that lost nearly all of their norm, `before` = x^T M x: they add no new direction.
   [[nodiscard]] Eigen::MatrixXd orthonormalised(const Eigen::MatrixXd& x, const Vector& before) const {
     Eigen::MatrixXd q(x.rows(), 0);
     for (Eigen::Index j = 0; j < x.cols(); ++j) {

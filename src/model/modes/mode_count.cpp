@@ -5,10 +5,10 @@
 namespace signorini {
 namespace {
 
-constexpr double nearest = 1e-9, farthest = 1e-5;  // relative, of omega^2: where else a shift is tried
-constexpr double accurate = 1e-6;  // backward error of a factorisation whose pivots have trustworthy signs
+constexpr double nearest = 1e-9, farthest = 1e-5;  // relative, of omega^2: range of alternative shifts
+constexpr double accurate = 1e-6;  // backward error of a factorisation whose pivot signs are reliable
 
-/// Pivots are not chosen by size, so that an unlucky shift may lose all digits: a solution shows it.
+/// Pivots are not chosen by size, so an unlucky shift may lose all digits; a trial solution detects this.
 bool is_accurate(const SymmetricSolver& solver, const SparseMatrix& a) {
   if (!solver.ok()) return false;
   const Vector b = a.diagonal().cwiseAbs();

@@ -16,11 +16,11 @@
 namespace signorini {
 namespace {
 
-constexpr double digits_of_highest = 1e-4;  // of the highest square: it scales steps, nothing else
+constexpr double digits_of_highest = 1e-4;  // relative, of the highest square: it only scales steps
 
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
-/// omega; 0: a motion has no stiffness; nothing: nothing with mass can move.
+/// omega; 0: a motion has no stiffness; nullopt: nothing with mass can move.
 using Lowest = std::optional<double>;
 
 Lowest lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
@@ -56,7 +56,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   const SparseMatrix kdd = heavy.transpose() * k * heavy;
   const SparseMatrix kmm = light.transpose() * k * light;
   const SparseMatrix kmd = light.transpose() * k * heavy;
-  // A massless motion without stiffness (dampers only) cannot be condensed; held, it gives a bound.
+  // A massless motion without stiffness (dampers only) cannot be condensed; fixing it gives a bound.
   const bool condense = l > 0 && null_motions(kmm).cols() == 0;
   const SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
   auto condensed = [&](const Vector& x) -> Vector {

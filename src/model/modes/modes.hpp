@@ -2,10 +2,10 @@
 //
 //   K x = omega^2 M x
 //
-// M may be singular. Lowest: M x = mu K x with K positive definite, omega = 1 / sqrt(mu_max); motions
-// that are prescribed to be zero are eliminated. Highest: massless degrees of freedom condensed,
-// K_c = K_dd - K_dm K_mm^-1 K_md, omega^2 the greatest eigenvalue of (K_c, M_dd).
-// Dense up to 200 degrees of freedom; above that part by part (parts.hpp), large parts by iteration.
+// M may be singular. Lowest: M x = mu K x with K positive definite, omega = 1 / sqrt(mu_max); motions that are
+// constrained to zero are eliminated. Highest: massless degrees of freedom condensed, K_c = K_dd - K_dm K_mm^-1 K_md,
+// omega^2 the largest eigenvalue of (K_c, M_dd). Dense up to 200 degrees of freedom; above that part by part
+// (parts.hpp), large parts by iteration.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,11 @@
 
 namespace signorini {
 
-/// Degrees of freedom up to which matrices are treated dense: there the dense solver is the faster one.
-/// Chosen; results agree either way.
+/// Number of degrees of freedom up to which the dense solver is used, because it is faster there. Chosen value; results
+/// agree either way.
 inline constexpr int dense_up_to = 200;
 
-/// Which contacts hold what, for a frequency: springs, and forms that are fixed.
+/// Constraints by contacts, for a frequency: springs, and fixed forms.
 struct Holding {
   std::vector<LineSpring> springs;
   std::vector<Combination> fixed;
@@ -28,15 +28,15 @@ struct Holding {
   void hold_normal(const Contact& contact);
 };
 
-/// Contacts with closed[k] held in both directions: compliant ones by kn and kt, sliders by kt, or fixed
-/// along their tangent without one; rigid ones fixed along both.
+/// Contacts with closed[k] constrained in both directions: compliant ones by kn and kt, sliders by kt, or fixed along
+/// their tangent if they have none; rigid ones fixed in both directions.
 [[nodiscard]] Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed);
 
-/// rad per time; 0 when some motion has no stiffness, or when nothing with mass can move.
+/// rad per time; 0 if some motion has no stiffness, or if nothing with mass can move.
 [[nodiscard]] double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
                                       const Holding& holding);
 
-/// rad per time, all contacts held by their springs; an estimate for large structures. 0: no stiffness.
+/// rad per time, with all contact springs; an estimate for large structures. 0: no stiffness.
 [[nodiscard]] double highest_frequency(const Model& model);
 
 }  // namespace signorini

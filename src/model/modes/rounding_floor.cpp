@@ -9,7 +9,7 @@ namespace signorini {
 namespace {
 
 constexpr double beside = 0.999;  // of omega1^2: a shift at which K - s M is regular
-constexpr int solves = 4;         // of inverse iteration, each of which gains a factor of some hundred
+constexpr int solves = 4;         // inverse iterations; each one gains a factor of some hundred
 
 }  // namespace
 
@@ -19,7 +19,7 @@ double rounding_floor(const Model& model) {
   const double shift = beside * model.omega1 * model.omega1;
   const SymmetricSolver solver(SparseMatrix(k - shift * model.mass));
   if (!solver.ok()) return 0.0;
-  Vector x = Vector::LinSpaced(model.size(), 1.0, 1.7);  // no shape is orthogonal to it by symmetry
+  Vector x = Vector::LinSpaced(model.size(), 1.0, 1.7);  // not orthogonal to any shape by symmetry
   for (int i = 0; i < solves; ++i) {
     x = solver.solve(model.mass * x);
     x /= x.cwiseAbs().maxCoeff();

@@ -14,7 +14,7 @@ class Rescaling {
     if (x) (*this)(*x, of);
   }
 
-  /// Of a displacement.
+  /// Conversion factor of a displacement.
   [[nodiscard]] double of_dof(int i) const {
     return dofs_[static_cast<std::size_t>(i)].rotation ? 1.0 : factors_.length;
   }
@@ -22,14 +22,14 @@ class Rescaling {
     const double factor = factor_of(over_displacement, factors_);
     for (int i = 0; i < x.size(); ++i) x[i] *= of_dof(i) * factor;
   }
-  /// Entries that make an energy, times `more`, with two displacements.
+  /// Scales a matrix that gives an energy, times `more`, with two displacements.
   void operator()(SparseMatrix& a, const Unit& more) const {
     const double factor = factor_of(unit::energy, factors_) * factor_of(more, factors_);
     for (int j = 0; j < a.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(a, j); it; ++it)
         it.valueRef() *= factor / (of_dof(static_cast<int>(it.row())) * of_dof(j));
   }
-  /// A length from displacements, a force along them; times `more`.
+  /// Scales a form that gives a length from displacements or acts as a force along them; times `more`.
   void operator()(Combination& form, const Unit& more = unit::plain) const {
     const double length = factor_of(more, factors_) * factors_.length;
     for (auto& [i, factor] : form.terms) factor *= length / of_dof(i);
@@ -38,14 +38,14 @@ class Rescaling {
     visit_numbers(history, of, [this](double& x, const Unit& unit) { (*this)(x, unit); });
   }
 
-  /// Displacements from displacements.
+  /// Scales a matrix that converts displacements to displacements.
   void basis(SparseMatrix& b) const {
     for (int j = 0; j < b.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(b, j); it; ++it)
         it.valueRef() *= of_dof(static_cast<int>(it.row())) / of_dof(j);
   }
 
-  /// This: of the physical degrees of freedom.
+  /// *this: for the physical degrees of freedom.
   void operator()(Ties& ties) const {
     const auto first = static_cast<int>(ties.rows.cols());
     for (int j = 0; j < ties.rows.outerSize(); ++j)
@@ -61,7 +61,7 @@ class Rescaling {
     (*this)(load.history, load.of_history);
   }
 
-  /// A form on displacements whose value has this unit.
+  /// Scales a form on displacements whose value has this unit.
   void value_of(Combination& form, const Unit& of) const {
     const double value = factor_of(of, factors_);
     for (auto& [i, factor] : form.terms) factor *= value / of_dof(i);
@@ -106,7 +106,7 @@ class Rescaling {
     (*this)(s.force, unit::force);
   }
 
-  /// This: of the physical degrees of freedom; amplitudes of shapes are lengths.
+  /// *this: for the physical degrees of freedom; amplitudes of shapes are lengths.
   void operator()(Reduction& r) const {
     for (int i = 0; i < r.shapes.rows(); ++i) r.shapes.row(i) *= of_dof(i) / factors_.length;
     for (double* omega : {&r.cutoff, &r.highest_kept, &r.first_left_out, &r.highest_massive})

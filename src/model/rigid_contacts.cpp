@@ -16,16 +16,17 @@
 namespace signorini {
 namespace {
 
-constexpr double takes_part = 1e-9;       // of a unit normal: less is what elimination leaves
-constexpr double closes_together = 1e-9;  // of the gaps: a scene gives them with so many digits
-constexpr double dependent = 1e-12;       // what is left of a unit normal when all others are taken out of it
+constexpr double takes_part = 1e-9;       // relative to a unit normal: less is the error of an elimination
+constexpr double closes_together = 1e-9;  // relative to the gaps: scenes have about this number of digits
+constexpr double dependent = 1e-12;       // remainder of a unit normal after all others are removed
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
   const ContactSpec& spec = scene.contacts[k];
   throw SceneError(spec.place, spec.key(key), why);
 }
 
-/// Friction that depends on the slip rate or on N, and a curved surface, need motions that are data of an instant.
+/// Friction that depends on the slip rate or on N, and a curved surface, need a contact motion that is known at an
+/// instant.
 void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
   const bool varies = friction_varies(contact), curved = contact.curved_surface() != nullptr;
@@ -42,8 +43,8 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   }
 }
 
-/// Sum of the magnitudes that the gap is a difference of. Displacements of a run that goes on are known relative to
-/// the greatest that it had, however small those at the contact are: solves do not tell one from the other.
+/// Sum of the magnitudes of the terms of a gap. Displacements of a continued run are known relative to its largest one,
+/// even if those at the contact are small: solver errors do not distinguish them.
 double terms_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
   if (!scene.initial.saved) return std::abs(contact.gap) + contact.normal.magnitude(model.u0);
   double greatest = model.scales.displacement, sum = 0.0;
@@ -60,7 +61,7 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const double terms = terms_of_gap(scene, model, contact);
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
-  // Displacements that are nothing but rounding tell no more of a gap than those of the scene's size.
+  // A gap from displacements of rounding size is as uncertain as one from displacements of the scene's size.
   const bool rounded = gap < 0.0 && -gap <= rounding::of_few * model.scales.displacement;
   if (carries || rounded || std::abs(gap) <= rounding::of_many * terms) {
     double square = 0.0;
@@ -71,7 +72,7 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
     return true;
   }
   const bool judged_later = scene.initial.saved && scene.reduction && scene.reduction->cutoff_omega > 0.0 &&
-                            !model.reduction;  // reduce() knows how far rounding of its shapes carries
+                            !model.reduction;  // reduce() knows the rounding of its shapes
   if (gap < 0.0 && !judged_later) {
     refuse(scene, k, "gap",
            fmt::format("found a gap of {:.6g} {} at the start, expected a gap >= 0: a rigid contact cannot "
@@ -81,7 +82,7 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   return false;
 }
 
-/// Feet of one body: closing one has moved the others.  u -= H (H^T H)^-1 g, twice, so that a rounding of u is left.
+/// Feet of one body: closing one moves the others.  u -= H (H^T H)^-1 g, twice, so that only a rounding of u remains.
 void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   Eigen::MatrixXd normals(model.size(), static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -95,8 +96,8 @@ void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   }
 }
 
-/// Contacts that may close at one displacement: those whose normals are independent of the first one's and
-/// of each other's. A dependent one is redundant if its gap closes with them, else it never meets them.
+/// Contacts that may close at one displacement: those whose normals are independent of the first one's and of each
+/// other's. A dependent one is redundant if its gap closes with them; otherwise it never closes together with them.
 void check_redundance(const Scene& scene, const Model& model, const std::vector<std::size_t>& rigid,
                       std::size_t first) {
   const auto n = static_cast<Eigen::Index>(model.size());

@@ -1,17 +1,17 @@
-// rigid_contacts.hpp: what rigid contacts need of a structure.
+// rigid_contacts.hpp: requirements of rigid contacts on the structure.
 //
-//   where they act there is mass; else they borrow springs (model/borrowed_springs.hpp) and are none of these
-//   g(u0) >= 0: nothing starts inside
+//   mass at the contact; otherwise it uses borrowed springs (model/borrowed_springs.hpp) and is not checked here
+//   g(u0) >= 0: no initial penetration
 //   no c, not zero, with sum_i c_i n_i = 0 and sum_i c_i g0_i = 0 over contacts that may close together: such
-//   contacts share one motion, and nobody can say which of them carries the force
+//   contacts share one motion, and their individual forces are undetermined
 #pragma once
 
 #include "signorini/model.hpp"
 
 namespace signorini {
 
-/// Errors: SceneError with the contact's place; it proposes law = "compliant". Gaps of u0 that are zero but
-/// for roundoff become zero.
+/// Errors: SceneError at the contact's place; it proposes law = "compliant". Gaps at u0 that are zero up to rounding
+/// become zero.
 void check_rigid_contacts(const Scene& scene, Model& model);
 
 }  // namespace signorini

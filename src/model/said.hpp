@@ -1,6 +1,6 @@
-// said.hpp: what a run computes, in the scene's units: for messages of whoever computes.
+// said.hpp: computed values in the scene's units, for messages.
 //
-//   said = value * factor of its unit          of Model::unit; of results as a whole: run/physical.hpp
+//   value in scene units = value * factor of its unit          Model::unit; for whole results: run/physical.hpp
 #pragma once
 
 #include "scene/quantities.hpp"

@@ -1,7 +1,7 @@
-// same_states.hpp: models whose contact states have the same matrices.
+// same_states.hpp: compares two models for equal matrices of their contact states.
 //
-// The same M, C, K, forms, stiffnesses and dampings of contacts, and coefficients of friction: then mode shapes of one serve the
-// other. Loads, gaps, surfaces and starts may differ.
+// Equal are M, C, K, forms, stiffnesses and dampings of contacts, and coefficients of friction; mode shapes of one
+// model then are valid for the other. Loads, gaps, surfaces and initial states may differ.
 #pragma once
 
 #include "signorini/model.hpp"
@@ -9,7 +9,7 @@
 namespace signorini {
 
 [[nodiscard]] bool same_contact_states(const Model& a, const Model& b);
-/// Loads act along the same directions; histories may differ.
+/// True if loads act along the same directions; histories may differ.
 [[nodiscard]] bool same_load_directions(const Model& a, const Model& b);
 
 }  // namespace signorini

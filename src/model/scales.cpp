@@ -16,7 +16,8 @@
 namespace signorini {
 namespace {
 
-constexpr double only_rounding = 1e-10;  // of the answer of what is free: what is held gives no more
+constexpr double only_rounding = 1e-10;  // relative to the response of the free structure: rounding of the
+                                         // constrained one
 
 bool usable(double x) { return std::isfinite(x) && x > 0.0; }
 
@@ -28,12 +29,12 @@ double first_usable(const Candidate&... candidates) {
   return 1.0;
 }
 
-/// Force on one point for each unit of a load's history: the plane vector's length in node scenes, the
-/// greatest factor in matrix scenes.
+/// Force on one point per unit of a load's history: the plane vector's length in node scenes, the largest factor in
+/// matrix scenes.
 double force_factor(const Combination& direction, const DofMap& map) {
   double greatest = 0.0, square = 0.0;
   for (const auto& [i, a] : direction.terms) {
-    // The arm of a force on a rigid body, whose direction is a unit vector.
+    // A force on a rigid body includes its arm; its direction is a unit vector.
     if (map.dofs[static_cast<std::size_t>(i)].rotation) return 1.0;
     greatest = std::max(greatest, std::abs(a));
     square += a * a;
@@ -41,7 +42,7 @@ double force_factor(const Combination& direction, const DofMap& map) {
   return map.matrices() ? greatest : std::sqrt(square);
 }
 
-/// Greatest distance of two nodes; the same however the scene is turned. Inner nodes lie between named ones.
+/// Largest distance of two nodes; independent of the scene's orientation. Inner nodes lie between named ones.
 double length_of(const DofMap& map) {
   const auto named = static_cast<std::size_t>(map.mesh.named);
   double squared = 0.0;
@@ -54,14 +55,15 @@ double length_of(const DofMap& map) {
   return std::sqrt(squared);
 }
 
-/// A body that supports hold in part has moments in place of forces: over the length of the structure.
+/// True for a rigid body that supports hold in part, so that forces act on its rotation alone, as moments; their arm is
+/// the length of the structure.
 bool turns_alone(const DofMap& map, std::size_t node) {
   const auto& n = map.number[node];
   return map.body[node] >= 0 && n[2] >= 0 && !map.is_tied(n[2]) &&
          (n[0] == DofMap::fixed || map.is_tied(n[0]) || n[1] == DofMap::fixed || map.is_tied(n[1]));
 }
 
-/// On the degrees of freedom of a node. Those that are tied to others have their forces there.
+/// Force on the degrees of freedom of a node. Tied nodes have their forces at the nodes that they follow.
 double force_at(const Vector& p, const DofMap& map, std::size_t node, double arm) {
   const auto part = [&](int n) { return n >= 0 && !map.is_tied(n) ? p[n] : 0.0; };
   const auto& n = map.number[node];
@@ -69,7 +71,7 @@ double force_at(const Vector& p, const DofMap& map, std::size_t node, double arm
   return turns_alone(map, node) && arm > 0.0 ? std::max(force, std::abs(part(n[2])) / arm) : force;
 }
 
-/// All of it, node by node; the same however the scene is turned.
+/// Sum over all nodes; independent of the scene's orientation.
 double weight_of(const Vector& p, const DofMap& map) {
   if (map.matrices()) return p.cwiseAbs().sum();
   const double arm = length_of(map);
@@ -78,7 +80,7 @@ double weight_of(const Vector& p, const DofMap& map) {
   return weight;
 }
 
-/// The force on the node that has most.
+/// Force on the most loaded node.
 double greatest_force(const Vector& p, const DofMap& map) {
   if (map.matrices()) return greatest_translation(p, map);
   const double arm = length_of(map);
@@ -87,7 +89,7 @@ double greatest_force(const Vector& p, const DofMap& map) {
   return greatest;
 }
 
-/// Of a node along the direction in which it has most; the same however the scene is turned.
+/// Mass of a node along the direction in which it is largest; independent of the scene's orientation.
 double greatest_mass(const Model& model, const DofMap& map) {
   double greatest = 0.0;
   if (map.matrices()) {
@@ -117,7 +119,7 @@ double force_of(const Model& model, const DofMap& map, const Felt& felt, double 
       force = std::max(force, felt.compressions[k] * magnitude(c.normal_force, t_end));
     if (const auto N = c.resting_force(model.u0)) force = std::max(force, -*N);
   }
-  double held = 0.0;  // by what does not follow; what does takes none of it
+  double held = 0.0;  // forces of constrained deformation (heat, supports), for want of others
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     const double most = felt.loads[i].share * magnitude(load.history, t_end);
@@ -132,7 +134,7 @@ double force_of(const Model& model, const DofMap& map, const Felt& felt, double 
       case LoadKind::force:
         force = std::max(force, force_factor(load.direction, map) * most);
         break;
-      case LoadKind::moment:  // a couple across the whole structure
+      case LoadKind::moment:  // a couple over the whole structure
         if (const double arm = length_of(map); arm > 0.0)
           force = std::max(force, direction.cwiseAbs().maxCoeff() * most / arm);
         break;
@@ -147,17 +149,17 @@ double force_of(const Model& model, const DofMap& map, const Felt& felt, double 
   }
   if (usable(force)) return force;
   if (usable(held)) return held;
-  // Free vibration: the forces of the initial state, then those that would stop it.
+  // Free vibration: the forces of the initial state, or those needed to stop it.
   force = std::max(greatest_force(model.stiffness * model.u0, map),
                    greatest_force(model.damping * model.v0, map));
   return std::max(force, model.omega_max * greatest_force(model.mass * model.v0, map));
 }
 
-/// Greatest static displacements under any one of some forces; 0 when the matrix is singular.
+/// Largest static displacements under any single one of some forces; 0 if the matrix is singular.
 struct Answer {
   double held = 0.0;
-  /// All that is fixed only gripped, by springs of the structure's own size: the measure of displacements
-  /// where nothing that carries moves.
+  /// With springs of the structure's own stiffness in place of constraints: the scale of displacements if the
+  /// constrained parts cannot move.
   double gripped = 0.0;
 };
 
@@ -173,7 +175,7 @@ Answer answer_to(const std::vector<Vector>& forces, const Model& model, const Do
   for (const Vector& p : forces) {
     const double answer = greatest_translation(structure.solve(p), map);
     const double free = greatest_translation(loose.solve(p), map);
-    // Where all that could move is fixed, only roundoff answers.
+    // If everything movable is fixed, the response is rounding only.
     if (answer > only_rounding * free) result.held = std::max(result.held, answer);
     result.gripped = std::max(result.gripped, free);
   }
@@ -188,7 +190,7 @@ std::vector<Vector> amplitudes_of_loads(const Model& model, const Felt& felt, do
   return forces;
 }
 
-/// f N along the tangents of sliders, whose compressions are given.
+/// f N along the tangents of sliders, whose normal forces are given.
 std::vector<Vector> limits_of_friction(const Model& model, const Felt& felt, double t_end) {
   std::vector<Vector> forces;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -200,7 +202,7 @@ std::vector<Vector> limits_of_friction(const Model& model, const Felt& felt, dou
   return forces;
 }
 
-/// How far the loads could throw the structure in the time of the run if nothing held it.
+/// Distance that the loads could throw the unsupported structure during the run.
 double thrown(const Model& model, const DofMap& map, const Felt& felt, double t_end) {
   SparseMatrix mass = model.mass;
   for (int i = 0; i < model.size(); ++i)
@@ -218,8 +220,8 @@ double thrown(const Model& model, const DofMap& map, const Felt& felt, double t_
          0.5 * acceleration * t_end * t_end;
 }
 
-/// What solves leave of an answer that contacts hold wholly: rounding of what the force does to the stiffest degree of
-/// freedom. Rotations over the length of the structure.
+/// Solver error of a response that contacts prevent completely: rounding of the force's effect on the stiffest degree
+/// of freedom. Rotations over the length of the structure.
 double least_answer(const Model& model, const DofMap& map, double force) {
   const double arm = length_of(map);
   double stiffest = 0.0;
@@ -231,7 +233,7 @@ double least_answer(const Model& model, const DofMap& map, double force) {
   return stiffest > 0.0 ? rounding::of_elimination * force / stiffest : 0.0;
 }
 
-/// What the force does to the softest spring that there is.
+/// Displacement of the softest spring by the force.
 double spring_answer(const Model& model, double force) {
   double softest = 0.0;
   auto consider = [&](double k) {
@@ -251,7 +253,7 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const double length = length_of(map);
   const double v0 = greatest_translation(model.v0, map);
   const Holding holding = hold_contacts(model.contacts, closed);
-  Holding rested;  // without friction on what is rigid and closed
+  Holding rested;  // without friction on closed rigid contacts
   for (std::size_t k = 0; k < closed.size(); ++k)
     if (closed[k] && model.contacts[k].takes_impulses()) rested.fixed.push_back(model.contacts[k].normal);
   const double omega =
@@ -267,12 +269,12 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const double least = least_answer(model, map, force);
   const auto answers = [&](double x) { return usable(x) && x > least; };
   if (!answers(displacement)) displacement = 0.0;
-  // A free motion that is held by roundoff alone, or hardly, answers without bound.
+  // A free motion that is constrained by rounding alone, or hardly, has an unbounded response.
   if (const double farthest = thrown(model, map, felt, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
-  // What starts with a velocity moves at least as far as the fastest oscillation would take it.
+  // An initial velocity moves the structure at least as far as the fastest oscillation would.
   if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
-  // What only friction moves goes as far as its limit bends the structure.
+  // A motion driven by friction alone goes as far as the friction limit deforms the structure.
   if (!usable(displacement))
     displacement = answer_to(limits_of_friction(model, felt, t_end), model, map, rested).held;
   if (!answers(displacement)) displacement = spring_answer(model, force);
@@ -285,7 +287,7 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const double mass = greatest_mass(model, map);
   scales.force = first_usable(force, mass * omega * omega * scales.displacement,
                               mass * scales.displacement / (t_end * t_end));
-  // A state that the contacts cannot hold does not swing at omega1: energy bounds its velocity.
+  // A state that the contacts cannot hold does not oscillate at omega1: energy bounds its velocity.
   const double driving = std::max(scales.force, greatest_force(model.stiffness * model.u0, map));
   const double bound = std::sqrt(driving * scales.displacement / mass);
   double velocity = omega > 0.0 ? omega * scales.displacement : bound;

@@ -31,15 +31,15 @@ void add_shear_elements(const Scene& scene, Model& model) {
     const bool by_rate = contact.friction.rises() && contact.tangential_stiffness;
     if ((ct == 0.0 && !by_rate) || !contact.has_friction()) continue;
     const double kt = *contact.tangential_stiffness;
-    // Below this the element would follow at once, within the rounding of everything else.
+    // Below this the element would respond immediately, within rounding.
     if (ct > 0.0 && ct / kt * model.omega_max < fastest)
       throw SceneError(
           scene.contacts[k].place, scene.contacts[k].key("tangential_damping"),
           fmt::format("tangential_damping / tangential_stiffness = {:.3g} is a time constant far "
                       "below the shortest period of the structure, {:.3g}; give 0.0 or more",
                       ct / kt, 2.0 * std::numbers::pi / model.omega_max));
-    // A body without mass has no motion that the dashpot alone could give it: the dashpot tells only how fast
-    // p leaves it. Then that is the degree of freedom, p - ut.
+    // On a body without mass the dashpot alone cannot determine the body's motion, only the rate of p relative to it.
+    // Then p - ut is the degree of freedom.
     const bool relative = std::any_of(
         contact.tangent.terms.begin(), contact.tangent.terms.end(),
         [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
@@ -48,7 +48,7 @@ void add_shear_elements(const Scene& scene, Model& model) {
     const double body = contact.tangent.dot(model.u0);
     std::optional<double> saved;
     if (scene.initial.saved) saved = saved_motion(*scene.initial.saved, contact.name + ".slip");
-    const double element = saved ? body - *saved : contact.initial_shear / kt;  // its deformation
+    const double element = saved ? body - *saved : contact.initial_shear / kt;  // deformation of the element
     u.push_back((relative ? 0.0 : body) - element);
     v.push_back(contact.surface_motion.piece(0.0).value(0.0, 1));
     Combination between = relative ? Combination{} : contact.tangent;

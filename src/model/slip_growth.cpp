@@ -14,19 +14,20 @@ namespace signorini {
 namespace {
 
 constexpr int all_up_to = 100, most = 400;  // degrees of freedom; chosen: a few tenths of a second
-constexpr double of_window = 0.5;           // of the highest frequency: above, modes left out would take part
-constexpr double rigid = 1e4;               // of the structure's own stiffness along a normal
-// Of |lambda| or sigma: where two eigenvalues meet, rounding leaves the root of eps of both, 1.5e-8.
+constexpr double of_window = 0.5;           // relative to the highest frequency: above, modes left out would
+                                            // contribute
+constexpr double rigid = 1e4;               // relative to the structure's own stiffness along a normal
+// Relative to |lambda| or sigma: at a double eigenvalue rounding leaves the root of eps of both, 1.5e-8.
 constexpr double no_growth = 1e-6;
 
-/// A contact that slips: its normal pulls and pushes along `push`.
+/// A slipping contact: its normal force also acts along `push`.
 struct Drive {
   Vector normal, push;
   double stiffness, damping;
 };
 
 struct Slipping {
-  SparseMatrix stiffness;  ///< symmetric part: of the structure and of contacts that do not slip
+  SparseMatrix stiffness;  ///< symmetric part: the structure and contacts that do not slip
   std::vector<Drive> drives;
   std::vector<std::size_t> contacts;
 };
@@ -60,7 +61,7 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
   return result;
 }
 
-/// Shapes, n x m, in which motions are looked for, and up to which |lambda| they tell the truth.
+/// Shapes, n x m, for the search, and the |lambda| up to which their results are valid.
 struct Window {
   Eigen::MatrixXd shapes;
   double end = std::numeric_limits<double>::infinity();
@@ -71,7 +72,7 @@ Window window(const Model& model, const Slipping& slip, double sigma) {
   if (n <= all_up_to) return {Eigen::MatrixXd::Identity(n, n)};
   Eigen::MatrixXd k = slip.stiffness;
   for (const Drive& drive : slip.drives) k += drive.stiffness * drive.normal * drive.normal.transpose();
-  // Of the greatest 1 / (omega^2 + sigma^2).
+  // Relative to the largest 1 / (omega^2 + sigma^2).
   const EigenPairs pairs = generalized_eigen(model.mass, k + sigma * sigma * Eigen::MatrixXd(model.mass));
   if (pairs.values.size() < n) return {Eigen::MatrixXd(n, 0)};
   const double last = pairs.values[n - all_up_to];
@@ -79,7 +80,7 @@ Window window(const Model& model, const Slipping& slip, double sigma) {
   return {pairs.vectors.rightCols(all_up_to), of_window * std::sqrt(std::max(0.0, square))};
 }
 
-/// All lambda of M x'' + C x' + K x = 0 that are not infinite.
+/// All finite lambda of M x'' + C x' + K x = 0.
 std::vector<std::complex<double>> exponents(const Eigen::MatrixXd& m, const Eigen::MatrixXd& c,
                                             const Eigen::MatrixXd& k, double sigma) {
   const Eigen::Index n = m.rows();
@@ -88,7 +89,7 @@ std::vector<std::complex<double>> exponents(const Eigen::MatrixXd& m, const Eige
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   a.topRows(n) = -solve_dense(k + sigma * c + sigma * sigma * m, right);
   a.bottomLeftCorner(n, n).setIdentity();
-  // In units of 1/sigma, in which the halves of z are of one size.
+  // In units of 1/sigma, so that the halves of z have equal size.
   a.topRightCorner(n, n) *= sigma;
   a.bottomLeftCorner(n, n) /= sigma;
   std::vector<std::complex<double>> found;

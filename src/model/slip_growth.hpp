@@ -1,17 +1,17 @@
-// slip_growth.hpp: whether contacts that slip at their limits would let a motion grow.
+// slip_growth.hpp: instability of steady slip at the friction limit.
 //
 //   M u'' + C u' + (K + sum kn (n - s f t) n^T + sum_stick kt t t^T) u = 0,   u ~ exp(lambda t)
 //
-// Friction that follows the compression makes the stiffness unsymmetric. Then pairs of frequencies may meet
-// and part again as lambda = gamma +- i omega, gamma > 0 (flutter), or one may pass through zero
-// (lambda = gamma: it runs away). With 1 / nu = lambda - sigma, sigma > 0 near the frequencies looked at:
+// Friction proportional to the normal force makes the stiffness unsymmetric. Pairs of frequencies then may coincide and
+// become lambda = gamma +- i omega, gamma > 0 (flutter), or one may pass through zero (lambda = gamma: divergence).
+// With 1 / nu = lambda - sigma, sigma > 0 near the frequencies of interest:
 //
 //   nu z = A z,   A = [ -K~^-1 (C + 2 sigma M)   -K~^-1 M ],   K~ = K + sigma C + sigma^2 M
 //                     [  I                        0       ]
 //
-// Up to 100 degrees of freedom all of them; up to 400 in the 100 lowest modes of the symmetric part, looked
-// at up to half of their highest frequency; beyond, nothing is said. Rigid contacts are springs of 10^4 times
-// the structure's own stiffness here.
+// Up to 100 degrees of freedom all of them are used; up to 400 the 100 lowest modes of the symmetric part, with results
+// up to half of their highest frequency; larger models are not examined. Rigid contacts are springs of 10^4 times the
+// structure's own stiffness here.
 #pragma once
 
 #include <optional>
@@ -22,11 +22,11 @@ namespace signorini {
 
 struct SlipGrowth {
   double rate = 0.0;                  ///< gamma, > 0; 1/time
-  double omega = 0.0;                 ///< rad per time; 0: it runs away
-  std::vector<std::size_t> contacts;  ///< those that slip with friction that follows their compression
+  double omega = 0.0;                 ///< rad per time; 0: divergence
+  std::vector<std::size_t> contacts;  ///< slipping contacts with friction proportional to the normal force
 };
 
-/// The fastest growth, `states` one a contact. The model: before its reduction, damping set, without shear
+/// The fastest growth, `states` has one entry per contact. The model: before its reduction, damping set, without shear
 /// elements.
 [[nodiscard]] std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<State>& states);
 

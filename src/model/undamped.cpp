@@ -10,7 +10,7 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Massless degrees of freedom that a damper acts on.
+/// Massless degrees of freedom with a damper.
 std::vector<int> damped_without_mass(const Model& model) {
   std::vector<int> list;
   for (int i = 0; i < model.size(); ++i)
@@ -19,7 +19,7 @@ std::vector<int> damped_without_mass(const Model& model) {
   return list;
 }
 
-/// C on these alone.
+/// C restricted to these degrees of freedom.
 SparseMatrix part_of(const SparseMatrix& c, const std::vector<int>& list) {
   std::vector<int> position(static_cast<std::size_t>(c.rows()), -1);
   for (std::size_t j = 0; j < list.size(); ++j)
@@ -37,7 +37,7 @@ SparseMatrix part_of(const SparseMatrix& c, const std::vector<int>& list) {
   return part;
 }
 
-/// Columns with the same span, each with a row of its own where it is one and all others are zero.
+/// A basis of the same span; each column has a row in which it is 1 and all others are 0.
 std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index j = 0; j < z.cols(); ++j) {
@@ -55,7 +55,7 @@ std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
   return rows;
 }
 
-/// B^T n; what cancels is zero.
+/// B^T n; terms that cancel become zero.
 Combination in_basis(const Combination& form, const SparseMatrix& basis) {
   Vector sum = Vector::Zero(basis.cols()), size = sum;
   for (const auto& [i, factor] : form.terms)
@@ -81,7 +81,7 @@ void change_basis(Model& model, const SparseMatrix& basis, const std::vector<boo
     contact.normal = in_basis(contact.normal, basis);
     contact.tangent = in_basis(contact.tangent, basis);
   }
-  // B^-1 = 2 - B: what B adds to others it adds from those that it leaves alone.
+  // B^-1 = 2 - B: B adds to some degrees of freedom only multiples of those that it leaves unchanged.
   for (Vector* x : {&model.u0, &model.v0}) *x = 2.0 * *x - basis * *x;
   model.basis = basis;
 }

@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-/// The greatest distance of a node from the centre.
+/// Largest distance of a node from the centre.
 double size_of_body(const DofMap& map, const std::vector<int>& nodes, const MeshNode& centre) {
   double size = 0.0;
   for (const int n : nodes) {
@@ -47,7 +47,7 @@ void add_body_reaction(const Scene& scene, const DofMap& map, const StructureRow
   const double size = size_of_body(map, nodes, centre);
   const auto held = held_in_body(scene, map, asked.body);
   Eigen::MatrixXd g(3, static_cast<Eigen::Index>(held.size()));
-  Vector along = Vector::Zero(g.cols());  // part of each support in the reaction asked for
+  Vector along = Vector::Zero(g.cols());  // contribution of each support to the requested reaction
   for (std::size_t j = 0; j < held.size(); ++j) {
     const auto [node, c] = held[j];
     const auto at = static_cast<Eigen::Index>(j);

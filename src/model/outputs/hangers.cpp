@@ -10,7 +10,7 @@
 namespace signorini {
 namespace {
 
-constexpr double usual_variability = 0.25;  // the limit of piping codes, MSS SP-58 and ASME B31.1
+constexpr double usual_variability = 0.25;  // limit of the piping codes MSS SP-58 and ASME B31.1
 
 }  // namespace
 

@@ -26,7 +26,7 @@ Combination form_of(const Vector& x) {
   return form;
 }
 
-/// From the physical degrees of freedom to those that are computed.
+/// Converts a form on the physical degrees of freedom to the computed ones.
 Combination computed(const Vector& x, const Model& model) {
   if (model.reduction) return form_of(model.reduction->shapes.transpose() * x);
   if (model.basis) return form_of(model.basis->transpose() * x);
@@ -66,7 +66,7 @@ class Maker {
     return output;
   }
 
-  /// Zero but for the residual: along x (0) or y (1).
+  /// Sum of reactions minus loads and inertia, zero up to the residual: along x (0) or y (1).
   Output reaction_sum(std::size_t c) {
     PhysicalRow row(map_.size());
     std::vector<bool> held(map_.mesh.nodes.size(), false);
@@ -103,8 +103,8 @@ class Maker {
     for (const PhysicalRow::Bowl& bowl : row.bowls) restore(bowl, output);
   }
 
-  /// Forces within a reduced structure balance what acts on it only without what its equation of motion leaves out:
-  /// inertia of shapes without mass, and their damping where they follow at once.
+  /// Internal forces of a reduced structure balance the loads only without the terms that its equation of motion
+  /// neglects: inertia of massless shapes, and their damping where they respond immediately.
   void balance(const PhysicalRow& row, Output& output) const {
     const Reduction& reduction = *model_.reduction;
     Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
@@ -132,7 +132,7 @@ class Maker {
     output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
-  /// N u / R beside the spring N_0 / R of the scene, which stands in the row; N_K u / R of the model is damped by beta.
+  /// N u / R in addition to the scene's spring N_0 / R, which is in the row; the model's N_K u / R is damped by beta.
   void restore(const PhysicalRow::Bowl& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
     const Bowl& said = *scene_.contacts[bowl.contact].bowl;
@@ -203,7 +203,7 @@ class Maker {
     return {piece, backwards};
   }
 
-  /// row += what is wanted at a part x of the k-th element on the way.
+  /// row += requested quantity at the position x on the k-th element of the way.
   void cut(const OutputSpec& spec, const char* key, const Way& way, std::pair<std::size_t, double> at,
            const Wanted& wanted, PhysicalRow& row) const {
     const MemberCuts cuts(scene_, map_);
@@ -218,7 +218,7 @@ class Maker {
     cut(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted, row);
   }
 
-  /// In axes turned by the angle of `direction`, (c, s): xx = d . sigma d, yy across, xy = d . sigma (-s, c).
+  /// Axes rotated by the angle of `direction`, (c, s): xx = d . sigma d, yy across, xy = d . sigma (-s, c).
   void body_stress(const OutputSpec& spec, PhysicalRow& row) {
     const int node = map_.mesh.by_name.at(spec.at[0]);
     const auto [c, s] = spec.direction.vector;
@@ -228,7 +228,7 @@ class Maker {
     rows_->add_stress(row, body_of_node(scene_, static_cast<std::size_t>(node)).value(), node, factors);
   }
 
-  /// Of a stretch: the wanted quantity at one of its points.
+  /// The requested quantity at one point of a stretch.
   Output point(const OutputSpec& spec, const char* key, const Way& way, std::pair<std::size_t, double> at,
                const Wanted& wanted) const {
     Output linear;
@@ -316,7 +316,7 @@ class Maker {
         if (d[c] != 0.0 && is_held(node, c)) rows_->add_reaction(row, node, c, d[c]);
   }
 
-  /// The nodes of its rigid body, or itself.
+  /// The nodes of the node's rigid body, or the node alone.
   [[nodiscard]] std::vector<int> together_with(int node) const {
     const int body = map_.body[static_cast<std::size_t>(node)];
     if (body < 0) return {node};
@@ -370,7 +370,8 @@ class Maker {
     for (const OutputTerm& part : spec.terms) {
       const Output& term = named(part.name, before);
       const double factor = part.factor;
-      if (!same_unit(product_of_units(term.unit, part.unit), output.unit))  // of a scene made in code
+      if (!same_unit(product_of_units(term.unit, part.unit), output.unit))  // only possible in a scene made
+                                                                            // in code
         refuse(spec, "terms",
                fmt::format("'{}' has another unit than '{}'", part.name, spec.terms.front().name));
       add(output.u, term.u, factor);

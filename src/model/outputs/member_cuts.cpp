@@ -28,7 +28,7 @@ Wanted wanted_by(const OutputSpec& spec, Fibre fibre) {
   return wanted;
 }
 
-/// What is distributed is even, inertia linear along an element and cubic across it (line_element.hpp).
+/// The distributed load is constant, inertia linear along an element and cubic across it (line_element.hpp).
 std::size_t points_of(OutputQuantity quantity) {
   return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;
 }
@@ -39,7 +39,7 @@ std::size_t MemberCuts::element_of(const Way& way, std::size_t k) {
 
 std::pair<std::size_t, double> MemberCuts::place_of(const Way& way, double station) {
   const auto count = static_cast<double>(way.piece->count);
-  // Between two elements: the one that the way leads to.
+  // Between two elements: the next one along the way.
   const double element = std::clamp(std::floor(station * count), 0.0, count - 1.0);
   return {static_cast<std::size_t>(element), station * count - element};
 }
@@ -48,7 +48,7 @@ Cut MemberCuts::force(const Way& way, std::size_t k, double x, OutputQuantity qu
   const std::size_t number = element_of(way, k);
   const FiniteElement& e = map_.mesh.element(number);
   Cut cut(e.unknowns().size());
-  // On the way back the other side is to the right.
+  // In the opposite direction, left and right are exchanged.
   const double sign = way.backwards && quantity == OutputQuantity::M ? -1.0 : 1.0;
   add(cut, e.cut(quantity, {way.backwards ? 1.0 - x : x, 0.0}, map_.frozen_in(number)), sign);
   return cut;

@@ -91,7 +91,7 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
   const auto moved = map_.mesh.moved.find(i);
   ElementVector ca = cut.acceleration;
   if (moved == map_.mesh.moved.end()) ca += e.mass() * cut.forces;
-  ElementVector cu = ElementVector::Zero(ca.size()), frozen = cut.deflection;  // what is frozen is not damped
+  ElementVector cu = ElementVector::Zero(ca.size()), frozen = cut.deflection;  // frozen forces are not damped
   if (stiff) cu = e.stiffness() * cut.forces;
   const AxialForces standing = map_.frozen_in(i);
   if (stiff && !standing.none() && !map_.within_body(e)) frozen += e.geometric(standing) * cut.forces;
@@ -115,7 +115,7 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
     add_given(row, strain, -e.strain_work(cut.forces));
 }
 
-/// factor times the force that the moved mass of an element has on component c of a node; -1: on all.
+/// factor times the force of an element's moved mass on component c of a node; -1: on all nodes.
 void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, std::size_t c,
                                    double factor) const {
   const MovedMass& moved = map_.mesh.moved.at(i);
@@ -179,7 +179,7 @@ void StructureRows::add_mass(PhysicalRow& row, const PointMass& mass, std::size_
   if (c != 2) add_frame(row, c == 0 ? m : 0.0, c == 1 ? m : 0.0);
 }
 
-/// Not into the constant, though it may be one: a load may be changed on the way.
+/// Loads are never merged into the constant, even constant ones, because Steering may change a load during a run.
 void StructureRows::add_load(PhysicalRow& row, std::size_t i, double factor) const {
   if (factor == 0.0) return;
   const auto known = std::find_if(row.given.begin(), row.given.end(),
@@ -190,7 +190,7 @@ void StructureRows::add_load(PhysicalRow& row, std::size_t i, double factor) con
   given.history = loads_[i].history.scaled(given.factor);
 }
 
-/// A force or a moment at a node; -1: at any.
+/// A force or a moment at a node; -1: at any node.
 void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::size_t c, double factor) const {
   const LoadSpec& load = scene_.loads[i];
   if (load.type == LoadType::distributed) return;
@@ -206,7 +206,7 @@ void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::si
   add_load(row, i, factor * (moment ? 1.0 : load.direction.vector[c]));
 }
 
-/// N n + T t of a contact on a node; -1: on all that it touches, together.
+/// N n + T t of a contact on a node; -1: on all nodes that it acts on, summed.
 void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::size_t c,
                                 double factor) const {
   const ContactSpec& spec = scene_.contacts[k];
@@ -233,7 +233,7 @@ void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, doub
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
     const std::vector<ElementUnknown> unknowns = element(i).unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
-      // The rotation of a hinged end is its own, and nothing of it reaches the node.
+      // The rotation of a hinged end belongs to the element; it transmits no moment to the node.
       if (nodes[unknowns[j].place] != node || unknowns[j].component != c || unknowns[j].own) continue;
       Cut cut(unknowns.size());
       cut.forces[static_cast<Eigen::Index>(j)] = factor;

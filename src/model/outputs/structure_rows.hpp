@@ -1,11 +1,11 @@
-// structure_rows.hpp: forces within the structure as functionals of its motion.
+// structure_rows.hpp: internal forces of the structure as functionals of its motion.
 //
 //   ends of an element     f = k (u + beta v) + k_g u + m (a + alpha v + r a_b - r g) - f_q q(t) - f_s strain(t)
 //   reaction of a support  R = sum of f + springs + masses + ( N n + T t ) of contacts - forces at the node
 //   sum over the supports  R = inertia - loads + springs and contacts to the ground
 //
-// a_b: acceleration of the base, g: gravity. In a node scene; degrees of freedom that a support moves follow
-// its history, those that rest are zero.
+// a_b: acceleration of the base, g: gravity. For node scenes; degrees of freedom moved by a support follow its history,
+// fixed ones are zero.
 #pragma once
 
 #include "model/assembly/loads.hpp"
@@ -14,15 +14,15 @@
 
 namespace signorini {
 
-/// An output on the physical degrees of freedom.
+/// An output in terms of the physical degrees of freedom.
 struct PhysicalRow {
   explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u), rayleigh(u) {}
   Vector u, v, a;
-  Vector rayleigh;  ///< of v: what alpha M + beta K adds to a force
+  Vector rayleigh;  ///< factors of v: contribution of alpha M + beta K to a force
   std::vector<Output::ContactForces> forces;
   std::vector<Output::Given> given;
   double constant = 0.0;
-  /// A contact whose curved surface adds N u / R as N varies, and the factor of that force.
+  /// A contact whose curved surface adds N u / R with varying N, and the factor of that force.
   struct Bowl {
     std::size_t contact = 0;
     double factor = 0.0;
@@ -32,29 +32,29 @@ struct PhysicalRow {
 
 class StructureRows {
  public:
-  /// alpha, beta: the Rayleigh damping in force. All must outlive it.
+  /// alpha, beta: the Rayleigh factors in use. All arguments must outlive the object.
   StructureRows(const Scene& scene, const DofMap& map, double alpha, double beta);
 
-  /// row += cu u + (cv + rayleigh) v + ca a of what stands under a number of DofMap::numbers_at().
+  /// row += cu u + (cv + rayleigh) v + ca a for a number of DofMap::numbers_at().
   void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca, double rayleigh = 0.0) const;
-  /// The base and gravity as an acceleration of everything: row += x times it along x, y along y.
+  /// Acceleration of the base and gravity as an acceleration of all nodes: row += x times it along x, y along y.
   void add_frame(PhysicalRow& row, double x, double y, bool gravity = true) const;
-  /// The cut of an element.
+  /// Adds the cut of an element.
   void add_cut(PhysicalRow& row, std::size_t element, const Cut& cut) const;
-  /// factors . (sigma_x, sigma_y, tau_xy) at a node of a body, an index into Scene::bodies (nodal_stress.hpp); with what
-  /// damping by stiffness adds: sigma = D (B (u + beta v) - alpha T e).
+  /// factors . (sigma_x, sigma_y, tau_xy) at a node of a body, an index into Scene::bodies (nodal_stress.hpp),
+  /// including stiffness-proportional damping: sigma = D (B (u + beta v) - alpha T e).
   void add_stress(PhysicalRow& row, std::size_t body, int node, const Eigen::RowVector3d& factors) const;
-  /// The force in a spring, its preload and its damper included, times a factor: positive where its node has moved along
-  /// its direction.
+  /// The force in a spring times a factor, preload and damper included: positive if its node has moved along its
+  /// direction.
   void add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const;
-  /// What holds component c (0 x, 1 y, 2 rotation) of a node.
+  /// Reaction at component c (0 x, 1 y, 2 rotation) of a node.
   void add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const;
-  /// Loads less inertia, springs and contacts to the ground: along x or y.
+  /// Loads minus inertia, springs and contacts to the ground: along x or y.
   void add_total(PhysicalRow& row, std::size_t c) const;
 
  private:
   [[nodiscard]] const FiniteElement& element(std::size_t i) const { return map_.mesh.element(i); }
-  /// stiff: with the part of the stiffness.
+  /// stiff: include the stiffness term.
   void add_ends(PhysicalRow& row, std::size_t element, const Cut& cut, bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
   void add_moved_mass(PhysicalRow& row, std::size_t element, int node, std::size_t c, double factor) const;
@@ -66,15 +66,15 @@ class StructureRows {
   const Scene& scene_;
   const DofMap& map_;
   double alpha_, beta_;
-  std::vector<History> moving_, base_;  // of supports that move, accelerations of the base
+  std::vector<History> moving_, base_;  // histories of moving supports; accelerations of the base
   struct Uniform {
     std::size_t load;
-    std::array<double, 2> q;  // along x and y, of an amplitude of one
+    std::array<double, 2> q;  // along x and y, for a unit amplitude
   };
-  std::vector<std::vector<Uniform>> uniform_;      // an element
-  std::vector<std::vector<NodeForce>> tractions_;  // a load
-  std::vector<Output::Given> loads_;               // with amplitude
-  std::vector<std::vector<History>> strains_;      // a member; then of bodies
+  std::vector<std::vector<Uniform>> uniform_;      // per element
+  std::vector<std::vector<NodeForce>> tractions_;  // per load
+  std::vector<Output::Given> loads_;               // includes the amplitude
+  std::vector<std::vector<History>> strains_;      // per member; then per body
 };
 
 }  // namespace signorini

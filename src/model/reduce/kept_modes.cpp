@@ -28,7 +28,7 @@ double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiff
   return greatest;
 }
 
-/// All modes: massless degrees of freedom condensed, shapes complete again.
+/// All modes: massless degrees of freedom are condensed, then shapes completed.
 EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   const SparseMatrix h = select_by_mass(mass, true), l = select_by_mass(mass, false);
   const SparseMatrix m = h.transpose() * mass * h, k = h.transpose() * stiffness * h;
@@ -41,7 +41,7 @@ EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
     condensed += coupling.transpose() * follow;
   }
   const EigenPairs pairs = generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
-  if (pairs.vectors.rows() != h.cols()) return {};  // it failed: whoever asked looks at the values
+  if (pairs.vectors.rows() != h.cols()) return {};  // it failed: the caller checks the values
   Eigen::MatrixXd shapes = h * pairs.vectors;
   if (l.cols() > 0) shapes += l * (follow * pairs.vectors).eval();
   return {pairs.values, shapes};
@@ -56,7 +56,7 @@ void orthonormalise(Eigen::MatrixXd& x, const SparseMatrix& mass) {
     }
 }
 
-/// Modes that are not free, up to the cutoff, and the first above it if there is one.
+/// Modes that are not free, up to the cutoff, and the first one above it if there is one.
 struct ElasticModes {
   EigenPairs pairs;
   Eigen::Index kept = 0;
@@ -65,10 +65,10 @@ struct ElasticModes {
 ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                          Eigen::Index free, Eigen::Index heavies) {
   const EigenPairs all = all_modes(mass, stiffness);
-  // A decomposition that failed has none, or values that are no numbers.
+  // A failed decomposition has no values, or values that are NaN.
   if (all.values.size() != heavies || !all.values.allFinite())
     throw NotReducible("the modes of the structure cannot be computed");
-  const Eigen::Index rest = all.values.size() - free;  // the lowest are free, whatever roundoff made of them
+  const Eigen::Index rest = all.values.size() - free;  // the lowest ones are free, up to rounding
   ElasticModes found;
   while (found.kept < rest && all.values[free + found.kept] <= cutoff * cutoff) ++found.kept;
   const Eigen::Index taken = std::min(found.kept + 1, rest);
@@ -76,7 +76,7 @@ ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMa
   return found;
 }
 
-/// The same without a decomposition of the whole; `count` modes lie below the cutoff.
+/// Same without a decomposition of the whole; `count` modes lie below the cutoff.
 ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, const SparseMatrix& stiffness,
                             const Eigen::MatrixXd& rigid) {
   const double limit = cutoff * cutoff;
@@ -137,12 +137,12 @@ KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatri
   result.shapes.resize(mass.rows(), kept);
   result.shapes.leftCols(result.free) = rigid;
   result.squares = Eigen::VectorXd::Zero(kept);
-  // Without elastic modes any shift that makes K regular will do.
+  // Without elastic modes any shift that makes K regular is suitable.
   const double local = greatest_local_square(mass, stiffness);
   result.shift = taken > 0 ? shift_share * pairs.values[taken - 1] : local > 0.0 ? local : 1.0;
   if (taken == 0) return result;
 
-  // A step of inverse iteration sharpens the low modes, whose energy is small among that of the high ones.
+  // A step of inverse iteration improves the low modes, whose energy is small compared with the high ones.
   Eigen::MatrixXd x = pairs.vectors;
   const SymmetricSolver solver = regular(SparseMatrix(stiffness + result.shift * mass));
   take_out(rigid, mass, x);

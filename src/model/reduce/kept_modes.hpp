@@ -1,15 +1,15 @@
-// kept_modes.hpp: the modes of a structure up to a cutoff, and what the others answer statically.
+// kept_modes.hpp: the modes of a structure up to a cutoff, and the static response of all others.
 //
 //   K phi = omega^2 M phi,   phi_i^T M phi_j = delta_ij,   omega <= cutoff
 //   G_res f = sum over the other modes phi (phi^T f)/omega^2,   those without mass included
 //
-// K and M symmetric, positive semidefinite; contacts hold nothing. With f_el = f - M Phi Phi^T f, which does
-// no work on the kept modes (inertia relief of the free motions among them), G_res f solves K u = f_el with
-// Phi^T M u = 0. Source: MacNeal, Computers and Structures 1 (1971) 581; Craig and Kurdila, Fundamentals of
-// Structural Dynamics, chapter 17.
+// K and M symmetric, positive semidefinite; without contact constraints. With f_el = f - M Phi Phi^T f, which does no
+// work on the kept modes (inertia relief if these include free motions), G_res f solves K u = f_el with Phi^T M u = 0.
+// Source: MacNeal, Computers and Structures 1 (1971) 581; Craig and Kurdila, Fundamentals of Structural Dynamics,
+// chapter 17.
 //
-// Dense up to 400 degrees of freedom with mass, and up to 5000 where a third of the modes or more is kept.
-// Else the modes below the cutoff are counted (model/modes/mode_count.hpp) and found as many
+// Dense up to 400 degrees of freedom with mass, and up to 5000 if a third of the modes or more is kept. Otherwise the
+// modes below the cutoff are counted (model/modes/mode_count.hpp), and this number of modes is computed
 // (model/modes/lowest_modes.hpp).
 #pragma once
 
@@ -31,18 +31,18 @@ struct NotReducible : std::runtime_error {
 struct KeptModes {
   Eigen::MatrixXd shapes;       ///< n x m, M-orthonormal; free motions first, then ascending
   Eigen::VectorXd squares;      ///< omega^2, m; exactly 0 for free motions
-  int free = 0;                 ///< of them, free motions
+  int free = 0;                 ///< number of free motions among them
   int left_out = 0;             ///< modes with mass above the cutoff
   double first_left_out = 0.0;  ///< rad per time; 0: none
-  double shift = 0.0;  ///< of omega^2, with which K + shift M is regular; far below the modes left out
+  double shift = 0.0;  ///< shift of omega^2 with which K + shift M is regular; far below the modes left out
 };
 
-/// `free`: all null motions of K, n x f; each must have mass. K must be positive semidefinite. Throws
-/// NotReducible where there are more modes than it can find, or fewer found than counted.
+/// `free`: all null motions of K, n x f; each must have mass. K must be positive semidefinite. Throws NotReducible if
+/// there are more modes than the limit, or if fewer were found than counted.
 [[nodiscard]] KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                                     const Eigen::MatrixXd& free);
 
-/// Phi^T f, m; what is only the rounding of its terms is zero (weight moves no elastic mode of a free body).
+/// Phi^T f, length m; sums of rounding size are set to zero (weight excites no elastic mode of a free body).
 [[nodiscard]] Vector parts(const KeptModes& modes, const Vector& f);
 
 class ResidualFlexibility {
@@ -57,8 +57,8 @@ class ResidualFlexibility {
 
   const SparseMatrix& mass_;
   const KeptModes& modes_;
-  Eigen::MatrixXd inertia_, inertia_size_;  // M Phi, and its magnitudes
-  double shift_;                            // of omega^2: what is left of it is taken out by iteration
+  Eigen::MatrixXd inertia_, inertia_size_;  // M Phi, and the magnitudes of its terms
+  double shift_;                            // shift of omega^2; its effect is removed by iteration
   bool complete_;
   SymmetricSolver solver_;
 };

@@ -9,7 +9,7 @@ constexpr double ten_digits = 1e-9;
 
 double inner(const SparseMatrix& a, const SparseMatrix& b) { return a.cwiseProduct(b).sum(); }
 
-/// Least squares over all entries, M and K scaled to one.
+/// Least-squares fit over all entries, M and K scaled to one.
 RayleighFactors fitted(const SparseMatrix& damping, const SparseMatrix& mass, const SparseMatrix& stiffness) {
   const double m = mass.norm(), k = stiffness.norm();
   const double cm = m > 0.0 ? inner(damping, mass) / m : 0.0,

@@ -2,8 +2,8 @@
 //
 //   | C - alpha M - beta K |_ij <= 1e-9 ( |C| + |alpha M| + |beta K| )_ij   for all ij,   alpha, beta >= 0
 //
-// Ten digits, the fewest with which programs write matrices. A reduced model then damps its modes by alpha and beta; by C itself
-// its static shapes would have dampers of their own, of time constants far below those of the modes.
+// 1e-9: programs write matrices with at least ten digits. A reduced model then damps its modes by alpha and beta. With
+// C itself its static shapes would have dampers with time constants far below those of the modes.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct RayleighFactors {
   double beta = 0.0;   ///< time
 };
 
-/// All symmetric, of one size. Nothing where C is not of that form, or zero.
+/// All matrices symmetric, of one size. nullopt: C is not of that form, or zero.
 [[nodiscard]] std::optional<RayleighFactors> rayleigh_factors(const SparseMatrix& damping,
                                                               const SparseMatrix& mass,
                                                               const SparseMatrix& stiffness);

@@ -10,12 +10,12 @@
 namespace signorini {
 namespace {
 
-// Of the terms of r: half of the digits. What is left by more comes from loads, not from roundings. Chosen; roundings leave
-// 1e-11, a load that is left out leaves all of itself.
+// Relative to the terms of r: half of the digits. A larger remainder comes from loads, not from rounding. Chosen value;
+// rounding leaves 1e-11, an omitted load leaves its full value.
 constexpr double no_rounding = 1e-8;
-// The friction of what slides changes with N, which a step leaves out; each step gains the digits of d.
+// The friction of sliding contacts changes with N, which a step neglects; each step gains as many digits as d has.
 constexpr int steps = 3;
-// Nearer to its limit than this part of it a contact is at it.
+// Relative distance below which a contact counts as being at its friction limit.
 constexpr double at_limit = 1e-9;
 
 class ReducedStart {
@@ -41,7 +41,7 @@ class ReducedStart {
     for (std::size_t k = 0; k < state.shears.size(); ++k) model_.contacts[k].initial_shear = state.shears[k];
   }
 
-  /// r, and the greatest of its terms.
+  /// r, and the largest of its terms.
   [[nodiscard]] std::pair<Vector, double> left_over() const {
     const Vector elastic = model_.stiffness * model_.u0;
     Vector r = -elastic;
@@ -59,7 +59,7 @@ class ReducedStart {
     return {std::move(r), most};
   }
 
-  /// False: nothing holds a motion.
+  /// Returns false if there is a mechanism.
   [[nodiscard]] bool step(const Vector& r) {
     std::vector<HeldRow> rows;
     std::vector<std::size_t> stuck;
@@ -84,7 +84,7 @@ class ReducedStart {
     return true;
   }
 
-  /// No shear is above its limit, and what was at it stays there.
+  /// Limits shears to the friction limit, and keeps contacts at the limit there.
   void clamp() {
     for (std::size_t k = 0; k < shares_.size(); ++k) {
       if (!rubs(k)) continue;
@@ -117,7 +117,7 @@ class ReducedStart {
     return sticking_limit(c, c.normal_force_given() ? -model_.statics.reactions[k] : normal_force(k));
   }
   Model& model_;
-  std::vector<double> shares_;  // |T| over its limit where the start was found
+  std::vector<double> shares_;  // |T| over its limit at the original start
 };
 
 bool is_known(const Model& model) {

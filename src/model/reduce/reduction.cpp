@@ -20,15 +20,15 @@
 namespace signorini {
 namespace {
 
-constexpr double nothing = 1e-14;      // part of a form, a shape being 1, that is rounding
+constexpr double nothing = 1e-14;      // relative part of a form on a shape of size 1 that is rounding
 constexpr double quick_damper = 1e-6;  // time constant of a static shape times the first frequency left out
-constexpr double over_damped = 2.0;    // beta times a frequency: above it a mode does not swing, it creeps
+constexpr double over_damped = 2.0;    // beta times a frequency: above this value a mode is overdamped
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction", why);
 }
 
-/// Every massless motion needs a static answer, and every other one a mode.
+/// Every massless motion must have a static response, and every other one a mode.
 void check_reducible(const Scene& scene, const Model& model) {
   std::vector<int> light;
   for (int i = 0; i < model.size(); ++i)
@@ -55,7 +55,8 @@ void check_reducible(const Scene& scene, const Model& model) {
                         "their frequency; leave [reduction] out");
 }
 
-/// Shapes that follow a support at once leave out what damps them, which is that of the elastic stiffness alone.
+/// Shapes that follow a support immediately are computed without their damping, which must be that of the elastic
+/// stiffness alone.
 void check_frozen(const Scene& scene, const Model& model) {
   const bool follows = std::any_of(model.loads.begin(), model.loads.end(),
                                    [](const Load& load) { return load.kind == LoadKind::support_rate; });
@@ -99,16 +100,16 @@ std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
   return forces;
 }
 
-/// Everything that makes up the reduced matrices; shapes with mass first.
+/// Columns and diagonals of the reduced matrices; shapes with mass first.
 struct Basis {
   Eigen::MatrixXd shapes;           ///< physical x reduced
   Eigen::VectorXd mass, stiffness;  ///< diagonals
   Eigen::MatrixXd damping;
-  Eigen::Index heavy = 0;             ///< how many have mass
-  std::vector<Eigen::Index> at_once;  ///< shapes that beta K leaves out
+  Eigen::Index heavy = 0;             ///< number of shapes with mass
+  std::vector<Eigen::Index> at_once;  ///< shapes without the damping beta K
 };
 
-/// dampers: between shapes with mass; light: of those without.
+/// dampers: between shapes with mass; light: between those without.
 Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers,
                const SparseMatrix& light, double alpha, double beta) {
   Basis b;
@@ -122,7 +123,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   b.stiffness.resize(m + h + r);
   b.stiffness << modes.squares, shapes.massive_squares, Eigen::VectorXd::Ones(r);
   if (light.nonZeros() > 0 && r > 0) {
-    // Turned so that each shape has its own time constant, or none.
+    // Rotated so that each shape has its own time constant, or none.
     const Eigen::MatrixXd c = shapes.massless.transpose() * (light * shapes.massless);
     b.shapes.rightCols(r) = shapes.massless * symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
@@ -137,8 +138,8 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
     const double size = c.cwiseAbs().maxCoeff();
     b.damping += (c.array().abs() > nothing * size).select(c, 0.0);
   }
-  // A dashpot that only a static shape moves, and that lets go far sooner than any mode left out swings,
-  // would be a stiff equation without any other effect.
+  // A dashpot that only a static shape moves, and that relaxes much faster than any mode left out, would make the
+  // equations stiff without any other effect.
   const double first = modes.first_left_out;
   for (Eigen::Index j = b.heavy; j < b.shapes.cols(); ++j) {
     if (first > 0.0 && b.damping(j, j) * first <= quick_damper) {
@@ -150,7 +151,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   return b;
 }
 
-/// Greatest translation 1, rotations as far as the scene's scales make them one.
+/// Scales shapes to a largest translation of 1, rotations by the scene's scales.
 void scale(const Model& model, Basis& b) {
   const double arm = model.scales.displacement / model.scales.rotation;
   for (Eigen::Index j = 0; j < b.shapes.cols(); ++j) {
@@ -178,7 +179,7 @@ Combination reduced_form(const Combination& form, const Basis& b, bool massive) 
   return result;
 }
 
-/// The support whose velocity this load comes from by beta K and dampers; null: none.
+/// The support load whose rate term, by beta K and dampers, this load is; null: none.
 const Load* driving(const std::vector<Load>& loads, const Load& rate) {
   if (rate.kind != LoadKind::support_rate || rate.of_history.time != -1) return nullptr;
   for (const Load& load : loads)
@@ -186,8 +187,8 @@ const Load* driving(const std::vector<Load>& loads, const Load& rate) {
   return nullptr;
 }
 
-/// A shape whose damping beta K is left out follows its support at once, q = s x. What beta K adds for the support's
-/// velocity, beta s x', balances the shape's own beta q', and is left out with it.
+/// A shape without the damping beta K follows its support immediately, q = s x. The term of beta K for the support's
+/// velocity, beta s x', balances the shape's own beta q', so both are omitted.
 void reduce_loads(const Basis& b, double beta, std::vector<Load>& loads) {
   std::vector<Combination> forms;
   for (const Load& load : loads) {
@@ -226,7 +227,7 @@ void reduce_contacts(const Scene& scene, const Basis& b, Model& model) {
   }
 }
 
-/// The smallest change in the norm of M that gives what needs mass the gaps and rates that it had.
+/// The smallest change in the norm of M that restores the gaps and rates of contacts that need mass.
 void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& gap,
                const std::vector<double>& rate, Vector& q, Vector& w) {
   std::vector<std::size_t> rigid;
@@ -249,8 +250,8 @@ void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& ga
   w.head(b.heavy) += change.col(1);
 }
 
-/// Of a motion that is made of the shapes, as that which a run left: modes are M-orthogonal to all others, static
-/// shapes K-orthogonal to each other. (By M massive ones would take a part of what massless ones move.)
+/// Amplitudes of a motion in the span of the shapes, such as the end of a run: modes are M-orthogonal to all others,
+/// static shapes K-orthogonal to each other. (With M, massive shapes would take part of the motion of massless ones.)
 Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, const Vector& x) {
   Vector q(b.shapes.cols());
   q.head(modes) = (b.shapes.leftCols(modes).transpose() * (model.mass * x)).cwiseQuotient(b.mass.head(modes));
@@ -260,11 +261,9 @@ Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, con
   return q;
 }
 
-/// What may be left of a form that was zero, after its motion was written as u = R q and q was found from u:
-///
-///   of_many sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|
-///
-/// The second is that of the shapes which the reduced form N leaves out, because only rounding moves them along n.
+/// Error bound of a form that was zero, after its motion was written as u = R q and q was recomputed from u:
+///   of_many sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|  The second term belongs to the shapes that
+/// the reduced form N omits, because they move along n only by rounding.
 double noise_of(const Basis& b, const Combination& physical, const Combination& reduced, const Vector& q) {
   const Vector n = full(physical, static_cast<int>(b.shapes.rows()));
   const Vector left_out = b.shapes.transpose() * n - full(reduced, static_cast<int>(b.shapes.cols()));
@@ -272,7 +271,7 @@ double noise_of(const Basis& b, const Combination& physical, const Combination& 
   return rounding::of_many * n.cwiseAbs().dot(b.shapes.cwiseAbs() * size) + left_out.cwiseAbs().dot(size);
 }
 
-/// A saved state of a reduced run has its closed gaps, and what closes there, to rounding only: they are zero again.
+/// A saved state of a reduced run has closed gaps and closing velocities only to rounding; they are set to zero again.
 void close_saved(const Model& model, const Basis& b, const std::vector<Contact>& contacts, const Vector& q,
                  const Vector& w, std::vector<double>& gap, std::vector<double>& rate) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -284,8 +283,8 @@ void close_saved(const Model& model, const Basis& b, const std::vector<Contact>&
   }
 }
 
-/// Amplitudes of the initial state: modes by the work of M, static shapes by that of K, so that a static
-/// state is met. What does not fit is reported.
+/// Amplitudes of the initial state: modes by the work of M, static shapes by that of K, so a static state is
+/// reproduced. The remainder is reported.
 void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model& model,
                   const std::vector<Contact>& contacts, Reduction& facts) {
   const Eigen::Index size = b.shapes.cols();
@@ -320,7 +319,7 @@ void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model&
   model.v0 = w;
 }
 
-/// The greatest jump of a load from t = 0 on; at the start of what the initial state does not know of.
+/// The largest jump of a load from t = 0 on; at the start, of the part that the initial state does not include.
 double greatest_jump(const Load& load, const Model& model, double t_end) {
   double jump = load.is_static && model.static_start ? 0.0 : std::abs(load.history.value(0.0));
   for (const Breakpoint& at : load.history.breakpoints())
@@ -379,7 +378,7 @@ void name_dofs(const Reduction& facts, const Basis& b, Model& model) {
   }
 }
 
-/// See Reduction.
+/// Reduction::stiffness_terms.
 Eigen::MatrixXd stiffness_terms(const SparseMatrix& stiffness, const Basis& b) {
   const Eigen::MatrixXd sizes = b.shapes.cwiseAbs();
   return sizes.transpose() * (stiffness.cwiseAbs() * sizes);

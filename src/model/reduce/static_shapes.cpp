@@ -7,8 +7,8 @@
 namespace signorini {
 namespace {
 
-constexpr double needless = 1e-12;  // part of a direction's compliance that needs no shape
-constexpr double no_mass = 1e-12;   // 1/omega^2 of a Ritz vector against the greatest one
+constexpr double needless = 1e-12;  // relative to a direction's compliance: a smaller part needs no shape
+constexpr double no_mass = 1e-12;   // 1/omega^2 of a Ritz vector relative to the largest one
 
 /// sum over the kept modes with stiffness: (phi^T f)^2/omega^2.
 double compliance_of_kept(const KeptModes& modes, const Vector& f) {
@@ -18,7 +18,7 @@ double compliance_of_kept(const KeptModes& modes, const Vector& f) {
   return sum;
 }
 
-/// x less its part along the K-orthonormal columns of the basis, twice for the sake of rounding.
+/// Subtracts from x its part along the K-orthonormal columns of the basis, twice because of rounding.
 Vector rest_of(const Vector& x, const Eigen::MatrixXd& basis, const SparseMatrix& k) {
   Vector rest = x;
   for (int round = 0; round < 2 && basis.cols() > 0; ++round)
@@ -60,7 +60,7 @@ StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffne
     result.massive.resize(n, 0);
     return result;
   }
-  // With K = 1 on the basis: 1/omega^2 are the eigenvalues of its mass; the greatest is the lowest frequency.
+  // K = 1 in the basis: 1/omega^2 are the eigenvalues of its mass; the largest belongs to the lowest frequency.
   const Eigen::MatrixXd h = basis.leftCols(massive);
   const EigenPairs ritz = symmetric_eigen(h.transpose() * (mass * h));
   result.massive.resize(n, massive);

@@ -20,7 +20,7 @@
 namespace signorini {
 namespace {
 
-// What does not balance in an equilibrium, of the greatest force or moment: rounding of long paths is below. Chosen.
+// Residual of an equilibrium, relative to the largest force or moment; rounding of long paths is below. Chosen value.
 constexpr double balanced = 1e-7;
 
 class Path {
@@ -66,7 +66,8 @@ class Path {
     return result;
   }
 
-  /// Contacts that press in the undeformed state come apart first.
+  /// Contacts that are compressed in the undeformed state (a negative gap) are fitted first: their gaps grow from
+  /// zero to the given ones.
   void fit() {
     bool any = false;
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -119,7 +120,7 @@ class Path {
     refuse_stage(fmt::format("nothing restrains the {}: no equilibrium follows", name));
   }
 
-  /// A contact at its limit whose motion others hold: what it bears from there on is not told by slips.
+  /// Refuses a contact at its friction limit whose slip other contacts prevent: its force from then on is undetermined.
   void refuse_shares(const std::vector<HeldRow>& rows, const std::vector<Unknown>& unknowns,
                      const std::vector<bool>& moves) const {
     std::vector<bool> slips(rows.size(), false);
@@ -138,8 +139,8 @@ class Path {
     }
   }
 
-  /// Where there is no equilibrium even if nothing slips, however great its friction: with z = 0 of all slips the conditions of
-  /// openings are those of a convex problem, whose method ends in a ray only where they have no solution.
+  /// Refuses loads without equilibrium even for infinite friction: with z = 0 for all slips, the conditions of openings
+  /// are those of a convex problem, for which the method ends in a ray only if there is no solution.
   void refuse_pulls(const std::vector<Unknown>& unknowns, const Eigen::MatrixXd& m,
                     const Eigen::VectorXd& q) const {
     std::vector<Eigen::Index> openings;
@@ -151,7 +152,7 @@ class Path {
       if (q[row] < -balanced) pulled.push_back(contacts_[unknowns[j].contact].name);
     }
     if (pulled.empty()) return;
-    // What solves lose of forces that are zero is none that pulls.
+    // solver errors of forces that are zero do not count as tensile
     const Eigen::VectorXd pressed = q(openings).array() + balanced;
     if (solve_complementarity(m(openings, openings), pressed)) return;
     refuse_stage(fmt::format(
@@ -194,7 +195,7 @@ class Path {
     return touching(contacts_[k], standing_[k], zero, contacts_[k].normal.magnitude(u_));
   }
 
-  /// Rows in force: of all contacts that are not apart.
+  /// Constraint rows of all contacts that are not open.
   std::vector<HeldRow> make_rows(double zero) {
     std::vector<HeldRow> rows;
     const auto add = [&](const Combination& form, std::optional<double> k) {
@@ -227,7 +228,7 @@ class Path {
     return unknowns;
   }
 
-  /// -N', or -f N' - s T': what the unknown is complementary to.
+  /// -N', or -f N' - s T': the condition that is complementary to the unknown.
   [[nodiscard]] double condition(const Unknown& unknown, const Vector& forces) const {
     const Standing& s = standing_[unknown.contact];
     const double N = s.normal >= 0 ? forces[s.normal] : 0.0;
@@ -235,14 +236,14 @@ class Path {
     return -friction(unknown.contact) * N - unknown.sign * forces[s.tangent];
   }
 
-  /// Below this a force is zero. Contacts that open may take all forces to zero; what is left of them is rounding of
-  /// those that were.
+  /// Threshold below which a force is zero. Opening contacts may reduce all forces to zero; the remainder is rounding
+  /// of the previous forces.
   double zero() {
     for (const Standing& s : standing_) carried_ = std::max({carried_, std::abs(s.N), std::abs(s.T)});
     return zero_force(carried_);
   }
 
-  /// Rates of everything along the stage, and the states that go with them.
+  /// Computes the rates of all quantities along the stage, and the states that go with them.
   void find_rates() {
     const double zero = this->zero();
     const std::vector<HeldRow> rows = make_rows(zero);
@@ -264,7 +265,7 @@ class Path {
       for (Eigen::Index j = 0; j < n; ++j) {
         const Unknown& unknown = unknowns[static_cast<std::size_t>(j)];
         const auto row = static_cast<std::size_t>(unknown.row);
-        // In forces, so that all unknowns and conditions have one unit.
+        // Scaled to forces, so that all unknowns and conditions have the same unit.
         answers.push_back(motions.answer(held, row, unknown.sign / rows[row].stiffness));
         q[j] = condition(unknown, forces);
         for (Eigen::Index i = 0; i < n; ++i)
@@ -330,7 +331,7 @@ class Path {
     std::vector<State> next;
     for (const Standing& s : standing_)
       next.push_back(slip_sign(s.state) != 0 && s.tangent >= 0 ? State::stick : s.state);
-    for (const Unknown& unknown : unknowns)  // touching ones are closed, unless they open
+    for (const Unknown& unknown : unknowns)  // touching contacts are closed, unless they open
       if (unknown.kind == Unknown::Kind::opening)
         next[unknown.contact] = rubs(unknown.contact) ? State::stick : State::closed;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
@@ -353,7 +354,7 @@ class Path {
           fmt::format("contact '{}' begins to slip, and its friction falls from static to kinetic: no "
                       "equilibrium follows",
                       contacts_[k].name));
-    // What only touches at the very beginning has no state that it could leave.
+    // A contact that touches without force at the very beginning has no previous state, so there is no event.
     const bool begins = part_ == 0.0 && s.N == 0.0 && s.T == 0.0;
     if (!begins) found_.events.push_back({stage_->name, part_, static_cast<int>(k), s.state, to});
     s.state = to;
@@ -368,12 +369,12 @@ class Path {
       s.gap_rate = c.normal_force_given() ? 0.0 : c.normal.dot(u_rate_) + s.given_gap_rate;
       s.N_rate = s.normal >= 0 && !open ? forces[s.normal] : 0.0;
       s.T_rate = s.tangent >= 0 && !open ? forces[s.tangent] : 0.0;
-      // Along its limit, to the last digit.
+      // The shear follows its limit exactly.
       if (const int sign = slip_sign(s.state); sign != 0) s.T_rate = -sign * friction(k) * s.N_rate;
     }
   }
 
-  /// To the end of the step or to the next change of a state.
+  /// Advances to the end of the step or to the next change of a state.
   void advance(double end) {
     double step = end - part_;
     const double zero = this->zero();
@@ -406,12 +407,12 @@ class Path {
   const std::vector<Contact>& contacts_;
   const DofMap& map_;
   const SourcePlace& place_;
-  Vector u_, u_rate_, load_;  // load_: of the stages so far
+  Vector u_, u_rate_, load_;  // load_: loads of all previous stages
   std::vector<Standing> standing_;
   StaticStart found_;
   const Stage* stage_ = nullptr;
-  double part_ = 0.0;     // of the stage
-  double carried_ = 0.0;  // greatest force of a contact so far
+  double part_ = 0.0;     // fraction of the stage
+  double carried_ = 0.0;  // largest force of a contact so far
 };
 
 }  // namespace

@@ -9,9 +9,9 @@
 namespace signorini {
 namespace {
 
-/// Rounding leaves a pivot of some eps of its own diagonal entry; below this one a motion without energy is looked for.
+/// Rounding leaves a pivot of some eps of its diagonal entry; below this value null motions are searched for.
 constexpr double regular_share = 1e-9;
-// What other rows leave of one that they span, of its length: rounding is below. Chosen.
+// Relative remainder of a row after removing other rows that span it; rounding is below. Chosen value.
 constexpr double spanned = 1e-9;
 
 }  // namespace
@@ -55,7 +55,7 @@ std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
     Eigen::VectorXd miss(n);
     for (Eigen::Index i = 0; i < n; ++i)
       miss[i] = rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
-    // Rows that hold one motion together share it: the least norm.
+    // Rows that fix the same motion share its force: the least-norm solution.
     const Eigen::VectorXd multipliers = least_squares(schur_, miss);
     for (Eigen::Index i = 0; i < n; ++i) {
       u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];

@@ -1,9 +1,9 @@
-// held_rows.hpp: a structure on rows that hold it, as many as are in force.
+// held_rows.hpp: a structure with the constraint rows that are in force.
 //
 //   K u + sum_j d_j F_j = P,    d_j . u - c_j F_j = r_j        c_j = 0: rigid
 //
-// Rows with a compliance are springs in the matrix; rigid ones are added to it with the structure's own
-// stiffness and held by multipliers (a dense Schur complement, as many unknowns as there are rigid rows).
+// Rows with a compliance are springs in the matrix. Rigid rows are added to it with the structure's own stiffness and
+// enforced by multipliers (a dense Schur complement, with one unknown per rigid row).
 #pragma once
 
 #include <utility>
@@ -14,14 +14,14 @@
 
 namespace signorini {
 
-/// d . u - c F = r: a row that is in force, F the force along -d.
+/// d . u - c F = r: an active constraint row; F is the force along -d.
 struct HeldRow {
   Combination form;
-  double stiffness = 0.0;  ///< 1 / c; of a rigid row the structure's own, which changes nothing
+  double stiffness = 0.0;  ///< 1 / c; for a rigid row the structure's own, which does not affect the solution
   bool rigid = false;
 };
 
-/// Do rigid rows that are not loose prevent the motion along this one, too? Its force is not unique then.
+/// True if rigid rows that are not loose also prevent the motion along this row. Its force then is not unique.
 [[nodiscard]] bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loose,
                                 std::size_t row);
 
@@ -29,12 +29,12 @@ class HeldRows {
  public:
   HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows);
 
-  /// Positive definite: what is held stays where it is.
+  /// True if the matrix is positive definite: there is no unconstrained motion.
   [[nodiscard]] bool regular() const { return regular_; }
-  /// Of rows.
+  /// Number of rows.
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
-  /// u and the forces F, one a row, for loads and for given r. Only where regular().
+  /// u and the forces F, one per row, for loads and for given r. Requires regular().
   [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const;
 
  private:

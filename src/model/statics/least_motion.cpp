@@ -33,11 +33,12 @@ Eigen::VectorXd least_motion(const Eigen::MatrixXd& b, const Eigen::VectorXd& g,
 }
 
 bool is_one_of_many(const Eigen::MatrixXd& b, const Eigen::VectorXd& r, const std::vector<Way>& ways) {
-  constexpr double moves = 1e-6;  // of how far it was drawn: far above rounding, and a draft meets no cone
+  constexpr double moves = 1e-6;  // relative to the trial displacement: far above rounding; the trial motion
+                                  // is nowhere nearly orthogonal to an admissible cone
                                   // of ways so nearly square
   Eigen::VectorXd draft(b.cols());
   for (Eigen::Index j = 0; j < draft.size(); ++j)
-    draft[j] = (1.0 + 0.37 * static_cast<double>(j)) / b.col(j).norm();  // along no motion in particular
+    draft[j] = (1.0 + 0.37 * static_cast<double>(j)) / b.col(j).norm();  // a generic direction
   const double size = (b * draft).norm() + r.norm();
   draft *= size / (b * draft).norm();
   const Eigen::VectorXd own = least_squares(b, r);

@@ -11,11 +11,11 @@
 namespace signorini {
 namespace {
 
-// Rates that differ by less, of the greatest at hand, are one, which one solve has found; where they are one, what
-// is not at its limit hardly leaves it. Chosen.
+// Rates that differ by less, relative to the largest one, count as equal, being results of one solve; a contact below
+// its limit then hardly leaves it. Chosen value.
 constexpr double same_rate = 1e-9;
 
-/// A row along which a contact may move at this moment: how far the rates take it, and which way it may.
+/// A row along which a contact may move now: its rate, and the admissible directions.
 struct Loose {
   std::size_t row, contact;
   double rate;
@@ -29,7 +29,7 @@ std::vector<Loose> loose_rows(const SharedOut& given, const std::vector<bool>& m
     const Unknown& unknown = given.unknowns[j];
     const auto row = static_cast<std::size_t>(unknown.row);
     const double rate = unknown.sign * given.z[static_cast<Eigen::Index>(j)] / given.rows[row].stiffness;
-    if (!loose.empty() && loose.back().row == row) {  // the two ways of a slip stand together
+    if (!loose.empty() && loose.back().row == row) {  // the two directions of a slip are adjacent
       loose.back().rate += rate;
       loose.back().way = Way::both;
     } else {
@@ -39,7 +39,7 @@ std::vector<Loose> loose_rows(const SharedOut& given, const std::vector<bool>& m
   return loose;
 }
 
-/// Motions that neither the structure nor the rows that stay resist.
+/// Motions that neither the structure nor the remaining rows resist.
 Eigen::MatrixXd free_motions(const SharedOut& given, const std::vector<Loose>& loose) {
   std::vector<LineSpring> stay;
   for (std::size_t i = 0; i < given.rows.size(); ++i)

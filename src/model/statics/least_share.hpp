@@ -1,8 +1,8 @@
-// least_share.hpp: how far each contact goes where motions that nothing resists leave it open.
+// least_share.hpp: slips and openings that motions without resistance leave undetermined.
 //
-//   rates + Z c,   K_held Z = 0: held by the rows that may not move;   the least of all slips and openings
+//   rates + Z c,   K_held Z = 0: fixed by the rows that may not move;   the smallest of all slips and openings
 //
-// Forces stay as they are (least_motion.hpp).
+// Forces do not change (least_motion.hpp).
 #pragma once
 
 #include "model/assembly/dofs.hpp"
@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-/// An unknown of the complementarity problem: displaces `row` by sign z; its condition is of rates.
+/// An unknown of the complementarity problem: moves `row` by sign z; its condition is in terms of rates.
 struct Unknown {
   std::size_t contact;
   int row;
@@ -23,19 +23,19 @@ struct SharedOut {
   const DofMap& map;
   const std::vector<HeldRow>& rows;
   const std::vector<Unknown>& unknowns;
-  const std::vector<double>& conditions;  ///< one an unknown, to which it is complementary; force
-  Eigen::VectorXd z;                      ///< one an unknown; force
-  double greatest_force;                  ///< of the rates of forces in the rows
+  const std::vector<double>& conditions;  ///< one per unknown, complementary to it; force
+  Eigen::VectorXd z;                      ///< one per unknown; force
+  double greatest_force;                  ///< largest rate of a force in the rows
 };
 
 struct LeastShare {
-  std::vector<bool> moves;  ///< one an unknown
-  /// Contacts at their limits whose slips the data leave open, in the order of their rows; empty: none.
+  std::vector<bool> moves;  ///< one per unknown
+  /// Contacts at their limits whose slips the data do not determine, in the order of their rows; empty: none.
   std::vector<std::size_t> undetermined;
-  Vector motion;  ///< that nothing resists; n
+  Vector motion;  ///< a motion without resistance; n
 };
 
-/// Adds to rates (n) what the least takes of those motions.
+/// Adds the smallest such motion to the rates (n).
 [[nodiscard]] LeastShare least_share(const SharedOut& given, Vector& rates);
 
 }  // namespace signorini

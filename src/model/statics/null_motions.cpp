@@ -20,21 +20,21 @@ Vector scaling(const SparseMatrix& k) {
   return s;
 }
 
-/// a: scaled. A row of zeros has no terms, so that beside it what rounding leaves of the other rows would decide: it
-/// counts as the others do, by its scaled diagonal, 1.
+/// a: scaled. A zero row has no terms, so rounding in other rows would decide about its motion; it counts with its
+/// scaled diagonal, 1, like the others.
 bool is_null(const SparseMatrix& a, const Vector& x) {
   const double bare = (a.diagonal().array() == 0.0).select(x, 0.0).squaredNorm();
   return x.dot(a * x) <= rounding::of_many * (term_size(a, x) + bare);
 }
 
-/// The lowest `count` eigenvectors of the scaled matrix a (unit diagonal, so that a shift of 1e-14 is
-/// below every stiffness that doubles can tell from none).
+/// The lowest `count` eigenvectors of the scaled matrix a (unit diagonal, so that a shift of 1e-14 is below every
+/// stiffness that double precision can distinguish from zero).
 Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   const auto n = static_cast<int>(a.rows());
   SparseMatrix shift(n, n);
   shift.setIdentity();
   const SymmetricSolver solver(SparseMatrix(a + rounding::of_many * shift));
-  std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
+  std::mt19937 random(1);  // fixed seed: reproducible results
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::MatrixXd x(n, count);
   for (int j = 0; j < count; ++j)
@@ -47,8 +47,8 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   return x * symmetric_eigen(0.5 * (projected + projected.transpose())).vectors;
 }
 
-/// No eigenvalue comes near what is_null takes for none, of_many |x|^T |a| |x| / |x|^2: a has no negative pivot
-/// when ten times as much is taken off, and a factorisation errs by less than once.
+/// True if no eigenvalue is near the limit of is_null, of_many |x|^T |a| |x| / |x|^2: a has no negative pivot after ten
+/// times this value is subtracted, and the error of a factorisation is below one time.
 bool surely_held(const SparseMatrix& a) {
   const auto n = a.rows();
   const double most = (a.cwiseAbs() * Vector::Ones(n)).maxCoeff();
@@ -96,8 +96,7 @@ Eigen::MatrixXd of_parts(const SparseMatrix& k) {
 }  // namespace
 
 bool may_have_null_motions(const SparseMatrix& k) {
-  // Rounding leaves pivots of some n eps where there is a null motion; where a structure is only slender, no
-  // harm is done but a second look.
+  // With a null motion the pivots are some n eps; a slender structure may only cause a second, unnecessary check.
   constexpr double certainly_held = 1e-9;
   const Vector s = scaling(k);
   const SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));

@@ -8,9 +8,9 @@
 namespace signorini {
 namespace {
 
-constexpr double belongs = 1e-3;  // a null motion of a fine mesh has few digits
+constexpr double belongs = 1e-3;  // relative; a null motion of a fine mesh has few digits
 
-/// Translations along x and y, and the rotation about the centre, of the degrees of freedom that are given.
+/// Translations along x and y, and the rotation about the centre, on the given degrees of freedom.
 std::array<Vector, 3> rigid_motions(const DofMap& map, const std::vector<int>& dofs) {
   std::array<Vector, 3> rigid;
   rigid.fill(Vector::Zero(map.size()));

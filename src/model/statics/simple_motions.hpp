@@ -1,9 +1,9 @@
-// simple_motions.hpp: free motions in the simplest terms.
+// simple_motions.hpp: rigid-body motions in the simplest basis.
 //
-//   span N contains  e_x, e_y, theta x (r - centre)?   these first, then what is left of N
+//   span N contains  e_x, e_y, theta x (r - centre)?   these first, then the complement in N
 //
-// A null space has no preferred basis: a body that can fly has infinitely many rotations about points. Those
-// who read the name of a motion expect "vertical motion" where that is one of them.
+// A null space has no preferred basis: a free body has infinitely many rotations about points. Messages shall name
+// "vertical motion" if it is one of the motions.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,12 @@
 
 namespace signorini {
 
-/// Another basis of the columns of `motions` (n x m, full rank): horizontal and vertical motion and the
-/// rotation about the centre of the nodes where they belong to the space, then a complement. Unchanged
-/// when it holds none of them, and in matrix scenes.
+/// Another basis of the columns of `motions` (n x m, full rank): horizontal and vertical motion and the rotation about
+/// the centre of the nodes, if they belong to the space, then a complement. Unchanged if the space contains none of
+/// them, and in matrix scenes.
 [[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map);
 
-/// The same for motions that only move these degrees of freedom.
+/// Same for motions that only involve these degrees of freedom.
 [[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map,
                                              const std::vector<int>& dofs);
 

@@ -10,16 +10,16 @@
 namespace signorini {
 namespace {
 
-// Rates that differ by less, of the greatest, are one: what dense solves leave of them. Chosen.
+// Rates that differ by less, relative to the largest one, count as equal: error of dense solves. Chosen value.
 constexpr double same_z = 1e-9;
 
-/// Unknowns whose conditions are zero; `free`: the last one's sign is.
+/// Unknowns whose conditions are zero; `free`: the last unknown has any sign.
 struct Doing {
   std::vector<Eigen::Index> active;
   bool free = false;
 };
 
-/// What one contact may do, by its unknowns.
+/// Alternatives of one contact, in terms of its unknowns.
 struct Doings {
   std::vector<Eigen::Index> unknowns;
   std::vector<Doing> ways{Doing{}};
@@ -46,7 +46,7 @@ std::vector<Doings> doings_of(const std::vector<Unknown>& unknowns) {
   return all;
 }
 
-/// z with these conditions zero and all others satisfied; nothing where they are dependent or that is none.
+/// z with these conditions zero and all others satisfied; nullopt if they are dependent or no such z exists.
 std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
                                           const std::vector<Doings>& contacts,
                                           const std::vector<std::size_t>& choice) {
@@ -62,7 +62,7 @@ std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen:
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Doing& way = contacts[c].ways[choice[c]];
     if (!way.free || z[way.active.back()] >= 0.0) continue;
-    z[contacts[c].unknowns.back()] = -z[way.active.back()];  // the slip the other way
+    z[contacts[c].unknowns.back()] = -z[way.active.back()];  // slip in the opposite direction
     z[way.active.back()] = 0.0;
   }
   const double rounded = rounding::of_many * std::max(1.0, z.cwiseAbs().maxCoeff());
@@ -72,7 +72,7 @@ std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen:
   return Eigen::VectorXd(z.cwiseMax(0.0));
 }
 
-/// The next combination, as a number is counted up. False: that was the last one.
+/// Advances to the next combination, like a counter. False: the last one was reached.
 bool next(const std::vector<Doings>& contacts, std::vector<std::size_t>& choice) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (++choice[c] < contacts[c].ways.size()) return true;

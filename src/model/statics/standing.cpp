@@ -9,8 +9,8 @@
 namespace signorini {
 namespace {
 
-// Forces that differ by less, of the greatest on the way, are one: what some thousand solves and events lose of
-// sixteen digits. Chosen.
+// Forces that differ by less, relative to the largest one so far, count as equal: errors of some thousand solves and
+// events. Chosen value.
 constexpr double same_force = 1e-11;
 
 }  // namespace

@@ -1,7 +1,7 @@
-// static_reaction.hpp: -N of a contact before the motion.
+// static_reaction.hpp: -N of a contact before the motion starts.
 //
-//   a slider    its compression at t = 0, which is given
-//   others      that of static equilibrium, where the run begins with it
+//   a slider    its given normal force at t = 0
+//   others      reaction in static equilibrium, if the run begins with it
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace signorini {
 
-/// Unit: force. Nothing where the run begins with given motions and the contact is no slider.
+/// Unit: force. nullopt if the run begins with a given motion and the contact is no slider.
 [[nodiscard]] inline std::optional<double> static_reaction(const Model& model, std::size_t contact) {
   const Contact& c = model.contacts[contact];
   if (c.normal_force_given()) return c.normal_force.value(0.0);

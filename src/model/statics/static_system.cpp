@@ -17,15 +17,18 @@
 namespace signorini {
 namespace {
 
-constexpr double fair_share = 1e-3;  // of a row's greatest entry, so that it may be its pivot
-constexpr double holds = 1e-6;  // of a tangent on a motion of size 1: with less a contact does not hold it
-constexpr double firmly = 4.0;  // times what pushes, so that it is held when two share a row
-constexpr double weak_share = 1e-10;  // of the diagonal: leaves six digits and holds what is loose
-constexpr double undriven = 1e-9;     // of the greatest load times motion: less work drives no free motion
+constexpr double fair_share = 1e-3;  // relative to a row's largest entry: limit for a pivot
+constexpr double holds = 1e-6;  // value of a tangent on a motion of size 1: below it the contact does not
+                                // hold the motion
+constexpr double firmly = 4.0;  // times the destabilising stiffness, so that it is held even if two share a
+                                // row
+constexpr double weak_share = 1e-10;  // relative to the diagonal: leaves six digits and fixes loose motions
+constexpr double undriven = 1e-9;     // relative to the largest load times motion: less work does not drive a
+                                      // free motion
 constexpr int together_up_to = 300;   // degrees of freedom; above, part by part
 
-/// Completes the independent rows (p x m) by unit rows. Each row gives up the first column that it has a
-/// fair share of, so that a holder holds the horizontal motion rather than a mix of it with a rotation.
+/// Completes the independent rows (p x m) by unit rows. Each row takes the first column with a sufficient pivot, so
+/// that a contact holds the horizontal motion rather than a combination with a rotation.
 Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -44,8 +47,8 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   return others;
 }
 
-/// Leaves an undriven motion at zero. Both translations of a node are supported alike, by the sum of their
-/// stiffnesses, which is the same however the axes lie: a motion that is square to a spring stays so.
+/// Keeps a motion without load at zero. Both translations of a node have equal support, the sum of their stiffnesses,
+/// which does not depend on the axes: a motion orthogonal to a spring stays so.
 SparseMatrix weak_support(const DofMap& map, const SparseMatrix& k) {
   const double largest = k.diagonal().cwiseAbs().maxCoeff();
   std::map<int, double> of_node;
@@ -71,12 +74,13 @@ double own_stiffness(const SparseMatrix& k, const Combination& form) {
   for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
   double length = 0.0;
   for (const auto& [i, a] : form.terms) length += a * a;
-  // What K pushes away the row holds, were it alone: a block on its feet, whose weight would topple it.
+  // The row alone must balance a negative stiffness of K: a block on its feet, whose weight would topple it.
   double against = 0.0;
   for (const auto& [i, a] : form.terms)
     if (a != 0.0) against = std::max(against, -firmly * k.coeff(i, i) / (a * a));
   if (sum > 0.0) return std::max(sum / (length * length), against);
-  const double largest = k.diagonal().cwiseAbs().maxCoeff();  // nothing there: any of the structure's
+  const double largest = k.diagonal().cwiseAbs().maxCoeff();  // no stiffness there: the largest of the
+                                                              // structure
   return largest > 0.0 ? largest / length : 1.0 / length;
 }
 
@@ -96,12 +100,12 @@ Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
 
 namespace {
 
-/// Motions that move no node, rotations of hinged ends: apart from others, since no contact feels them. In a mix with others
-/// rounding would leave some translation of them, which a contact would then seem to hold.
+/// Motions that move no node (rotations of hinged ends) are separated from others, since no contact acts on them. In a
+/// combination, rounding would leave some translation of them, which a contact would then seem to hold.
 struct Turning {
   Eigen::MatrixXd others;        ///< motions that move nodes
-  std::vector<int> dofs;         ///< those that no turning motion has
-  std::vector<FreeMotion> free;  ///< those that turn, at 1 where they turn most
+  std::vector<int> dofs;         ///< degrees of freedom without any such rotation
+  std::vector<FreeMotion> free;  ///< rotations, scaled to 1 at their largest entry
 
   Turning(const Eigen::MatrixXd& motions, const std::vector<int>& all, const DofMap& map) {
     std::vector<Eigen::Index> moving;
@@ -182,7 +186,7 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
   std::vector<std::vector<Eigen::Index>> own_motions(parts.count());
   std::vector<std::vector<std::size_t>> own_contacts(parts.count());
   for (Eigen::Index j = 0; j < motions.cols(); ++j) {
-    Eigen::Index dof = 0;  // a motion that nothing resists lies in one part
+    Eigen::Index dof = 0;  // a motion without resistance lies in one part
     motions.col(j).cwiseAbs().maxCoeff(&dof);
     own_motions[parts.part_of(static_cast<int>(dof))].push_back(j);
   }
@@ -201,11 +205,12 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
 
 namespace {
 
-/// Springs of contacts that are stiffer than K along their normals: beside them one matrix keeps too few digits of K, and along
-/// axes that are not theirs a soft motion is off by 1e-12 of itself. Their forces kn (n . u + g0) n are summed apart.
+/// Contact springs that are stiffer than K along their normals: in one matrix with them, K would keep too few digits,
+/// and along inclined axes a soft motion would be off by 1e-12 of itself. Their forces kn (n . u + g0) n are summed
+/// separately.
 struct StiffContacts {
   const StaticProblem& problem;
-  std::vector<bool> soft;  ///< closed contacts, without these
+  std::vector<bool> soft;  ///< closed contacts, without the stiff ones
   std::vector<std::size_t> list;
 
   StiffContacts(const StaticProblem& of, const std::vector<bool>& closed) : problem(of), soft(closed) {
@@ -217,7 +222,7 @@ struct StiffContacts {
       list.push_back(c);
     }
   }
-  /// load - matrix u less their forces; with_gaps: g0 is not in the load.
+  /// load - matrix u minus their forces; with_gaps: g0 is not in the load.
   [[nodiscard]] Vector rest(const SparseMatrix& matrix, const Vector& load, const Vector& u,
                             bool with_gaps) const {
     Vector rest = load - matrix * u;
@@ -253,7 +258,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
   for (const std::size_t c : stiff.list)
     apart.push_back({problem.contacts[c].normal, problem.contacts[c].normal_stiffness});
   const SymmetricSolver solver(apart.empty() ? k : with_springs(k, apart));
-  // load: with the gaps of soft contacts; of_scene: it is that of the scene, so gaps of stiff ones count.
+  // load: with the gaps of soft contacts; of_scene: true for the scene's load, where gaps of stiff contacts count.
   const auto refined = [&](const Vector& load, bool of_scene) {
     const Vector first = of_scene ? problem.right_side(closed) : load;
     const Vector u = solver.solve(first);

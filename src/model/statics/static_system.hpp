@@ -1,8 +1,8 @@
-// static_system.hpp: the equilibrium of a structure whose closed contacts are known.
+// static_system.hpp: equilibrium of a structure with given closed contacts.
 //
 //   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at the holders h
 //   rigid ones: n . u = -g0 by a multiplier N, P - n N
-//               kn is then a stiffness of the structure's own size, which changes nothing
+//               kn then is as stiff as the structure; it does not affect the solution
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// A spring constant of the structure's own size along the form.
+/// A spring constant along the form, as stiff as the structure.
 [[nodiscard]] double own_stiffness(const SparseMatrix& k, const Combination& form);
 
 struct StaticProblem {
@@ -20,8 +20,8 @@ struct StaticProblem {
   const Vector& load;
   const std::vector<Contact>& contacts;
   const DofMap& map;
-  double firmness = 1.0;  ///< of rigid contacts' stiffness, in units of the structure's own
-  bool forces = false;    ///< asked for: what holds loose motions must bear nothing of other forces
+  double firmness = 1.0;  ///< stiffness of rigid contacts, in units of the structure's own
+  bool forces = false;    ///< request: contacts that hold loose motions must carry no other forces
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return !contacts[k].normal_force_given(); }
@@ -36,21 +36,21 @@ struct StaticProblem {
   [[nodiscard]] Vector right_side(const std::vector<bool>& closed) const;
 };
 
-/// A free motion and the contact whose ut = 0 holds it (-1: none, it stays at zero).
+/// A free motion and the contact whose ut = 0 fixes it (-1: none, it stays at zero).
 struct FreeMotion {
   Vector motion;
   int holder = -1;
 };
 
-/// The free motions of the null space `null` (n x m), one a holder: contacts in file order, closed ones
-/// and sliders first, open ones last unless `pressed_only`. Motions are scaled to t_h . motion = 1 at their
-/// own holder and 0 at the others.
+/// The free motions of the null space `null` (n x m), one per holding contact: contacts in file order, closed ones and
+/// sliders first, open ones last unless `pressed_only`. Motions are scaled to t_h . motion = 1 at their own contact and
+/// 0 at the others.
 [[nodiscard]] std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& null,
                                                    const std::vector<bool>& closed,
                                                    bool pressed_only = false);
 
-/// The displacement with the free motions held, and -N of every contact: of closed rigid ones as the
-/// structure needs it, whatever its sign.
+/// The displacement with the free motions held, and -N of every contact; for closed rigid contacts the required
+/// reaction, with either sign.
 struct HeldState {
   Vector u;
   std::vector<double> reactions;
@@ -58,9 +58,9 @@ struct HeldState {
 [[nodiscard]] HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
                                    const std::vector<FreeMotion>& held);
 
-/// Work of the loads on a free motion, at the displacement u that solve_held gave: zero in equilibrium. k and
-/// p: matrix() and right_side() of the problem.
-/// What is below roundoff, or below 1e-9 of the greatest load on the greatest displacement, counts as zero.
+/// Work of the loads on a free motion, at the displacement u of solve_held: zero in equilibrium. k and p: matrix() and
+/// right_side() of the problem. Work below rounding, or below 1e-9 of the largest load times the largest displacement,
+/// counts as zero.
 [[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
                                   const Vector& motion, const Vector& u);
 

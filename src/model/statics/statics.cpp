@@ -16,15 +16,15 @@
 namespace signorini {
 namespace {
 
-constexpr double only_touches = 1e-13;  // of the greatest translation: a solution's rounding in a gap
-constexpr double no_reaction = 1e-9;  // of the greatest load: less drives no free motion (static_system.cpp)
+constexpr double only_touches = 1e-13;  // relative to the largest translation: rounding of a gap
+constexpr double no_reaction = 1e-9;    // relative to the largest load: less drives no free motion
 
 struct Trial {
   std::vector<FreeMotion> held;
   Vector u;
   std::vector<double> reactions = {};
   int driven = -1;     ///< index into held, -1: none
-  double force = 0.0;  ///< that drives it
+  double force = 0.0;  ///< force that drives it
 
   [[nodiscard]] const FreeMotion& driven_motion() const { return held[static_cast<std::size_t>(driven)]; }
 };
@@ -35,7 +35,7 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   HeldState state = solve_held(problem, closed, trial.held);
   trial.u = std::move(state.u);
   trial.reactions = std::move(state.reactions);
-  // Those that nothing holds first: they say more than one that friction could hold.
+  // Motions without a holding contact first: their message is more specific than that for one held by friction.
   std::vector<std::size_t> order(trial.held.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_partition(order.begin(), order.end(), [&](std::size_t j) { return trial.held[j].holder < 0; });
@@ -53,8 +53,8 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   return trial;
 }
 
-/// Far beyond any sensible mesh K itself is lost: EI / h^3 against EI / L^3 exceeds 16 digits. What seems
-/// free is then a slow bending, and its name would say nothing.
+/// On extremely fine meshes K itself loses its digits: EI / h^3 over EI / L^3 exceeds 16 digits. A seemingly free
+/// motion then is a slow bending, and naming it would mislead.
 void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place,
                      const char* key) {
   if (problem.size() <= 10000) return;
@@ -70,7 +70,7 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
                   problem.size()));
 }
 
-/// A motion that not even contacts that pull and stick can hold.
+/// Refuses a motion that not even adhesive, sticking contacts could fix.
 void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place,
                        const char* key) {
   std::vector<LineSpring> grips;
@@ -123,7 +123,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                                describe_motion(found.driven_motion().motion, problem.map)));
 }
 
-/// Along its normal the reaction does no more work than counts as none.
+/// True if the work of the reaction along the contact's normal is below the limit.
 bool carries_nothing(const StaticProblem& problem, std::size_t k, double reaction) {
   const double greatest = problem.size() == 0 ? 0.0 : problem.load.cwiseAbs().maxCoeff();
   double squares = 0.0, sum = 0.0;
@@ -134,8 +134,8 @@ bool carries_nothing(const StaticProblem& problem, std::size_t k, double reactio
   return std::abs(reaction) * squares <= no_reaction * greatest * sum;
 }
 
-/// Rigid contacts stand in the matrix as springs. What only they hold against negative energy needs stiff ones; of
-/// what is still negative then, friction may hold some.
+/// Rigid contacts are springs in the matrix. Negative energy that only they resist needs stiff springs; friction may
+/// resist some of the remaining negative energy.
 double firm_enough(StaticProblem problem, const std::vector<bool>& closed) {
   double best = 1.0;
   Eigen::Index least = null_motions(problem.matrix(closed)).cols();
@@ -168,8 +168,8 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
 
   std::vector<bool> closed = search.closed ? *search.closed : closed_supports(problem);
   if (search.closed) problem.firmness = firm_enough(problem, closed);
-  // What carries nothing may be closed only since Newton's rigid contacts gave way, and would hold a free motion
-  // away from its place: it opens, once. If its gap is negative without it, it closes for good.
+  // A contact without force may be closed only since Newton's method released rigid contacts, and would displace a free
+  // motion: it opens, once. If its gap is negative without it, it closes for good.
   std::vector<bool> opened(contacts.size(), false);
   // Newton ended on a slightly supported structure; without that support a contact that only just
   // touches may change its side, and change back: after 20 rounds either will do.
@@ -181,7 +181,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
     for (std::size_t k = 0; k < next.size(); ++k) {
       if (!problem.is_support(k)) continue;
       const double g = problem.gap(k, trial.u);
-      // A contact that only just touches may count either way.
+      // A contact that barely touches may have either state.
       if (closed[k] && carries_nothing(problem, k, trial.reactions[k])) {
         next[k] = opened[k];
         opened[k] = true;

@@ -8,7 +8,8 @@
 namespace signorini {
 namespace {
 
-constexpr double no_stiffness = 1e-12;  // of the diagonal: regular, and below what contacts' springs show
+constexpr double no_stiffness = 1e-12;  // relative to the diagonal: makes the matrix regular, and is
+                                        // negligible beside contact springs
 
 std::vector<bool> closed_at(const StaticProblem& problem, const Vector& u) {
   std::vector<bool> closed(problem.contacts.size(), false);
@@ -26,8 +27,8 @@ double slope(const StaticProblem& problem, const SparseMatrix& k0, const Vector&
   return s;
 }
 
-/// The step a > 0 that minimises the energy along d. The slope is piecewise linear in a and ascends;
-/// it bends where a contact opens or closes.
+/// The step a > 0 that minimises the energy along d. The slope is piecewise linear in a and increasing, with kinks
+/// where a contact opens or closes.
 double best_step(const StaticProblem& problem, const SparseMatrix& k0, const Vector& u, const Vector& d) {
   std::vector<double> bends;
   for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
@@ -52,7 +53,7 @@ double best_step(const StaticProblem& problem, const SparseMatrix& k0, const Vec
   return 1.0;
 }
 
-/// A row of zeros is seen by no contact, whose spring would stand in it: any stiffness will do there.
+/// A zero row has no contact, whose spring would be in it: any stiffness is suitable there.
 SparseMatrix weak_support(const SparseMatrix& k) {
   const Vector d = k.diagonal().cwiseAbs();
   SparseMatrix weak(k.rows(), k.cols());
@@ -74,17 +75,17 @@ std::vector<bool> closed_supports(const StaticProblem& problem) {
     const Vector target = SymmetricSolver(problem.matrix(closed) + weak).solve(problem.right_side(closed));
     const std::vector<bool> next = closed_at(problem, target);
     if (next == closed) return closed;
-    if (round == 0) {  // the start is the bilateral equilibrium itself
+    if (round == 0) {  // the start is the bilateral equilibrium
       u = target;
     } else {
       const Vector d = target - u;
       u += best_step(problem, k0, u, d) * d;
     }
     const std::vector<bool> reached = closed_at(problem, u);
-    if (reached == closed) return closed;  // no descent left: contacts that only just touch
+    if (reached == closed) return closed;  // no descent left: contacts that barely touch
     closed = reached;
   }
-  return closed;  // contacts on the verge, within roundoff: the caller tries both sides
+  return closed;  // contacts at their limit, within rounding: the caller tries both states
 }
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// unilateral.hpp: which supports are closed in equilibrium.
+// unilateral.hpp: closed contacts in frictionless equilibrium.
 //
 //   minimise  u K u / 2 - P u + sum_k kn_k min(g_k(u), 0)^2 / 2 + (1e-12) u D u / 2,   D = diag of the matrix
 //

@@ -1,4 +1,4 @@
-// signorini check SCENE: everything that `run` does except the time loop, and what it found.
+// signorini check SCENE: all steps of `run` except the time loop, and their results.
 #include <fmt/core.h>
 
 #include <memory>
@@ -21,7 +21,7 @@ struct CheckOptions {
   bool json = false, columns = false;
 };
 
-/// "50,100" in cycles per time.
+/// Parses "50,100", in cycles per time.
 std::vector<double> cutoffs_of(const std::string& text) {
   std::vector<double> list;
   std::istringstream words(text);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_rows = 24;
 
-/// Two digits, written out: 140000.
+/// The number with two significant digits, written out: 140000.
 std::string rough(double value) {
   const double unit = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;
   const double rounded = std::round(value / unit) * unit;
@@ -31,7 +31,7 @@ std::string count(long n, const char* one, const char* many) {
   return n == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-// Roundoff, such as T in a vertical start, would only distract.
+// Rounding, such as T in a vertical start, is shown as 0.
 std::string above(double value, double scale) { return number(std::abs(value) < 1e-9 * scale ? 0.0 : value); }
 
 std::string unit(const std::string& text) { return " [" + text + "]"; }
@@ -65,7 +65,7 @@ std::string head(const Scene& scene, const Model& model, const CheckReport& repo
   return text;
 }
 
-/// A line a body; its mass and inertia are those at its centre.
+/// One line per body; mass and inertia are those at its centre.
 std::string body_lines(const Scene& scene) {
   std::string text;
   for (const RigidBody& body : scene.rigid) {
@@ -84,7 +84,7 @@ std::string body_lines(const Scene& scene) {
   return text;
 }
 
-/// Two lines a mesh.
+/// Two lines per mesh.
 std::string mesh_lines(const Scene& scene) {
   std::string text;
   const PlaceOf place = [&](int n) {
@@ -126,7 +126,7 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
          table.str() + more(report.contacts.size()) + "\n";
 }
 
-/// A line a spring with a preload.
+/// One line per spring with a preload.
 std::string hanger_rows(const Model& model) {
   if (model.hangers.empty()) return "";
   const std::string force = unit(model.units.force);
@@ -238,7 +238,7 @@ std::string stiffness_rows(const Model& model, const CheckReport& report) {
          table.str() + more(report.stiffness.size()) + "\n";
 }
 
-/// Of one load, compression or velocity: its breakpoints one by one, or how many where they are many.
+/// Breakpoints of one load, compression or velocity: listed one by one, or only counted if there are many.
 void add_breakpoints(Table& table, const std::vector<Discontinuity>& all, const std::string& what) {
   constexpr std::size_t most_listed = 12;
   std::vector<const Discontinuity*> own;

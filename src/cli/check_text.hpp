@@ -1,4 +1,4 @@
-// check_text.hpp: what `signorini check` says, as text for a terminal.
+// check_text.hpp: output of `signorini check`, as text for a terminal.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace signorini::cli {
 
 [[nodiscard]] std::string check_text(const Scene& scene, const Model& model, const CheckReport& report);
 
-/// The columns of history.csv with their units, one a line.
+/// The columns of history.csv with their units, one per line.
 [[nodiscard]] std::string column_text(const Model& model);
 
 }  // namespace signorini::cli

@@ -1,8 +1,8 @@
-// command.hpp: how a subcommand joins the program.
+// command.hpp: registration of a subcommand.
 //
-// add_NAME() declares its options; when the command line names it, `action` becomes what it does. Actions
-// run after parsing, so that their exceptions never pass through CLI11. A new subcommand is one file with
-// one add_ function, and one line in main.cpp.
+// add_NAME() declares its options; if the command line names the subcommand, `action` is set to its function. Actions
+// run after parsing, so their exceptions never pass through CLI11. A new subcommand is one file with one add_ function,
+// and one line in main.cpp.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,4 @@
-// signorini compare: engines on one scene, or runs that are there, side by side.
+// signorini compare: compares engines on one scene, or existing runs.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct CompareOptions : OutputOptions {
   std::string table;
 };
 
-/// "newmark:dt=1e-4": an engine, and keys of [run] for this run of it.
+/// "newmark:dt=1e-4": an engine with keys of [run] for its run.
 struct Variant {
   std::string engine;
   std::vector<Override> keys;
@@ -53,7 +53,7 @@ Variant variant_of(const std::string& text) {
   return variant;
 }
 
-/// Engines without their keys, as --set names them.
+/// Names of the engines without their keys, as in --set.
 std::vector<std::string> engines_of(const CompareOptions& options) {
   std::vector<std::string> names;
   for (const std::string& text : options.engines) names.push_back(variant_of(text).engine);
@@ -95,7 +95,7 @@ void run_engine(const CompareOptions& options, const fs::path& path, const Prepa
     Live live(directory, run.model, run.scene.run.t_end, !options.quiet);
     report = run.keep(directory, live).certified.report;
   } catch (const SceneError& error) {
-    if (options.force) remove_run(path / engine);  // an earlier one's would be taken for this one's
+    if (options.force) remove_run(path / engine);  // an earlier run could be mistaken for a new one
     outcomes.report.refused.emplace_back(engine, error.what());
     return;
   }
@@ -107,7 +107,7 @@ void run_engine(const CompareOptions& options, const fs::path& path, const Prepa
 
 Outcomes run_engines(const CompareOptions& options, const fs::path& path,
                      const std::vector<std::string>& command_line) {
-  std::vector<PreparedRun> runs;  // what cannot be built is refused before anything is written
+  std::vector<PreparedRun> runs;  // scenes that cannot be built are refused before anything is written
   for (const std::string& engine : options.engines)
     runs.push_back(
         prepare_run(scene_for(options, engine), runs.empty() ? std::nullopt : runs.front().scene.reduction));
@@ -116,7 +116,7 @@ Outcomes run_engines(const CompareOptions& options, const fs::path& path,
   for (const PreparedRun& run : runs) {
     run_engine(options, path, run, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
-    if (outcomes.report.runs.empty()) {  // nothing to compare the others with
+    if (outcomes.report.runs.empty()) {  // no reference for the others
       leave_folder(path, compare_folder());
       throw Error(ExitCode::scene, "the reference, " + options.engines.front() +
                                        ", refuses the scene: " + outcomes.report.refused.front().second);
@@ -194,7 +194,7 @@ fs::path output_directory(const CompareOptions& options) {
   return (by_engine(options) ? first.stem() : first.filename()).string() + "-compare";
 }
 
-/// Limits of outputs that no run has are told before any runs.
+/// Refuses limits for outputs that no run has, before any run starts.
 void check_outputs(const std::vector<Limit>& limits, const std::vector<OutputSpec>& outputs) {
   const std::string response = "response:";
   std::vector<std::string> names;

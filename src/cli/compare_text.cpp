@@ -43,7 +43,7 @@ std::string run_table(const ComparisonReport& report, TableStyle style = TableSt
   return text;
 }
 
-/// Where one of the two did not come to its end, or has another one.
+/// Note if one of the two runs did not reach its end, or has a different end.
 std::string up_to(const ComparisonReport& report, std::size_t i) {
   const RunFigures &a = report.runs.front().figures, &b = report.runs[i + 1].figures;
   if (a.done() && b.done() && a.t == b.t) return "";

@@ -1,4 +1,4 @@
-// compare_text.hpp: what `compare` prints: the runs, then each one's differences from the reference.
+// compare_text.hpp: output of `compare`: the runs, then the differences of each one from the reference.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace signorini::cli {
 
 [[nodiscard]] std::string compare_text(const ComparisonReport& report);
-/// Its tables alone, for papers.
+/// Only the tables, for papers.
 [[nodiscard]] std::string compare_tables(const ComparisonReport& report, TableStyle style);
 
 }  // namespace signorini::cli

@@ -36,7 +36,7 @@ std::string bash_action(const Completion& completion) {
   return ":";
 }
 
-/// What follows one command: values of its options, its options, its first argument.
+/// Completions after one command: values of its options, its options, its first argument.
 std::string bash_command(const CLI::App& command) {
   std::string values, flags, argument = ":";
   for (const OptionText& option : options_of(command)) {
@@ -53,7 +53,7 @@ std::string bash_command(const CLI::App& command) {
                             argument);
 }
 
-/// In single quotes, and without what _arguments would read as its own.
+/// Text in single quotes, without characters that _arguments interprets.
 std::string zsh_text(const std::string& text) {
   std::string result;
   for (const char c : text) {

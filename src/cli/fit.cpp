@@ -1,4 +1,4 @@
-// signorini fit: keys of a scene from measured event times or columns.
+// signorini fit: fits keys of a scene to measured event times or columns.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
               : "");
 }
 
-/// A column that the run has not is told with the file that has it.
+/// An error for an unknown column names the file that contains it.
 Fit fitted(const FitOptions& options, const Measurements& measured) {
   try {
     return fit(reader_of(options.scene, overrides_of(options.settings)), options.parameters, measured,

@@ -22,20 +22,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int no_program = 127, no_reason = 126;  // as a shell has them
-constexpr int no_end = 124;                       // as timeout has it
+constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell
+constexpr int no_end = 124;                       // exit code as in timeout
 constexpr std::chrono::seconds patience{60};      // a picture takes a second or two
 constexpr std::size_t most_said = 1 << 16;
-constexpr std::size_t most_contacts = 24;  // a sixth of a second each; displacements are of as many nodes
+constexpr std::size_t most_contacts = 24;  // a sixth of a second each; a displacement picture covers this
+                                           // number of nodes
 
 struct Ended {
   int code = 0;
   std::string said;
 };
 
-// Between fork and exec only async-signal-safe calls.
+// Only async-signal-safe calls are allowed between fork and exec.
 [[noreturn]] void become_gnuplot(const char* folder, const char* script, int said) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would wait for the picture
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no one would wait for the picture
   const int nothing = open("/dev/null", O_RDWR);
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
@@ -44,8 +45,8 @@ struct Ended {
   _exit(errno == ENOENT ? no_program : no_reason);
 }
 
-/// What gnuplot says, up to `most_said` bytes, until it closes its end; false where it goes on for too long
-/// or says too much.
+/// Reads gnuplot's output, up to `most_said` bytes, until it closes its end; false if it takes too long or writes too
+/// much.
 bool listen(int end, Clock::time_point last, std::string& said) {
   std::array<char, 4096> buffer{};
   for (;;) {
@@ -62,7 +63,7 @@ bool listen(int end, Clock::time_point last, std::string& said) {
   }
 }
 
-/// Its exit code, or nothing where it has not ended by then.
+/// The child's exit code; nullopt if it has not ended by then.
 std::optional<int> wait_for(pid_t child, Clock::time_point last) {
   for (;;) {
     int status = 0;
@@ -78,7 +79,7 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   if (pipe(ends.data()) != 0) return {no_reason, "no pipe"};
   const pid_t child = fork();
   if (child == 0) {
-    setpgid(0, 0);  // with all that it starts, so that all of it can be ended
+    setpgid(0, 0);  // a process group, so that its children can be ended, too
     close(ends[0]);
     become_gnuplot(folder.c_str(), name.c_str(), ends[1]);
   }
@@ -93,7 +94,7 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   close(ends[0]);
   if (silent)
     if (const auto code = wait_for(child, last)) return {*code, said};
-  setpgid(child, child);  // if it has not come to that itself
+  setpgid(child, child);  // if the child has not done so itself
   kill(-child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -121,7 +122,7 @@ Drawing draw(const std::vector<std::filesystem::path>& scripts) {
     if (ended.code == 0) continue;
     if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + ended.said};
     if (ended.code == no_end)
-      return drawing;  // of the program, not of the picture: the next would not end either
+      return drawing;  // an error of the program, not of the picture: the next one would hang as well
   }
   if (failed > 1)
     drawing.message +=

@@ -12,7 +12,7 @@ namespace {
 
 volatile std::sig_atomic_t noting = 0, noted = 0;
 
-// Only what a signal handler may do: POSIX's async-signal-safe calls.
+// A signal handler may only make POSIX's async-signal-safe calls.
 void end_or_note(int signal) {
   if (signal != SIGALRM && noting != 0 && noted == 0) {
     noted = 1;

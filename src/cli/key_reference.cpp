@@ -23,7 +23,7 @@ std::string path_of(const Key& key) {
 
 std::string default_of(const Key& key) { return key.fallback.empty() ? "-" : std::string(key.fallback); }
 
-/// Tables in the order in which the key table first names them.
+/// Tables in the order of their first key in the key table.
 std::vector<std::string_view> tables() {
   std::vector<std::string_view> names;
   for (const Key& key : all_keys())
@@ -62,7 +62,7 @@ std::string small(std::string text) {
   return text;
 }
 
-/// What somebody may look for, and the words of the keys that mean it. A word is also looked for as it is.
+/// A search word, and the words in key descriptions that it stands for. The word itself is searched, too.
 struct Synonym {
   std::string_view word;
   std::initializer_list<std::string_view> keys;

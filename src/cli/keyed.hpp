@@ -1,4 +1,4 @@
-// keyed.hpp: what `sensitivity` and `fit` share: a scene, keys of it, a directory, and what becomes of it.
+// keyed.hpp: options shared by `sensitivity` and `fit`: a scene, keys of it, a directory, and its treatment.
 #pragma once
 
 #include <filesystem>
@@ -16,12 +16,12 @@ struct KeyedOptions : OutputOptions {
   std::vector<std::string> parameters, settings;
 };
 
-/// -o, or SCENE's name with the ending. Errors: UsageError.
+/// -o, or SCENE's name with this suffix. Errors: UsageError.
 [[nodiscard]] std::filesystem::path directory_of(const KeyedOptions& options, const std::string& ending);
 
-/// Adds SCENE; then, after other arguments, --parameter, -o, --set, --force, --quiet and --json. `what`: of
-/// --parameter; `results`: as in "replace earlier sensitivities in the directory"; `ending`: of the directory;
-/// `json`: what --json prints.
+/// Adds SCENE; then, after other arguments, --parameter, -o, --set, --force, --quiet and --json. `what`: description of
+/// --parameter; `results`: as in "replace earlier sensitivities in the directory"; `ending`: suffix of the directory;
+/// `json`: description of --json.
 void add_scene(CLI::App& command, KeyedOptions& options);
 void add_keyed_options(CLI::App& command, KeyedOptions& options, const std::string& what,
                        const std::string& results, const std::string& ending, const std::string& json);

@@ -1,5 +1,5 @@
-// signorini keys [WORD...]: every key of a scene file, or those that speak of the words, from the table that
-// the reader itself uses.
+// signorini keys [WORD...]: lists all keys of a scene file, or those whose description contains the words, from the
+// reader's own table.
 #include <memory>
 
 #include "cli/command.hpp"

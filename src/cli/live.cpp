@@ -42,7 +42,7 @@ std::string Live::time_left(double t) {
   constexpr double settled = 1.0, window = 5.0;  // s
   const auto now = std::chrono::steady_clock::now();
   const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
-  if (seconds(pace_from_) > window) {  // the pace of the last one or two windows
+  if (seconds(pace_from_) > window) {  // speed averaged over the last one or two windows
     pace_from_ = std::exchange(next_pace_from_, now);
     pace_t_ = std::exchange(next_pace_t_, t);
   }

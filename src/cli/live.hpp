@@ -1,10 +1,10 @@
-// live.hpp: a run while it runs: the progress line, the interrupt, and the events for the table at its end.
+// live.hpp: display of a run in progress: progress line, interrupt, and the events for the final table.
 //
 //   Live live(run_directory, model, t_end, show_progress);
 //   Report report = simulate(model, scene.run, live);
 //
-// Rows are passed on to another Recorder. The first SIGINT or SIGTERM asks the run to stop and be kept; a
-// second one of its kind ends the program at once.
+// Rows are passed on to another Recorder. The first SIGINT or SIGTERM asks the run to stop and be kept; a second signal
+// ends the program at once.
 #pragma once
 
 #include <chrono>
@@ -28,10 +28,10 @@ class Live : public ForwardingRecorder {
 
   void event(const Event& event) override;
   bool progress(double t) override;
-  /// Asked once, after two seconds, with the seconds that the run will take in all: a note, or nothing.
+  /// Called once, after two seconds, with the estimated total duration in seconds; returns a note, or "".
   void when_long(std::function<std::string(double)> advice) { advice_ = std::move(advice); }
 
-  /// At most this many are shown in full; of more, the first and the last ones.
+  /// Up to this number of events are shown in full; otherwise the first and the last ones.
   static constexpr std::size_t most_shown = 40, shown_first = 20, shown_last = 10;
   [[nodiscard]] const std::vector<Event>& first_events() const { return first_; }
   [[nodiscard]] const std::deque<Event>& last_events() const { return last_; }
@@ -39,7 +39,7 @@ class Live : public ForwardingRecorder {
 
  private:
   void advise(double t);
-  /// ", about 8 s left", by the pace of the last seconds; empty at the beginning.
+  /// ", about 8 s left", from the speed of the last seconds; empty at the beginning.
   [[nodiscard]] std::string time_left(double t);
 
   Interrupt interrupt_;

@@ -1,4 +1,4 @@
-// main.cpp: the program `signorini`. Parses the command line and turns every ending into an exit code.
+// main.cpp: the program `signorini`. Parses the command line and converts every outcome to an exit code.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -33,14 +33,14 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// The beginning of an option's name, else what is near it.
+/// The option that the name abbreviates, else similar ones.
 std::string meant(const std::string& given, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (given.size() > 3 && name.starts_with(given)) return "; did you mean \"" + name + "\"?";
   return did_you_mean(given, names);
 }
 
-/// What a command was given and does not take, in the order of the line: options are told before what stands beside them.
+/// Unexpected arguments of a command, in their order: options are reported before other arguments.
 std::string unexpected(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
   const auto option = std::find_if(rest.begin(), rest.end(), [&](const std::string& text) {
@@ -55,7 +55,7 @@ std::string unexpected(const CLI::App& command) {
   return text + meant(name, names);
 }
 
-// CLI11's own exit codes start at 100; ours are those of docs/command-line.md.
+// CLI11's exit codes start at 100; the program's are listed in docs/command-line.md.
 int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {  // --help, --version
     std::ostringstream text;
@@ -74,7 +74,7 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
   return code(ExitCode::usage);
 }
 
-/// What follows the program's name; "help NAME" is "NAME --help".
+/// Arguments after the program's name; "help NAME" becomes "NAME --help".
 std::vector<std::string> arguments(int argc, char** argv) {
   std::vector<std::string> list(argv + std::min(argc, 1), argv + argc);
   if (list.empty() || list[0] != "help") return list;
@@ -120,7 +120,7 @@ int main_program(int argc, char** argv) {
     throw UsageError(fmt::format("no command \"{}\"{}\nsee {} --help", line[0], suggestion(line[0], names),
                                  app.get_name()));
   }
-  std::reverse(line.begin(), line.end());  // CLI11 takes them from the back
+  std::reverse(line.begin(), line.end());  // CLI11 takes arguments from the back
   try {
     app.parse(std::move(line));
   } catch (const CLI::ParseError& error) {
@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
   using namespace signorini;
   cli::open_closed_streams();
   cli::end_on_interrupt();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no more is a failed write, and said so
+  std::signal(SIGXFSZ, SIG_IGN);  // reaching the file size limit then is a failed write with a message
   try {
     return cli::main_program(argc, argv);
   } catch (const Error& error) {

@@ -1,4 +1,4 @@
-// signorini man [COMMAND]: pages for man(1), from the options that the program knows.
+// signorini man [COMMAND]: pages for man(1), from the program's options.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Text that troff reads as text.
+/// Escapes text for troff.
 std::string roff(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -80,7 +80,7 @@ const CLI::App* command_named(const CLI::App& app, const std::string& name) {
   throw UsageError(fmt::format("no command \"{}\"{}", name, suggestion(name, names)));
 }
 
-/// Writes all of them, and prints their names.
+/// Writes all pages, and prints their names.
 void write_pages(const CLI::App& app, const fs::path& folder) {
   std::vector<const CLI::App*> pages = commands_of(app);
   pages.insert(pages.begin(), nullptr);

@@ -1,4 +1,4 @@
-// signorini new NAME: a commented scene to start from.
+// signorini new NAME: writes a commented scene as a starting point.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -39,7 +39,7 @@ std::string named(std::string_view text, const std::string& name) {
   return result;
 }
 
-/// The accelerograms of a template: of its lines "#     signorini quake NAME OPTIONS". `folder`: that of the scene.
+/// Accelerograms of a template, from its lines "#     signorini quake NAME OPTIONS". `folder`: folder of the scene.
 std::vector<QuakeOptions> quakes_of(const std::string& text, const fs::path& folder) {
   constexpr std::string_view mark = "#     signorini quake ";
   std::vector<QuakeOptions> list;

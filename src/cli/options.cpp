@@ -30,7 +30,7 @@ bool has(const OptionText& option, std::string_view name) {
   return std::find(option.names.begin(), option.names.end(), name) != option.names.end();
 }
 
-/// Settings whose path does not depend on the scene.
+/// Settings with paths that do not depend on the scene.
 std::vector<std::string> plain_settings() {
   std::vector<std::string> paths;
   for (const Key& key : all_keys()) {

@@ -1,4 +1,4 @@
-// signorini orbit SCENE: the periodic motion of a scene, and its stability.
+// signorini orbit SCENE: finds a periodic motion of a scene, and its stability.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ fs::path directory_of(const OrbitCommand& options) {
   return *options.directory;
 }
 
-/// Stops the search where an interrupt asks for it.
+/// Stops the search on an interrupt.
 class SearchWatch final : public Recorder {
  public:
   void event(const Event& /*event*/) override {}

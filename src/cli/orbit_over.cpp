@@ -36,10 +36,10 @@ class BranchWatch final : public Recorder {
   bool progress(double /*t*/) override { return !Interrupt::asked(); }
 };
 
-/// Writes last/ while the branch is followed, as often as it takes no more than a part of the time.
+/// Writes last/ while the branch is followed, within a limited fraction of the time.
 class MarkWriter {
  public:
-  /// before: points of the branch that is resumed.
+  /// before: number of points of the resumed branch.
   MarkWriter(const fs::path& path, const SceneReader& read, const BranchOptions& over, std::size_t before)
       : path_(path), read_(read), over_(over), before_(before) {}
 
@@ -57,7 +57,7 @@ class MarkWriter {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int marks_apart = 20;  // times what a mark takes. Chosen.
+  static constexpr int marks_apart = 20;  // relative to the duration of a mark. Chosen value.
 
   const fs::path& path_;
   const SceneReader& read_;
@@ -67,7 +67,7 @@ class MarkWriter {
   Clock::duration took_{};
 };
 
-/// Points at which something happens, the first and the last one.
+/// Special points, the first and the last one.
 std::string branch_table(const BranchOptions& over, const Branch& branch) {
   Table table({over.path, "period", "amplitude", "multiplier", "stable", "events", "special"},
               {true, true, true, true, false, true, false});

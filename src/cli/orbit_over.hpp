@@ -8,10 +8,10 @@
 
 namespace signorini::cli {
 
-/// PATH=FROM:TO. Errors: UsageError.
+/// Parses PATH=FROM:TO. Errors: UsageError.
 void read_over(const std::string& text, BranchOptions& options);
 
-/// scene: the file; resume: continues the branch that is in the directory. Errors: those of follow(), FileError.
+/// scene: the file; resume: continues the branch in the directory. Errors: those of follow(), FileError.
 [[nodiscard]] ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptions over,
                                 const std::filesystem::path& path, const OutputOptions& options, bool resume);
 

@@ -1,4 +1,4 @@
-// signorini paraview DIR: a run as frames for ParaView.
+// signorini paraview DIR: writes a run as frames for ParaView.
 #include "report/paraview.hpp"
 
 #include <fmt/core.h>

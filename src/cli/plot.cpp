@@ -1,4 +1,4 @@
-// signorini plot DIR: draws the pictures of a run again, from its tables.
+// signorini plot DIR: redraws the pictures of a run from its tables.
 #include <filesystem>
 #include <memory>
 

@@ -37,7 +37,7 @@ PictureFiles pictures_of_sensitivities(const fs::path& directory, const PictureL
   return sensitivity_pictures(s, sigmas, look);
 }
 
-/// The runs of a comparison: in a folder of the engine's name, else where they were.
+/// Scripts for the runs of a comparison: in a folder with the engine's name, else in their own directories.
 std::vector<fs::path> comparison_scripts(const fs::path& directory, const PictureLook& look) {
   const fs::path file = directory / "compare.json";
   std::ifstream stream(file, std::ios::binary);

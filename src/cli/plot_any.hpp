@@ -1,4 +1,4 @@
-// plot_any.hpp: the pictures of a directory of results, whatever it holds, drawn again from its tables.
+// plot_any.hpp: redraws the pictures of any directory of results from its tables.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace signorini::cli {
 /// no results; those of add_picture_rows.
 [[nodiscard]] bool ready_to_draw(const std::filesystem::path& directory);
 
-/// The scripts. Errors: FileError; UsageError for a window of what has no time.
+/// Writes the scripts and returns them. Errors: FileError; UsageError for a time window on results without time.
 std::vector<std::filesystem::path> write_any_plots(const std::filesystem::path& directory,
                                                    const PlotWindow& window, const PictureLook& look);
 

@@ -1,4 +1,4 @@
-// signorini quake NAME: a synthetic accelerogram, as files that a scene may name.
+// signorini quake NAME: writes a synthetic accelerogram, as files for a scene.
 #include "cli/quake.hpp"
 
 #include <fmt/core.h>
@@ -35,7 +35,7 @@ QuakeSpec quake_spec(const QuakeOptions& options) {
   within("dt", options.dt, 1e-4, 0.1);
   within("ground-frequency", options.ground_frequency, 0.1, 50.0);
   within("ground-damping", options.ground_damping, 0.01, 2.0);
-  constexpr long greatest_seed = 4294967295;  // what the generator takes
+  constexpr long greatest_seed = 4294967295;  // limit of the random generator
   if (options.seed < 0 || options.seed > greatest_seed)
     throw UsageError(fmt::format("--seed: found {}, expected 0 to {}", options.seed, greatest_seed));
   const double steps = options.duration / options.dt;
@@ -58,7 +58,7 @@ QuakeSpec quake_spec(const QuakeOptions& options) {
   return spec;
 }
 
-/// The command that makes these files again.
+/// The command that reproduces these files.
 std::string quake_command(const QuakeOptions& options) {
   std::string text =
       fmt::format("signorini quake NAME --pga {} --duration {} --dt {} --seed {}", shortest(options.pga),
@@ -96,7 +96,7 @@ std::string ground_text(const QuakeSpec& spec, const std::vector<double>& a) {
       pga, ground.velocity * standard_gravity, ground.displacement * standard_gravity);
   if (!spec.target) return text;
   double least = 1e300, greatest = 0.0;
-  // At 1 % from each other, both ends among them: narrower than any peak at 5 % damping.
+  // Steps of 1 %, both ends included: narrower than any peak at 5 % damping.
   const int last = static_cast<int>(std::ceil(std::log(greatest_matched / least_matched) / std::log(1.01)));
   for (int i = 0; i <= last; ++i) {
     const double T =

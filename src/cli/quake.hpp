@@ -1,4 +1,4 @@
-// quake.hpp: the options of `signorini quake`, and the files that it writes: those of `new` are made by the same.
+// quake.hpp: options of `signorini quake` and writer of its files, which `new` also uses.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -20,10 +20,10 @@ struct QuakeOptions {
 /// `options` must outlive parsing.
 void add_quake_options(CLI::App& command, QuakeOptions& options);
 
-/// The files that write_quake() writes: NAME.AT2, NAME.csv.
+/// Names of the files of write_quake(): NAME.AT2, NAME.csv.
 [[nodiscard]] std::vector<std::string> quake_files(const QuakeOptions& options);
 
-/// Writes them, and says what the ground does; empty with --quiet. Errors: UsageError, FileError.
+/// Writes the files, and returns a description of the ground motion; empty with --quiet. Errors: UsageError, FileError.
 std::string write_quake(const QuakeOptions& options);
 
 }  // namespace signorini::cli

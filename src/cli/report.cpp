@@ -25,12 +25,12 @@ std::string times(long count, const char* one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-// Roundoff of a force that vanishes, such as N where a contact opens, would only distract.
+// Rounding of a force that vanishes, such as N where a contact opens, is shown as 0.
 std::string force(const Model& model, double value) {
   return number(std::abs(value) < 1e-10 * model.scales.force ? 0.0 : value);
 }
 
-/// The table of events: with a certificate one column more, and a line where certainty ends.
+/// The table of events; with a certificate it has one more column, and a line where certainty ends.
 class EventTable {
  public:
   EventTable(const Model& model, const Certificate* certificate)
@@ -40,7 +40,7 @@ class EventTable {
                certificate != nullptr ? std::vector{true, true, false, false, false, true, true}
                                       : std::vector{true, false, false, false, true, true}) {}
 
-  /// `row`: its number among all, from 0.
+  /// `row`: index among all events, from 0.
   void add(const Event& e, std::size_t row) {
     const bool certain = certificate_ == nullptr || certificate_->certain(row);
     if (!certain && !told_) table_.line("  --- not certain from here on: " + certificate_->reason);
@@ -87,8 +87,8 @@ std::string events_by_type(const Report& report) {
   return text.empty() ? "none" : text;
 }
 
-// An exchange below this, of the greatest force on the greatest displacement, is rounding: what the balance
-// is relative to it says nothing.
+// Relative to the largest force times the largest displacement: energy exchange below this is rounding, and the
+// relative error of the balance then is meaningless.
 constexpr double moved = 1e-9;
 
 void add_extreme(Table& table, const Model& model, const char* what, const Extreme& extreme, double scale,
@@ -114,7 +114,7 @@ std::string method_of(const Method& method) {
   return name;
 }
 
-/// "0.31", of an envelope "0.31, A-B 0.625 left".
+/// "0.31", for an envelope "0.31, A-B 0.625 left".
 std::string when_and_where(const Output& output, double t, const OutputPlace& place) {
   if (place.stretch < 0) return number(t);
   const Output::Stretch& stretch = output.stretches[static_cast<std::size_t>(place.stretch)];
@@ -173,7 +173,7 @@ std::string support_table(const Model& model, const Report& report, TableStyle s
     farthest = std::max(farthest, report.peaks[k].tangential);
     greatest = std::max({greatest, report.peaks[k].N, report.peaks[k].T});
   }
-  // Rounding beside the greatest of its kind would only distract.
+  // Rounding relative to the largest of its kind is shown as 0.
   const auto beside = [](double x, double most_of_all) {
     return number(std::abs(x) > rounding::of_many * most_of_all ? x : 0.0);
   };
@@ -206,7 +206,7 @@ std::string contact_table(const Model& model, const Report& report, TableStyle s
   const std::string unit = " [" + model.units.length + "]";
   double greatest = 0.0;
   for (const Peak& peak : report.peaks) greatest = std::max({greatest, peak.tangential, peak.normal});
-  // A motion of rounding would only distract.
+  // A motion of rounding size is shown as 0.
   const auto length = [&](double x) { return number(x > rounding::of_many * greatest ? x : 0.0); };
   Table table({"greatest motion from the start", "along t" + unit, "along n" + unit}, {false, true, true});
   for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k)
@@ -279,9 +279,9 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
     return text + fmt::format("why {}: {}\n", to_string(report.method.engine), report.method.reason);
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
-  // Only where it would be quicker than what the run took: by its first steps, where that is worth a trial.
+  // Only if it would be quicker than the run: estimated from its first steps, if a trial is worth its time.
   std::optional<double> exact = exact_instead(model, chosen);
-  constexpr double long_run = 1.0, share = 0.02;  // s, and of what the run took
+  constexpr double long_run = 1.0, share = 0.02;  // s; fraction of the run's duration
   if (exact && report.wall_time > long_run) {
     exact = seconds_by_trial(model, run, closed_form, share * report.wall_time);
     if (*exact == 0.0) exact.reset();
@@ -305,7 +305,7 @@ std::string certification(const Model& model, const CertifiedReport& run) {
           ? "certified to the end"
           : fmt::format("certified to t = {:.9g} {}, where the run ended", c.until, model.units.time);
   if (c.complete && c.t_errors.empty()) return fmt::format("{}: no event ({})\n", to_end, beside);
-  // Before the first event there are no times that could be off.
+  // Before the first event there are no times with errors.
   const std::string times =
       c.certain_events() == 0 ? "" : fmt::format(", times within {:.1e} {}", greatest, model.units.time);
   std::string text =

@@ -1,4 +1,4 @@
-// signorini report DIR [DIR...]: one page of HTML that needs nothing else.
+// signorini report DIR [DIR...]: writes one self-contained HTML page.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What `check` says about the scene of a run; why it cannot where it cannot.
+/// Output of `check` for the scene of a run, or the reason why there is none.
 std::string check_of(const Scene& scene) {
   try {
     const Model model = build_model(scene);
@@ -49,7 +49,7 @@ ExitCode report(const fs::path& directory, const fs::path& given) {
   return ExitCode::done;
 }
 
-/// Several runs: FILE, and the same as a table beside it, FILE with .csv.
+/// Several runs: writes FILE, and the same as a table in FILE with .csv.
 ExitCode report_cases(const std::vector<std::string>& directories, const fs::path& given) {
   const std::vector<LoadCase> cases =
       read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));

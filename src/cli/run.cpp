@@ -55,7 +55,7 @@ ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& di
   return ExitCode::bug;
 }
 
-/// Tables with an empty line between them.
+/// Joins tables with an empty line between them.
 std::string stacked(const std::vector<std::string>& tables) {
   std::string text;
   for (const std::string& table : tables)
@@ -63,7 +63,7 @@ std::string stacked(const std::vector<std::string>& tables) {
   return text;
 }
 
-/// Which cutoff a tolerance found; empty: none was looked for.
+/// The cutoff found for a tolerance; empty: none was searched for.
 std::string reduction_line(const Model& model) {
   if (!model.reduction || model.reduction->tried.empty()) return "";
   const CutoffTrial& last = model.reduction->tried.back();
@@ -72,7 +72,7 @@ std::string reduction_line(const Model& model) {
       last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->tried.size());
 }
 
-/// What came out; `events`: their table; pictures: the run has what they need.
+/// Results of the run; `events`: table of events; pictures: the run has the data for pictures.
 std::string told(const Scene& scene, const Model& model, const CertifiedReport& certified,
                  const std::string& events, const fs::path& path, bool pictures) {
   const Report& report = certified.report;
@@ -90,7 +90,7 @@ std::string told(const Scene& scene, const Model& model, const CertifiedReport& 
          "summary.json, run.toml)\n";
 }
 
-/// What would be quicker than a run that is expected to take `seconds` in all. Empty: nothing, or not by much.
+/// Suggestion for a quicker setting if a run is expected to take `seconds` in all. Empty: none, or no large gain.
 std::string what_is_quicker(const Scene& scene, const Model& model, double seconds) {
   constexpr double time_of_trial = 0.2;  // s
   const Engine own = choose_engine(model, scene.run).engine;

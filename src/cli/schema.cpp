@@ -1,4 +1,4 @@
-// signorini schema: a JSON Schema of scenes, for editors.
+// signorini schema: prints a JSON Schema of scenes, for editors.
 #include "scene/schema.hpp"
 
 #include <CLI/CLI.hpp>

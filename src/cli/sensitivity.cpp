@@ -1,4 +1,4 @@
-// signorini sensitivity: compute derivatives of event times, peaks and columns with respect to keys of a scene.
+// signorini sensitivity: derivatives of event times, peaks and columns with respect to keys of a scene.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ struct SensitivityOptions : KeyedOptions {
   bool losses = false, discrete = false;
 };
 
-/// "columns-1.csv" and so on are removed by number.
+/// Files "columns-1.csv" and so on are removed by number.
 const OwnedFolder& sensitivity_folder() {
   static const OwnedFolder folder = [] {
     OwnedFolder f{"sensitivities",
@@ -46,7 +46,7 @@ const OwnedFolder& sensitivity_folder() {
   return folder;
 }
 
-/// Stops where an interrupt asks for it.
+/// Stops the computation on an interrupt.
 class Stoppable : public Recorder {
  public:
   void event(const Event& /*event*/) override {}
@@ -54,7 +54,7 @@ class Stoppable : public Recorder {
   bool progress(double /*t*/) override { return !Interrupt::asked(); }
 };
 
-/// The parameters that were asked for, those with a sigma among them, and the sigmas one a parameter.
+/// The requested parameters, those with a sigma included, and one sigma per parameter.
 Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& paths) {
   Sigmas sigmas(paths.size(), 0.0);
   for (const std::string& text : options.sigmas) {
@@ -76,7 +76,7 @@ Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& 
 
 std::string shown_rate(double x) { return std::isfinite(x) ? number(x) : "-"; }
 
-/// What one asks for first: how the first events move.
+/// The main result: derivatives of the first events.
 std::string first_events(const Sensitivities& s) {
   constexpr std::size_t most_events = 6, most_keys = 4;
   const std::size_t keys = std::min(s.parameters.size(), most_keys);
@@ -152,7 +152,7 @@ std::string summary_of(const Sensitivities& s, const Sigmas& sigmas) {
   return text;
 }
 
-/// What was computed how, in a line.
+/// Description of the method, in a line.
 std::string method_of(const Sensitivities& s) {
   const Method& method = s.report.method;
   std::string text = fmt::format("engine {}", to_string(method.engine));

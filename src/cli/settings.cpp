@@ -75,7 +75,7 @@ void print_patterns(const std::string& scene, const std::vector<std::string>& se
   for (Override& change : overrides_of(settings)) {
     const std::string text = text_of(change);
     if (const std::size_t colon = change.path.find(':'); colon < change.path.find('.'))
-      change.path.erase(0, colon + 1);  // of one engine
+      change.path.erase(0, colon + 1);  // setting for one engine
     if (option.empty()) note(before, change.path, text);
     before.push_back(change);
   }

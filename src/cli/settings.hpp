@@ -1,4 +1,4 @@
-// settings.hpp: the options that several subcommands share: --set, and what becomes of results.
+// settings.hpp: options shared by several subcommands: --set, and the treatment of results.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,12 +12,12 @@
 
 namespace signorini::cli {
 
-/// What becomes of results.
+/// Treatment of results.
 struct OutputOptions {
   bool force = false, quiet = false, json = false, no_plots = false;
   [[nodiscard]] bool tables() const { return !quiet && !json; }
 };
-/// Prints them to stderr, with `of` in front; none with --quiet.
+/// Prints warnings to stderr, prefixed with `of`; none with --quiet.
 void print_warnings(const OutputOptions& options, const std::vector<std::string>& warnings,
                     const std::string& of = "");
 
@@ -28,29 +28,30 @@ void print_unchecked(const std::filesystem::path& directory);
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& force,
                         const std::string& json);
 
-/// Adds --table markdown|latex: what is printed, for papers. `style` must outlive parsing.
+/// Adds --table markdown|latex: output for papers. `style` must outlive parsing.
 void add_table_option(CLI::App& command, std::string& style);
-/// What it asks for. Errors: UsageError, also beside --json.
+/// The requested table style. Errors: UsageError, also if combined with --json.
 [[nodiscard]] TableStyle table_style_of(const std::string& style, const OutputOptions& options);
 
 /// Adds --set PATH=VALUE to a subcommand; `settings` must outlive parsing.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
-/// Notes on stderr, how many tables each of these with a * met. `given` are PATH or PATH=VALUE and stand behind `option`.
-/// Without an option: the settings themselves, each after those before it. Errors: those of the file and of settings.
+/// Prints notes to stderr: number of tables that each setting with a * matches. `given` are PATH or PATH=VALUE after
+/// `option`. Without an option: the settings themselves, each applied after those before it. Errors: those of the file
+/// and of settings.
 void print_patterns(const std::string& scene, const std::vector<std::string>& settings,
                     const std::string& option = "", const std::vector<std::string>& given = {});
 
-/// Errors: UsageError for one without "=".
+/// Errors: UsageError for a setting without "=".
 [[nodiscard]] std::vector<Override> overrides_of(const std::vector<std::string>& settings);
 
-/// The settings that hold for `engine`. "exact:run.rtol=1e-12" is for one engine of `engines`: no key of a
-/// scene has a colon before its first dot. Errors: UsageError, also for run.engine.
+/// The settings for `engine`. "exact:run.rtol=1e-12" is for one engine of `engines`: no key of a scene has a colon
+/// before its first dot. Errors: UsageError, also for run.engine.
 [[nodiscard]] std::vector<Override> overrides_for(const std::vector<std::string>& settings,
                                                   const std::vector<std::string>& engines,
                                                   const std::string& engine);
 
-/// The engine that --engines chose.
+/// The engine selected by --engines.
 [[nodiscard]] Override engine_override(const std::string& engine, const std::string& option = "--engines");
 
 }  // namespace signorini::cli

@@ -1,4 +1,4 @@
-// signorini study: speed against error, engine by engine, setting by setting.
+// signorini study: measures speed against error, for engines and settings.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::vector<std::string> names_of_engines() {
   return names;
 }
 
-/// "newmark, friction-iteration": those whose error a key limits.
+/// "newmark, friction-iteration": engines whose error is limited by a key.
 std::string engines_with(Accuracy accuracy) {
   std::string names;
   for (const EngineName& engine : all_engines)
@@ -41,7 +41,7 @@ std::string engines_with(Accuracy accuracy) {
 struct StudyOptions : OutputOptions {
   std::string scene;
   std::vector<std::string> engines = names_of_engines();
-  std::optional<std::string> chosen;  // of these, between commas
+  std::optional<std::string> chosen;  // selected ones of these, separated by commas
   std::string rtol = "1e-4:1e-12";
   std::optional<std::string> dt, directory;
   std::vector<std::string> varied, settings;
@@ -55,7 +55,7 @@ const OwnedFolder& study_folder() {
   return folder;
 }
 
-/// A comma without a name beside it leaves an empty one.
+/// A comma without a name beside it gives an empty name.
 std::vector<std::string> names_between_commas(const std::string& text) {
   std::vector<std::string> names(1);
   for (const char c : text)
@@ -86,7 +86,7 @@ bool says_how_accurate(const std::string& path) {
   return path == accuracy_key(Accuracy::tolerance) || path == accuracy_key(Accuracy::step);
 }
 
-/// Runs that differ in these have nothing to compare, or another option says it.
+/// Refuses keys whose values would make runs incomparable, or that another option sets.
 void refuse_key(const std::string& option, const std::string& path) {
   if (says_how_accurate(path)) throw UsageError(option + ": --rtol and --dt say how accurate runs are");
   for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
@@ -96,7 +96,7 @@ void refuse_key(const std::string& option, const std::string& path) {
   if (path.ends_with(".name")) throw UsageError(option + ": runs that differ in names cannot be compared");
 }
 
-/// The reference may have settings, too.
+/// Settings of an engine; the reference may have its own.
 std::vector<Override> settings_for(const StudyOptions& options, const std::string& engine) {
   std::vector<std::string> engines = options.engines;
   for (const Engine reference : WorkStudy::references) engines.emplace_back(to_string(reference));
@@ -114,7 +114,7 @@ void check_settings(const StudyOptions& options) {
   }
 }
 
-/// A wrong engine or varied key is a wrong command line, told before anything is written.
+/// An invalid engine or varied key is an invalid command line, reported before anything is written.
 void try_engines(const StudyOptions& options, const std::vector<Vary>& varied) {
   for (const std::string& engine : options.engines) {
     std::vector<Override> changes = settings_for(options, engine);
@@ -124,7 +124,7 @@ void try_engines(const StudyOptions& options, const std::vector<Vary>& varied) {
     for (const Vary& vary : varied) changes.push_back(override_of(vary, vary.values.front()));
     try {
       (void)read_scene(options.scene, changes);
-    } catch (const SceneError&) {  // of one engine, or one value: a row
+    } catch (const SceneError&) {  // for a single engine or value: becomes a row
     }
   }
 }
@@ -172,7 +172,7 @@ class ProgressLine {
   bool shown_;
 };
 
-/// Runs of an earlier study go, and nothing else. Errors: FileError.
+/// Removes the runs of an earlier study, and nothing else. Errors: FileError.
 void clear_runs(const fs::path& path) {
   std::error_code error;
   const fs::path runs = path / "runs";
@@ -183,7 +183,7 @@ void clear_runs(const fs::path& path) {
     const bool numbered = name.size() > 4 && name[3] == '-' && name.find_first_not_of("0123456789") == 3;
     if ((!numbered && name != "again") || !fs::exists(folder / "summary.json", error)) continue;
     remove_run(folder);
-    fs::remove(folder, error);  // if that left it empty
+    fs::remove(folder, error);  // only if the folder is empty now
   }
   fs::remove(runs, error);
 }

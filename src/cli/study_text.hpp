@@ -1,4 +1,4 @@
-// study_text.hpp: what `study` prints: the runs in a table, which is cheapest for what, how runs fail.
+// study_text.hpp: output of `study`: a table of runs, the cheapest for each accuracy, and failures.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace signorini::cli {
 
 [[nodiscard]] std::string study_text(const WorkReport& report);
-/// The table alone, for papers.
+/// Only the table, for papers.
 [[nodiscard]] std::string study_table(const WorkReport& report, TableStyle style);
 
 }  // namespace signorini::cli

@@ -1,4 +1,4 @@
-// signorini sweep: one run a value of one or more keys, in one table.
+// signorini sweep: one run per value of one or more keys, in one table.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::optional<std::string> environment(const char* name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
-/// Varied keys, then sampled ones, which run fastest.
+/// Varied keys, then sampled ones, which vary fastest.
 void vary_keys(const SweepOptions& options, SweepSpec& spec) {
   for (const std::string& text : options.varied) {
     spec.vary.push_back(parse_vary(text));
@@ -73,7 +73,7 @@ void vary_keys(const SweepOptions& options, SweepSpec& spec) {
   }
   if (options.seed) {
     needs_samples("--seed");
-    constexpr long greatest = 4294967295;  // what the generator takes
+    constexpr long greatest = 4294967295;  // limit of the random generator
     if (*options.seed < 0 || *options.seed > greatest)
       throw UsageError(fmt::format("--seed {}: expected 0 to {}", *options.seed, greatest));
     sample.seed = static_cast<unsigned long>(*options.seed);
@@ -90,7 +90,7 @@ void vary_keys(const SweepOptions& options, SweepSpec& spec) {
       fmt::format("{} {}, seed {}", count_of(sample.count, "sample"), options.sequence, sample.seed);
 }
 
-/// How runs go on from each other, before any scene is read.
+/// Sets how runs continue each other, before any scene is read.
 void carry_on(const SweepOptions& options, SweepSpec& spec) {
   if (options.back && !options.carry)
     throw UsageError("--back: has no meaning without --carry, which lets runs go on from each other");
@@ -111,7 +111,7 @@ void carry_on(const SweepOptions& options, SweepSpec& spec) {
   }
 }
 
-/// What points a stroboscopic sweep has.
+/// Sets the points of a stroboscopic sweep.
 void specify_strobe(const SweepOptions& options, const Scene& scene, const Model& model, SweepSpec& spec) {
   const Strobe strobe = parse_strobe(options.strobe, scene, model);
   spec.strobe = {options.strobe, strobe.period, options.settle, strobe_columns(model)};
@@ -128,7 +128,7 @@ void specify_strobe(const SweepOptions& options, const Scene& scene, const Model
                     t_end, periods));
 }
 
-/// The state that the runs go on from, which stands in the files of another run.
+/// The state that the runs continue from, stored in the files of another run.
 std::string text_of_state(const Scene& scene) {
   std::string text;
   if (!scene.initial.saved) return text;
@@ -151,11 +151,11 @@ std::string text_of_state(const Scene& scene) {
 
 struct Specified {
   SweepSpec spec;
-  std::string text;  ///< of the scene file
+  std::string text;  ///< text of the scene file
 };
 
-/// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
-/// a wrong command line, a value that only some rows cannot take is a row.
+/// Builds the sweep and reports all errors that can be found before it starts: a path that is invalid in every row is
+/// an invalid command line, a value that is invalid in some rows is a row.
 Specified specify(const SweepOptions& options) {
   Specified specified;
   SweepSpec& spec = specified.spec;
@@ -166,7 +166,7 @@ Specified specify(const SweepOptions& options) {
   if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
   if (options.share) spec.share = parse_share(*options.share, environment);
   specified.text = scene_text(options.scene);
-  constexpr std::size_t most_tried = 200;  // of as many, one should have been right
+  constexpr std::size_t most_tried = 200;  // limit of trial rows, one of which should be valid
   std::optional<Error> first;
   std::size_t tried = 0;
   for (const auto& point : points(spec.vary)) {
@@ -211,7 +211,7 @@ fs::path output_directory(const SweepOptions& options, const Share& share) {
   return share.all() ? stem : fmt::format("{}-{}-of-{}", stem, share.number, share.count);
 }
 
-/// The table on disk, renewed at most twice a second: a long table must not cost more than its runs.
+/// The table on disk, rewritten at most twice a second, so that a long table does not cost more than its runs.
 class Progress {
  public:
   Progress(const SweepDirectory& directory, std::size_t all, bool line)
@@ -248,18 +248,18 @@ class Progress {
   }
 
   const SweepDirectory& directory_;
-  std::size_t all_, there_, written_ = 0;  // there: before this process began
+  std::size_t all_, there_, written_ = 0;  // there: rows from before this process
   bool line_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point next_;
 };
 
-/// Ends with a row for every task, unless interrupted. False: interrupted.
+/// Computes a row for every task, unless interrupted. False: interrupted.
 bool run_rows(SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& options) {
   int file_error = 0;
   const auto ended = [&](const WorkerEnd& end) {
     if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
-      ++file_error;  // it has said why
+      ++file_error;  // it has printed its message
       return false;
     }
     try {
@@ -321,7 +321,7 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
                            (directory.path() / "sweep.csv").string()));
 }
 
-/// Of the first and the last row: a varied key may change the period of the loads.
+/// Checks the first and the last row: a varied key may change the period of the loads.
 void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec, const std::string& text) {
   const auto all = points(spec.vary);
   for (const auto* point : {&all.front(), &all.back()}) {
@@ -331,7 +331,7 @@ void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec, cons
       const Scene scene = parse_scene(text, options.scene, changes);
       const std::string doubt = strobe_doubt(parse_strobe(options.strobe, scene, build_model(scene)), scene);
       if (!doubt.empty()) return print_note(doubt);
-    } catch (const Error&) {  // a row that is refused says so itself
+    } catch (const Error&) {  // a refused row has its own message
     }
   }
 }
@@ -346,7 +346,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
       if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
   if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec, text);
-  (void)jobs_of(options);  // wrong ones are told before anything is written
+  (void)jobs_of(options);  // reports invalid values before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
   RowTask common{options.scene, text, overrides_of(options.settings), 0, {}, {}, command_line};
   common.responses = options.responses;
@@ -409,7 +409,7 @@ ExitCode merge(const SweepOptions& options) {
   return ExitCode::stopped;
 }
 
-/// --engine is a setting: sweep.json has it, and another engine is another sweep.
+/// --engine is a setting, stored in sweep.json; a different engine is a different sweep.
 SweepOptions with_engine(SweepOptions options) {
   if (options.engine.empty()) return options;
   for (const std::string& varied : options.varied)

@@ -26,7 +26,7 @@ SweepTasks::SweepTasks(SweepDirectory& directory, RowTask common, bool keep)
     bool missing = false;
     for (std::size_t i = first; i < first + length_; ++i)
       missing = missing || (spec.share.holds(i) && !directory.rows().contains(i));
-    // A chain that is not whole begins anew: its states are in no file.
+    // An incomplete chain restarts: its states are in no file.
     if (missing) list_.push_back(first);
   }
 }

@@ -1,4 +1,4 @@
-// sweep_tasks.hpp: the rows of a sweep as tasks for workers: a row each, or, where rows go on from each other, all of them
+// sweep_tasks.hpp: the rows of a sweep as tasks for workers: one row each or, if rows continue each other, all rows
 // along the last range.
 #pragma once
 
@@ -12,16 +12,16 @@ namespace signorini::cli {
 
 class SweepTasks {
  public:
-  /// common: of all rows. keep: the run of each, too. directory: must outlive it.
+  /// common: settings of all rows. keep: also keep the run of each row. directory: must outlive the object.
   SweepTasks(SweepDirectory& directory, RowTask common, bool keep);
 
-  /// What is missing, by the index of a task's first row.
+  /// Missing tasks, by the index of their first row.
   [[nodiscard]] const std::vector<std::size_t>& list() const { return list_; }
   [[nodiscard]] std::size_t rows() const { return list_.size() * length_; }
 
-  /// In a worker: computes the rows and tells their lines, the last one's as what it returns.
+  /// Runs in a worker: computes the rows and sends their lines; the last line is the return value.
   [[nodiscard]] std::string work(std::size_t first, const Tell& tell) const;
-  /// Takes the rows of a task that has ended; those that a crash has left out become rows that say so.
+  /// Takes the rows of a finished task; rows lost by a crash become rows with that message.
   void take(const WorkerEnd& end);
 
  private:

@@ -36,7 +36,7 @@ std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
 
 namespace {
 
-/// The contacts that press hardest in any run, in their own order.
+/// The contacts with the largest compression in any run, in model order.
 std::vector<std::string> shown_contacts(const std::vector<std::string>& contacts, const SweepRows& rows) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < contacts.size(); ++k) {

@@ -1,4 +1,4 @@
-// sweep_text.hpp: what `sweep` prints: one row a run.
+// sweep_text.hpp: output of `sweep`: one row per run.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace signorini::cli {
 
-/// Of many rows the first and the last ones, of many contacts the first ones; sweep.csv has all. For papers
-/// all rows, and none of the reasons behind them.
+/// The first and the last of many rows, the first of many contacts; sweep.csv has all. Styles for papers have all rows,
+/// without the reasons of failed ones.
 [[nodiscard]] std::string sweep_text(const SweepSpec& spec, const SweepRows& rows,
                                      TableStyle style = TableStyle::plain);
 
-/// Quantiles of the answers with their intervals; of many combinations of keys the first ones.
+/// Quantiles of the results with their intervals; if there are many combinations of keys, the first ones.
 [[nodiscard]] std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& answers,
                                         TableStyle style = TableStyle::plain);
 

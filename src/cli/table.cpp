@@ -11,7 +11,7 @@ namespace signorini::cli {
 
 namespace {
 
-// Characters, not bytes: continuation bytes of UTF-8 take no room.
+// Width in characters: continuation bytes of UTF-8 do not count.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

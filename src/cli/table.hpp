@@ -2,7 +2,7 @@
 //
 //   Table table({"t [s]", "contact"}, {true, false});  table.row({"0.5", "first"});  table.str()
 //
-// The same for papers: in Markdown, and as a LaTeX tabular that needs no package.
+// For papers also in Markdown, and as a LaTeX tabular that needs no package.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace signorini::cli {
 
-/// Six digits.
+/// The number with six significant digits.
 [[nodiscard]] std::string number(double value);
 
 enum class TableStyle { plain, markdown, latex };
-/// Of --table; plain where it is empty. Errors: UsageError.
+/// Style named by --table; plain if empty. Errors: UsageError.
 [[nodiscard]] TableStyle table_style(const std::string& name);
 
 class Table {
@@ -23,14 +23,14 @@ class Table {
   void row(std::vector<std::string> cells);
   /// A line that is not split into columns.
   void line(std::string text);
-  /// Two blanks in front and between.
+  /// Columns separated and indented by two blanks.
   [[nodiscard]] std::string str() const;
-  /// Lines stand behind the table in Markdown, and as comments in LaTeX.
+  /// Lines follow the table in Markdown, and are comments in LaTeX.
   [[nodiscard]] std::string str(TableStyle style) const;
 
  private:
   std::vector<bool> right_;
-  std::vector<std::vector<std::string>> rows_;  // one cell: a line
+  std::vector<std::vector<std::string>> rows_;  // a row with one cell is a line
 };
 
 }  // namespace signorini::cli

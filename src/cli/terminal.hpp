@@ -1,4 +1,4 @@
-// terminal.hpp: the two streams. Data goes to stdout, messages and progress to stderr.
+// terminal.hpp: output streams. Data goes to stdout, messages and progress to stderr.
 //
 // Colour only on a terminal, and never when NO_COLOR is set (https://no-color.org).
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace signorini::cli {
 
-/// Writes to stdout at once. Errors: FileError (a full disk behind a redirection).
+/// Writes to stdout without buffering. Errors: FileError (a full disk behind a redirection).
 void print(const std::string& text);
 
 /// "error: ...", "warning: ..." and "note: ..." on stderr.
@@ -15,10 +15,10 @@ void print_error(const std::string& message);
 void print_warning(const std::string& message);
 void print_note(const std::string& message);
 
-/// The progress line may be shown.
+/// True if the progress line may be shown.
 [[nodiscard]] bool stderr_is_terminal();
-/// Puts /dev/null where standard input, output or error are closed: else the next file to be opened would be
-/// one of them, and receive what is printed.
+/// Opens /dev/null in place of a closed standard input, output or error. Otherwise the next opened file would get that
+/// descriptor, and receive printed text.
 void open_closed_streams();
 
 /// Replaces the progress line; an empty text removes it.

@@ -1,4 +1,4 @@
-// signorini verify: IDA against the paper's Newmark algorithm, on one scene, with a verdict.
+// signorini verify: compares IDA with the paper's Newmark algorithm on one scene, with a verdict.
 #include <fmt/core.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// signorini witness DIR: does a run keep the laws of every instant, by its files alone?
+// signorini witness DIR: checks from files alone whether a run obeys the laws at every instant.
 #include <fmt/core.h>
 
 #include <memory>

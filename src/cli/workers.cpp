@@ -27,8 +27,8 @@ namespace signorini::cli {
 
 namespace {
 
-constexpr int between_looks = 200;     // milliseconds between two looks where nothing happens
-constexpr std::size_t most_ahead = 2;  // tasks of a worker: the next one waits in its pipe
+constexpr int between_looks = 200;     // milliseconds between two checks while nothing happens
+constexpr std::size_t most_ahead = 2;  // tasks per worker: the next one waits in its pipe
 
 /// A file descriptor that is closed with its owner.
 class Descriptor {
@@ -57,7 +57,7 @@ class Descriptor {
 }
 
 struct Pipe {
-  Descriptor out, in;  // to read from, to write to
+  Descriptor out, in;  // for reading, for writing
   Pipe() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe");
@@ -66,7 +66,7 @@ struct Pipe {
   }
 };
 
-/// SIGINT and SIGTERM wait to be read: no signal is lost between a look and a sleep.
+/// Blocks SIGINT and SIGTERM until they are read: no signal is lost between a check and a sleep.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -87,7 +87,7 @@ class HeldSignals {
   Descriptor fd_;
 };
 
-/// All of it; false where the other end is gone.
+/// Writes all bytes; false if the other end is closed.
 bool send(int fd, const void* data, std::size_t size) {
   const char* at = static_cast<const char*>(data);
   while (size > 0) {
@@ -119,14 +119,14 @@ struct Head {
   std::int64_t code = 0;
 };
 
-/// One block, so that the parent is woken once.
+/// Sends one block, so that the parent wakes once.
 bool report(int fd, std::uint64_t task, std::int64_t code, std::string text) {
   const Head head{task, text.size(), code};
   text.insert(0, reinterpret_cast<const char*>(&head), sizeof head);
   return send(fd, text.data(), text.size());
 }
 
-/// One task; its exit code and report.
+/// Executes one task; returns its exit code and report.
 std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task, const Tell& tell) {
   try {
     return {ExitCode::done, work(task, tell)};
@@ -141,8 +141,8 @@ std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task,
   return {ExitCode::bug, ""};
 }
 
-/// Closes all other files than these and the first three: the lock of a directory, which a worker would hold for
-/// some milliseconds more where its parent is killed.
+/// Closes all files except these and the first three: a worker would otherwise hold the lock of a directory for some
+/// milliseconds after its parent was killed.
 void keep_only(int a, int b) {
   const auto low = static_cast<unsigned>(std::min(a, b)), high = static_cast<unsigned>(std::max(a, b));
   if (low > 3) (void)close_range(3, low - 1, 0);
@@ -152,9 +152,9 @@ void keep_only(int a, int b) {
 
 [[noreturn]] void be_worker(pid_t parent, const HeldSignals& signals, const Work& work, int tasks,
                             int reports) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would take the result
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no one would receive the result
   if (getppid() != parent) _exit(static_cast<int>(ExitCode::bug));
-  // Ctrl-C reaches the whole group: the parent alone decides, so that no row is taken for a crash.
+  // Ctrl-C reaches the whole process group; only the parent reacts, so that no row is mistaken for a crash.
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   signals.restore();
@@ -164,18 +164,18 @@ void keep_only(int a, int b) {
     const Tell tell = [&](const std::string& text) { (void)report(reports, task, Head::not_done, text); };
     auto [code, text] = carried_out(work, static_cast<std::size_t>(task), tell);
     if (!report(reports, task, static_cast<std::int64_t>(code), std::move(text))) break;
-    if (code == ExitCode::bug) _exit(0);  // memory may be short or worse: a fresh process takes the next
+    if (code == ExitCode::bug) _exit(0);  // memory may be corrupt: a fresh process takes over
   }
   _exit(0);
 }
 
-/// A worker as its parent sees it.
+/// A worker, from its parent's view.
 struct Worker {
   pid_t process = 0;
   Descriptor tasks, reports;
-  std::deque<std::size_t> given;  // the first is under way
-  std::string heard;              // bytes of a report that is not whole yet
-  std::string told;               // by the task under way
+  std::deque<std::size_t> given;  // the first one is in progress
+  std::string heard;              // bytes of an incomplete report
+  std::string told;               // output of the current task
 };
 
 class Pool {
@@ -198,7 +198,7 @@ class Pool {
     if (child < 0) throw FileError("fork", "no process: " + std::generic_category().message(errno));
     if (child == 0) {
       tasks.in.reset();
-      workers_.clear();  // the other workers' pipes are not its own
+      workers_.clear();  // pipes of other workers belong to the parent
       be_worker(parent_, signals_, work_, tasks.out.get(), reports.in.get());
     }
     Worker worker;
@@ -209,21 +209,21 @@ class Pool {
     workers_.push_back(std::move(worker));
   }
 
-  /// Gives each worker a task, then each one that waits behind it.
+  /// Gives each worker a task, then each one a waiting task.
   void hand_out(std::deque<std::size_t>& queue) {
     for (std::size_t ahead = 1; ahead <= most_ahead; ++ahead)
       for (Worker& w : workers_) {
         if (queue.empty()) return;
         if (w.given.size() >= ahead) continue;
         const std::uint64_t task = queue.front();
-        w.given.push_back(queue.front());  // a worker that has just died is found out by its reports
+        w.given.push_back(queue.front());  // a worker that has just died is detected by its reports
         queue.pop_front();
         (void)send(w.tasks.get(), &task, sizeof task);
       }
   }
 
-  /// Waits for reports or a signal. Tasks that a dead worker has not begun come back into the queue. True: a
-  /// signal that ends all.
+  /// Waits for reports or a signal. Tasks that a dead worker has not begun return to the queue. True: a signal that
+  /// ends all tasks.
   bool listen(std::deque<std::size_t>& queue, std::vector<WorkerEnd>& ends) {
     std::vector<pollfd> watched{{signals_.fd(), POLLIN, 0}};
     for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
@@ -255,7 +255,7 @@ class Pool {
     return status;
   }
 
-  /// Takes whole reports; false: the worker has closed its end.
+  /// Reads complete reports; false: the worker has closed its end.
   static bool hear(Worker& w, std::vector<WorkerEnd>& ends) {
     char block[65536];
     bool open = true;
@@ -289,7 +289,7 @@ class Pool {
 
   static void bury(Worker& w, std::deque<std::size_t>& queue, std::vector<WorkerEnd>& ends) {
     const int status = reap(w.process);
-    const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // it left between two tasks
+    const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // it ended between two tasks
     if (!w.given.empty() && !clean) {
       ends.push_back({w.given.front(), WIFEXITED(status) ? WEXITSTATUS(status) : 1,
                       WIFSIGNALED(status) ? WTERMSIG(status) : 0, std::move(w.told)});
@@ -310,7 +310,7 @@ bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const 
                  const std::function<bool(const WorkerEnd&)>& ended,
                  const std::function<void(std::size_t)>& idle) {
   const HeldSignals signals;
-  const auto pipes = std::signal(SIGPIPE, SIG_IGN);  // of a worker that has died
+  const auto pipes = std::signal(SIGPIPE, SIG_IGN);  // raised by the pipe of a dead worker
   Pool pool(signals, work);
   std::deque<std::size_t> queue(tasks.begin(), tasks.end());
   bool go_on = true, whole = true;

@@ -1,14 +1,13 @@
-// workers.hpp: tasks in a few processes that stay, one task after the other.
+// workers.hpp: runs tasks in a few persistent processes, one task after another.
 //
 //   const bool whole = run_workers(tasks, jobs, work, ended, idle);
 //
 //   parent --- task -->  pipe  --> worker:  for each task: work(task), then
-//   parent <-- report -- pipe <--           { task, exit code, length, what work returned }, after what it told
+//   parent <-- report -- pipe <--           { task, exit code, length, return value of work }, after the parts it sent
 //
-// Processes, not threads: a run that crashes or fills the memory takes no other with it
-// (docs/decisions/sweep-workers.md). A worker that dies costs the task at which it was, and is started anew; the
-// task that waited in its pipe goes to another. SIGINT and SIGTERM end all of them at once; what a task writes
-// must be whole or not there.
+// Processes, not threads: a run that crashes or exhausts the memory affects no other (docs/decisions/sweep-workers.md).
+// A worker that dies loses only its current task, and is restarted; the task waiting in its pipe goes to another
+// worker. SIGINT and SIGTERM end all of them at once; files of a task must be written atomically.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +17,21 @@
 
 namespace signorini::cli {
 
-/// How one task ended.
+/// Result of one task.
 struct WorkerEnd {
   std::size_t task = 0;
-  int code = 0;        ///< exit code; that of an Error which `work` threw
-  int signal = 0;      ///< that ended its process, or 0
-  std::string report;  ///< what `work` told and returned; of one that died: what it told
+  int code = 0;        ///< exit code; for an Error thrown by `work`, the exit code of the error
+  int signal = 0;      ///< signal that ended its process, or 0
+  std::string report;  ///< parts that `work` sent, and its return value; if the worker died, only the parts
 };
 
 /// Sends a part of the report before the task is done. It is kept if the worker dies.
 using Tell = std::function<void(const std::string&)>;
 using Work = std::function<std::string(std::size_t task, const Tell&)>;
 
-/// `work` runs in a worker, and its report comes here; what it throws becomes a code (the message goes to
-/// stderr). `ended` runs here, in the order of the ends, and says whether to go on. `idle` runs here now and
-/// then, with the number of tasks under way. Returns false when interrupted. Errors: FileError where no process
+/// `work` runs in a worker, and its report is returned here; an exception becomes an exit code (the message goes to
+/// stderr). `ended` runs here, in the order of completion, and returns whether to continue. `idle` runs here
+/// periodically, with the number of tasks in progress. Returns false if interrupted. Errors: FileError if no process
 /// can be started; all others have ended then.
 [[nodiscard]] bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const Work& work,
                                const std::function<bool(const WorkerEnd&)>& ended,

@@ -34,17 +34,17 @@ using Tag = std::pair<int, long>;  // dimension and number
 struct RawElement {
   const GmshType* type = nullptr;
   std::vector<int> nodes;
-  std::vector<long> physical;  // groups that it is in
+  std::vector<long> physical;  // groups that contain it
   long number = 0;
   SourcePlace place;
 };
 
-/// What the file says, before a body is made of it.
+/// Contents of the file, from which a body is made.
 struct GmshContent {
   std::vector<PlaneMesh::Node> nodes;
   std::unordered_map<long, int> by_number;
   std::vector<RawElement> elements;
-  std::map<Tag, std::string> names;              // of physical groups
+  std::map<Tag, std::string> names;              // names of physical groups
   std::map<Tag, std::vector<long>> of_entities;  // physical groups of an entity, 4.1
 
   [[nodiscard]] std::string name(int dimension, long tag) const {
@@ -52,7 +52,7 @@ struct GmshContent {
     if (known != names.end()) return known->second;
     constexpr std::array kinds = {"point", "curve", "surface", "volume"};
     return kinds[static_cast<std::size_t>(dimension)] +
-           std::to_string(tag);  // a number alone is that of a node
+           std::to_string(tag);  // a number alone would name a node
   }
 };
 
@@ -220,7 +220,7 @@ class GmshReader {
   double z_ = 0.0;
 };
 
-/// The groups of a body.
+/// Builds a body with its groups.
 class BodyBuilder {
  public:
   BodyBuilder(const GmshContent& content, const std::string& file, const std::string& key)
@@ -251,7 +251,7 @@ class BodyBuilder {
 
   void add_elements(const std::vector<std::string>& surfaces) {
     std::set<std::string> there, used;
-    std::set<std::vector<int>> known;  // version 2 repeats elements of two groups
+    std::set<std::vector<int>> known;  // version 2 repeats elements that are in two groups
     for (const RawElement& raw : content_.elements) {
       if (!raw.type->shape) continue;
       bool wanted = surfaces.empty();
@@ -300,7 +300,7 @@ class BodyBuilder {
     std::vector<int> nodes;
     for (const int n : raw.nodes) {
       const int own = index_[static_cast<std::size_t>(n)];
-      if (own < 0) return;  // of another body
+      if (own < 0) return;  // an element of another body
       nodes.push_back(own);
     }
     const SharedEdge* edge = nullptr;
@@ -317,14 +317,14 @@ class BodyBuilder {
       PlaneMesh::Group& g = group(name);
       if (edge && edge->elements > 1)
         inside_.try_emplace(name, &raw);
-      else if (edge && taken_.insert({name, edge}).second)  // version 2 repeats the lines of two groups
+      else if (edge && taken_.insert({name, edge}).second)  // version 2 repeats lines that are in two groups
         g.edges.push_back({edge->nodes});
       for (const int n : edge ? edge->nodes : nodes)
         if (in_group_.insert({name, n}).second) g.nodes.push_back(n);
     }
   }
 
-  /// Of an element of the file; else the boundary would miss what its line is meant for.
+  /// Refuses a line that is not an edge of an element: a part of the boundary would be missing.
   void check_is_edge(const RawElement& line) const {
     for (const RawElement& raw : content_.elements) {
       if (!raw.type->shape) continue;
@@ -344,7 +344,7 @@ class BodyBuilder {
                     line.number, number(0), number(1)));
   }
 
-  /// A curve in the inside of a body is a set of nodes: it has the body on both sides.
+  /// A curve inside a body must be a set of nodes: the body is on both of its sides.
   void check_boundaries() const {
     for (const PlaneMesh::Group& g : mesh_.groups)
       if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())
@@ -362,10 +362,10 @@ class BodyBuilder {
   SharedEdges edges_;
   std::set<std::pair<std::string, const SharedEdge*>> taken_;
   std::set<std::pair<std::string, int>> in_group_;
-  std::map<std::string, const RawElement*> inside_;  ///< a line of a group that lies inside of the body
+  std::map<std::string, const RawElement*> inside_;  ///< a line of a group that lies inside the body
 };
 
-/// The least determinant at nodes and points of integration, and the greatest.
+/// The smallest and the largest Jacobian determinant at nodes and integration points.
 std::pair<double, double> determinants(const PlaneMesh& mesh, const PlaneMesh::Element& element) {
   std::pair<double, double> range{std::numeric_limits<double>::infinity(),
                                   -std::numeric_limits<double>::infinity()};

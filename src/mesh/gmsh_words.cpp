@@ -30,7 +30,7 @@ std::string GmshWords::word() {
       fail("found a word of more than 200 characters, expected a mesh of Gmsh in ASCII");
     text += static_cast<char>(c);
   }
-  if (c != EOF) in_.unget();  // the end of the line counts with the next word
+  if (c != EOF) in_.unget();  // keep the end of the line for the next word
   return text;
 }
 

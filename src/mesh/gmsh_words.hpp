@@ -1,4 +1,4 @@
-// gmsh_words.hpp: words of a mesh file, one after the other, with the line that they stand on.
+// gmsh_words.hpp: reads the words of a mesh file one by one, with their line numbers.
 //
 //   GmshWords words(in, file, key);   while (words.next_section(name)) ... words.integer() ... words.number()
 #pragma once
@@ -33,7 +33,7 @@ class GmshWords {
   [[noreturn]] void fail(const std::string& message) const { throw SceneError(place(), key_, message); }
 
  private:
-  /// Empty at the end of the file.
+  /// The next word; empty at the end of the file.
   std::string word();
 
   std::istream& in_;

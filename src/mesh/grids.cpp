@@ -9,12 +9,12 @@
 namespace signorini {
 namespace {
 
-/// Nodes and elements over u and v: with middles a lattice of half steps.
+/// Lattice of nodes over u and v; quadratic elements have half steps.
 struct Lattice {
   const GridSpec& grid;
   bool closed;  // v = 1 is v = 0
   int step, columns, rows;
-  std::vector<int> index;  // of the lattice's points; -1: no node
+  std::vector<int> index;  // node at each lattice point; -1: no node
   PlaneMesh mesh;
 
   Lattice(const GridSpec& spec, bool is_closed)
@@ -42,7 +42,7 @@ struct Lattice {
       }
   }
 
-  /// Where the points of the lattice lie, 0 to 1: middles half way between.
+  /// Coordinates of the lattice points, 0 to 1: middle nodes are half-way.
   [[nodiscard]] std::vector<double> parts(std::size_t axis) const {
     const int n = grid.elements[axis];
     const double q = n > 1 ? std::pow(grid.grading[axis], 1.0 / (n - 1)) : 1.0;
@@ -74,7 +74,8 @@ struct Lattice {
       case PlaneShape::t6:
         break;
     }
-    const bool forth = (i / s + j / s) % 2 == 0;  // diagonals alternate, so that the mesh has no direction
+    const bool forth = (i / s + j / s) % 2 == 0;  // diagonals alternate, so that the mesh has no preferred
+                                                  // direction
     const bool middles = grid.shape == PlaneShape::t6;
     const int m = middles ? at(i + h, j + h) : -1;
     const auto triangle = [&](std::vector<int> corners, const std::vector<int>& between) {
@@ -97,7 +98,7 @@ struct Lattice {
       for (int i = 0; i + 1 < columns; i += step) add_cell(i, j);
   }
 
-  /// From (i, j) on by (di, dj) to the end of the lattice, the body on the left.
+  /// Adds a group along a side: from (i, j) by steps (di, dj) to the end of the lattice, with the body on the left.
   void add_group(const char* name, int i, int j, int di, int dj) {
     PlaneMesh::Group group{name, {}, {}};
     const int steps = di != 0 ? grid.elements[0] : grid.elements[1];

@@ -1,11 +1,11 @@
-// grids.hpp: meshes of a rectangle and of a sector of a ring, from a few numbers.
+// grids.hpp: parametric meshes of a rectangle and of an annular sector.
 //
 //   rectangle  x = from + Q(angle) (u width, v height)        groups: bottom, right, top, left
 //   ring       r = inner + u (outer - inner), angle = start + v (end - start)   groups: inner, end, outer, start
 //
-// u and v go from 0 to 1 in elements[0] and elements[1] steps; grading: the last step is so many times the first (geometric).
-// Nodes of quadratic elements lie on the arcs. Nodes are numbered from 1 on, u first. A whole ring (2 pi) is closed: it has
-// neither start nor end.
+// u and v run from 0 to 1 in elements[0] and elements[1] steps; grading: ratio of the last step to the first
+// (geometric). Nodes of quadratic elements lie on the arcs. Nodes are numbered from 1, u first. A full ring (2 pi) is
+// closed: it has neither start nor end.
 #pragma once
 
 #include <array>

@@ -1,8 +1,10 @@
-// mesh_quality.hpp: how far elements are from squares and even triangles.
+// mesh_quality.hpp: distortion of elements compared with squares and equilateral triangles.
 //
-//   angle at corner i: between its two edges, corners joined by straight lines;  aspect: longest edge / shortest edge
+//   angle at corner i: between its two edges, with corners joined by straight lines;  aspect: longest edge / shortest
+// edge
 //
-// Exact elements keep a constant stress at any shape; errors of others grow with 1/sin(angle) and with the aspect.
+// Elements represent a constant stress exactly in any shape; errors of other stresses grow with 1/sin(angle) and the
+// aspect.
 #pragma once
 
 #include "mesh/mortar.hpp"
@@ -18,7 +20,7 @@ struct MeshQuality {
   Worst least_angle{180.0}, greatest_angle, aspect;  ///< degrees, degrees, 1
 };
 
-/// place: of the indices in `elements`.
+/// place: position of each index in `elements`.
 [[nodiscard]] MeshQuality quality_of(const std::vector<PlaneMesh::Element>& elements, const PlaceOf& place);
 
 }  // namespace signorini

@@ -16,9 +16,9 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-/// Of an edge's length: an edge of which less is covered counts as not covered. Where the part d of an edge is covered the
-/// matrix int N_i N_j has a condition of 1/d^2: at 1e-5 the weights of the master keep six of sixteen digits. Places in files
-/// that have six digits leave overlaps below it.
+/// Relative to an edge's length: an edge with less coverage counts as uncovered. If the part d of an edge is covered,
+/// the matrix int N_i N_j has a condition of 1/d^2: at 1e-5 the weights of the master keep six of sixteen digits.
+/// Coordinates in files with six digits produce overlaps below this limit.
 constexpr double no_overlap = 1e-5;
 constexpr double cosine_of_corner = 0.70710678118654752;
 
@@ -46,7 +46,7 @@ struct EdgeCurve {
     return x;
   }
   [[nodiscard]] Point2 x(double s) const { return sum(edge_shapes_at(at.size(), s).values); }
-  /// s at which x(s) . along is this; Newton's method, of two nodes one step.
+  /// s at which x(s) . along has this value; Newton's method, one step for edges of two nodes.
   [[nodiscard]] double s_at(const Point2& along, double value) const {
     const double from = at[0].dot(along), to = at[1].dot(along);
     double s = -1.0 + 2.0 * (value - from) / (to - from);
@@ -69,8 +69,8 @@ Curves curves_of(const std::vector<PlaneMesh::Edge>& edges, const PlaceOf& place
   return curves;
 }
 
-/// The greatest distance of a node from the origin. Meshes are turned and moved as a whole: each place is known to eps of
-/// that, also along an axis along which it is zero (cos 90 degrees is 6e-17).
+/// The largest distance of a node from the origin. Meshes are rotated and moved as a whole, so each coordinate has an
+/// error of eps times this distance, even if it is zero (cos 90 degrees is 6e-17).
 double reach_of(std::initializer_list<const Curves*> all) {
   double reach = 0.0;
   for (const Curves* curves : all)
@@ -79,7 +79,7 @@ double reach_of(std::initializer_list<const Curves*> all) {
   return reach;
 }
 
-/// Edges behind each other, as far as they are.
+/// Sorts edges into chains as far as they are connected.
 Curves in_order(Curves curves) {
   std::map<int, std::size_t> by_start;
   std::map<int, int> ends;
@@ -100,20 +100,20 @@ Curves in_order(Curves curves) {
   };
   for (std::size_t i = 0; i < curves.size(); ++i)
     if (!ends.contains(curves[i].nodes[0])) follow(i);
-  for (std::size_t i = 0; i < curves.size(); ++i) follow(i);  // closed ones
+  for (std::size_t i = 0; i < curves.size(); ++i) follow(i);  // closed chains
   return ordered;
 }
 
-/// Sums at a node of the slave.
+/// Integrals at a node of the slave.
 struct NodeSums {
   double length = 0.0;
   Point2 outward{0.0, 0.0};
   std::map<int, double> master;  // M_kl
-  std::optional<Point2> edge;    // normal of the edge before
+  std::optional<Point2> edge;    // normal of the previous edge
   bool corner = false;
 };
 
-/// A part of a slave edge and what covers it; null: the ground, or a line.
+/// A part of a slave edge and the master edge that covers it; null: the ground, or a line.
 struct Overlap {
   double from, to;
   const EdgeCurve* master;
@@ -121,7 +121,7 @@ struct Overlap {
 
 class MortarSums {
  public:
-  /// reach: of all that gaps are differences of.
+  /// reach: size of the coordinates of which gaps are differences.
   MortarSums(const Curves& slave, double reach) : slave_(slave), reach_(reach) {}
 
   void add(const EdgeCurve& edge, const std::vector<Overlap>& overlaps) {
@@ -129,7 +129,7 @@ class MortarSums {
     const auto n = static_cast<Eigen::Index>(edge.nodes.size());
     Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n), normals = Eigen::MatrixXd::Zero(n, 2);
-    std::map<int, Eigen::VectorXd> mixed;  // a node of the master: int N_i N_l
+    std::map<int, Eigen::VectorXd> mixed;  // by node of the master: int N_i N_l
     for (const Overlap& part : overlaps)
       for (const EdgePoint& point : edge_points()) {
         const double half = 0.5 * (part.to - part.from);
@@ -212,8 +212,8 @@ class MortarSums {
   std::map<int, NodeSums> sums_;
 };
 
-/// How far behind a point of a slave edge its body ends: at the nearest edge that looks the other way. Infinite: nothing is
-/// known there.
+/// Depth of the slave's body behind a point of its edge: distance to the nearest edge that faces the opposite way.
+/// Infinite if unknown.
 double depth_of(const Point2& point, const EdgeCurve& slave, const Curves& outline) {
   const double along = point.dot(slave.chord);
   double depth = std::numeric_limits<double>::infinity();
@@ -226,13 +226,13 @@ double depth_of(const Point2& point, const EdgeCurve& slave, const Curves& outli
   return depth;
 }
 
-/// Parts of a slave edge with the nearest master edge in front of each.
+/// Parts of a slave edge, each with the nearest master edge in front of it.
 std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master, const Curves& outline) {
   std::vector<const EdgeCurve*> facing;
   std::vector<double> breaks{-1.0, 1.0};
   const double from = slave.at[0].dot(slave.chord), to = slave.at[1].dot(slave.chord);
   for (const EdgeCurve& m : master) {
-    if (!(m.outward().dot(slave.outward()) < 0.0)) continue;  // it runs the other way along the chord
+    if (!(m.outward().dot(slave.outward()) < 0.0)) continue;  // not facing the slave edge
     const double start = m.at[1].dot(slave.chord), end = m.at[0].dot(slave.chord);
     if (end <= from || start >= to) continue;
     facing.push_back(&m);
@@ -306,7 +306,7 @@ MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const Plane
     const double size = reach + std::hypot(point[0], point[1]);
     node.gap = std::abs(gap) <= rounding::of_many * size ? 0.0 : gap;
   }
-  seam.corners.clear();  // the line says the normal
+  seam.corners.clear();  // the line gives the normal
   return seam;
 }
 

@@ -1,14 +1,14 @@
-// mortar.hpp: one boundary against another by dual mortar, in the undeformed geometry.
+// mortar.hpp: contact of two boundaries by dual mortar, in the undeformed geometry.
 //
-//   psi_k:  int psi_k N_j ds = delta_kj D_k,   D_k = int N_k ds         over the part of the slave edge that is covered
-//   M_kl  = int psi_k N_l^m ds                                          exactly on straight edges, on the overlaps
-//   g_k   = n_k . (u_k - sum_l w_kl u_l) + g0_k,   w_kl = M_kl / D_k,   g0_k the same of the places
+//   psi_k:  int psi_k N_j ds = delta_kj D_k,   D_k = int N_k ds         over the covered part of the slave edge
+//   M_kl  = int psi_k N_l^m ds                                          over the overlaps, exact on straight edges
+//   g_k   = n_k . (u_k - sum_l w_kl u_l) + g0_k,   w_kl = M_kl / D_k,   g0_k: the same with the positions
 //   n_k   = - int N_k nu ds / |...|                                     nu: outward normal of the slave
 //
-// Points of the slave meet the master along the normal of the slave edge's chord; of several master edges the nearest. A
-// master behind the slave's edge is an interference as far as the slave's body reaches: what lies on its other side, and that
-// other side itself, do not face the edge. On a straight seam a constant pressure, force N_k = p D_k, is transmitted exactly,
-// however the meshes meet.
+// Points of the slave are projected to the master along the normal of the slave edge's chord; the nearest of several
+// master edges is used. A master behind the slave's edge is an interference within the depth of the slave's body; edges
+// on the body's other side do not face the edge. On a straight seam a constant pressure, force N_k = p D_k, is
+// transmitted exactly, for any pair of meshes.
 // Source: Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989; Popp, Gee, Wall, Int. J. Numer. Meth. Eng. 79 (2009) 1354; covered
 // parts: Cichosz, Bischoff, Comput. Methods Appl. Mech. Eng. 200 (2011) 1317.
 #pragma once
@@ -30,23 +30,24 @@ struct MortarNode {
   double length = 0.0;                              ///< D_k
   PlanePoint normal{0.0, 0.0};                      ///< n_k
   std::vector<std::pair<int, double>> master = {};  ///< w_kl
-  double gap = 0.0;                                 ///< g0_k; zero where rounding of coordinates is all
+  double gap = 0.0;                                 ///< g0_k; exactly zero if it is no more than rounding of
+                                                    ///< coordinates
 };
 
-/// Nodes of the slave that the master covers, in the order of the slave's course.
+/// Nodes of the slave that the master covers, in order along the slave.
 struct MortarSeam {
   std::vector<MortarNode> nodes;
   std::vector<int> negative;  ///< nodes whose D_k <= 0: partly covered quadratic edges
   std::vector<int> corners;   ///< nodes at which the edges' normals differ by more than 45 degrees
 };
 
-/// outline: all edges of the slave's body, as far as they are known.
+/// outline: all known edges of the slave's body.
 [[nodiscard]] MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
                                         const std::vector<PlaneMesh::Edge>& master, const PlaceOf& place,
                                         const std::vector<PlaneMesh::Edge>& outline = {});
-/// Against what lies where the slave is: all of it is covered, the gap is zero.
+/// Contact with a ground that coincides with the slave: full coverage, zero gap.
 [[nodiscard]] MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const PlaceOf& place);
-/// Against a line through `point` with unit `normal`: g0_k = normal . (x_k - point).
+/// Contact with a line through `point` with unit `normal`: g0_k = normal . (x_k - point).
 [[nodiscard]] MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const PlanePoint& point,
                                         const PlanePoint& normal, const PlaceOf& place);
 

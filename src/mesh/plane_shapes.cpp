@@ -3,17 +3,17 @@
 namespace signorini {
 namespace {
 
-// Corners and middles of a quadrilateral.
+// Corners and middle nodes of a quadrilateral.
 constexpr std::array<std::array<double, 2>, 8> square_points = {
     {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}}};
 constexpr std::array<std::array<double, 2>, 6> triangle_points = {
     {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
 
-// Degree 2.
+// Integration points of degree 2.
 constexpr std::array<IntegrationPoint, 3> triangle_3 = {{{1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0},
                                                          {2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0},
                                                          {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0}}};
-// Degree 4: weights and places solve the moment equations to the last digit.
+// Integration points of degree 4: weights and coordinates solve the moment equations to machine precision.
 constexpr double p1 = 0.44594849091596488632, w1 = 0.5 * 0.22338158967801146570;
 constexpr double p2 = 0.09157621350977074346, w2 = 0.5 * 0.10995174365532186764;
 constexpr std::array<IntegrationPoint, 6> triangle_6 = {{{p1, p1, w1},

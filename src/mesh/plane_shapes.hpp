@@ -1,10 +1,11 @@
-// plane_shapes.hpp: shape functions of triangles and quadrilaterals, and points of integration.
+// plane_shapes.hpp: shape functions of triangles and quadrilaterals, and integration points.
 //
 //   x(a, b) = sum_k N_k(a, b) x_k;   triangles: 0 <= a, b, a + b <= 1;   quadrilaterals: -1 <= a, b <= 1
 //
 // Edges: -1 <= s <= 1, N = (1 -+ s)/2, or s(s -+ 1)/2 at the ends and 1 - s^2 in the middle.
-// Numbering of nodes: signorini/plane_mesh.hpp.
-// Source: Zienkiewicz, Taylor, The Finite Element Method (2000), chapters 8 and 9; rule of six points: Strang and Fix (1973).
+// Node numbering: signorini/plane_mesh.hpp.
+// Source: Zienkiewicz, Taylor, The Finite Element Method (2000), chapters 8 and 9; six-point rule: Strang and Fix
+// (1973).
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +25,7 @@ namespace signorini {
   return shape == PlaneShape::t6 || shape == PlaneShape::q8;
 }
 
-/// Values of the shape functions and their derivatives by a and b: nodes x 1, nodes x 2.
+/// Values of the shape functions, and their derivatives by a and b: nodes x 1, nodes x 2.
 struct ShapeValues {
   Eigen::VectorXd values;
   Eigen::MatrixX2d slopes;
@@ -34,15 +35,15 @@ struct ShapeValues {
 struct IntegrationPoint {
   double a = 0.0, b = 0.0, weight = 0.0;
 };
-/// Exact for the mass of elements with straight edges: 3 points (t3), 6 (t6), 2 x 2 (q4), 3 x 3 (q8).
+/// Rule that is exact for the mass of elements with straight edges: 3 points (t3), 6 (t6), 2 x 2 (q4), 3 x 3 (q8).
 [[nodiscard]] std::span<const IntegrationPoint> points_of(PlaneShape shape);
 
-/// Points at which stresses of an element are most accurate: its middle (t3), 3 (t6), 2 x 2 (q4, q8).
+/// A point at which stresses of an element are most accurate: its centre (t3), 3 (t6), 2 x 2 (q4, q8).
 struct StressPoint {
   double a = 0.0, b = 0.0;
 };
 [[nodiscard]] std::span<const StressPoint> stress_points(PlaneShape shape);
-/// Factor of the value at a stress point in the (bi)linear function through all of them, at a node.
+/// Weight of a stress point in the extrapolation to a node, by the (bi)linear function through all stress points.
 [[nodiscard]] double extension(PlaneShape shape, std::size_t point, std::size_t node);
 
 /// Points (a, b) of the nodes.
@@ -57,7 +58,7 @@ struct EdgeValues {
 };
 [[nodiscard]] EdgeValues edge_shapes_at(std::size_t nodes, double s);
 
-/// Points and weights of Gauss's rule of five points on [-1, 1]: exact up to degree 9.
+/// Points and weights of the five-point Gauss rule on [-1, 1]: exact up to degree 9.
 struct EdgePoint {
   double s, weight;
 };

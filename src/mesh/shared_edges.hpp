@@ -1,4 +1,4 @@
-// shared_edges.hpp: the edges of a mesh, each once, and how many elements have it.
+// shared_edges.hpp: the edges of a mesh, each once, with the number of adjacent elements.
 //
 //   1: on the boundary,   2: inside
 #pragma once
@@ -17,10 +17,10 @@ struct SharedEdge {
       nodes;  ///< two ends, then the middle if there is one; the first of its elements is on the left
   int elements = 0;
 };
-/// By the numbers of their ends, the smaller one first.
+/// Edges by the numbers of their ends, the smaller one first.
 using SharedEdges = std::map<std::pair<int, int>, SharedEdge>;
 
-/// Adds the edges of more elements.
+/// Adds the edges of these elements.
 inline void add_edges(const std::vector<PlaneMesh::Element>& elements, SharedEdges& edges) {
   for (const PlaneMesh::Element& element : elements)
     for (std::size_t i = 0; i < corner_count(element.shape); ++i) {

@@ -10,7 +10,7 @@
 namespace signorini {
 namespace {
 
-constexpr int parts = 10;  // of what bends
+constexpr int parts = 10;  // segments of a bent line
 
 Json row_of(double s, const LineShapes& h) { return {s, h.a, h.turn_a, h.b, h.turn_b}; }
 
@@ -23,7 +23,7 @@ Json rows_of(int count, bool hinged_a, bool hinged_b) {
   return rows;
 }
 
-/// From the least to the greatest; one node alone has an extent of one.
+/// Range from the smallest to the largest coordinate; 1 for a single node.
 double extent_of(const Json& nodes, const char* coordinate) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const Json& node : nodes) {

@@ -1,4 +1,4 @@
-// html.hpp: text, tables and JSON where a page of HTML has them. Names of a scene may be anything: nothing of them is ever markup.
+// html.hpp: text, tables and JSON for HTML pages. All text is escaped: names of a scene never become markup.
 //
 //   html_text("a<b")                     "a&lt;b"
 //   script_json("{\"a\":\"</script>\"}")   "{\"a\":\"\u003c/script>\"}"
@@ -13,26 +13,26 @@
 
 namespace signorini {
 
-/// In an element or in a quoted attribute. Bytes that HTML forbids become the replacement character.
+/// Text for an element or a quoted attribute. Bytes that HTML forbids become the replacement character.
 [[nodiscard]] std::string html_text(std::string_view text);
 
-/// JSON that may stand in <script type="application/json">.
+/// JSON that is safe in <script type="application/json">.
 [[nodiscard]] std::string script_json(const std::string& json);
 
-/// A number to so many digits, "1.2e-08"; other texts as they are.
+/// A number with this number of digits, "1.2e-08"; other texts unchanged.
 [[nodiscard]] std::string short_number(const std::string& cell, int digits = 6);
 
-/// Numbers have six digits, times (t) eleven. `columns`: which ones, by name; all where empty. Rows after the first `most` are left out, and said so.
-/// What is rounding beside the others of its column is 0. `units`: of columns, for the header. Empty where there is no such
-/// file. Errors: FileError.
+/// Table of a CSV file: numbers with six digits, times (t) with eleven. `columns`: selected by name; empty: all. Rows
+/// after the first `most` are omitted, with a note. Values of rounding size relative to their column are 0. `units`:
+/// units of columns, for the header. Empty if there is no such file. Errors: FileError.
 [[nodiscard]] std::string csv_table(const std::filesystem::path& file, std::size_t most,
                                     const std::vector<std::string>& columns = {},
                                     const std::map<std::string, std::string>& units = {});
 
-/// "<section id=...><h2>...</h2>...</section>"; nothing around nothing.
+/// "<section id=...><h2>...</h2>...</section>"; empty for an empty body.
 [[nodiscard]] std::string section(const std::string& id, const std::string& heading, const std::string& body);
 
-/// @NAME@ in the text of a page, replaced once; what comes in is not looked through.
+/// @NAME@ in the text of a page, replaced once; inserted text is not searched again.
 struct Insertion {
   std::string name, value;
 };

@@ -23,7 +23,7 @@ namespace {
 
 enum class Sheet { support, response, envelope };
 
-/// How cases are compared: which of them governs a figure.
+/// Criterion by which the governing case of a figure is selected.
 enum class Governs { least, greatest, magnitude };
 
 struct Figure {
@@ -31,7 +31,7 @@ struct Figure {
   std::string item, quantity, unit;
   Governs governs = Governs::greatest;
   std::optional<double> value, t;
-  std::string place;  ///< of an envelope
+  std::string place;  ///< place of an envelope's extreme
 };
 
 /// A member, or null.
@@ -46,7 +46,7 @@ std::optional<double> number_in(const Json& json) {
 
 std::string text_in(const Json& json) { return json.is_string() ? json.get<std::string>() : ""; }
 
-/// Of numbers of one kind: those that are rounding beside the greatest are 0.
+/// Sets numbers of rounding size, relative to the largest of the same kind, to 0.
 void clear_rounding(std::vector<Figure>& figures, const std::string& unit) {
   double greatest = 0.0;
   for (const Figure& f : figures)
@@ -125,7 +125,7 @@ std::string cell(const std::optional<double>& value) {
   return fmt::format("<td class=n>{}</td>", value ? shown(*value) : "");
 }
 
-/// A time that the player goes to.
+/// Cell with a time that the player can jump to.
 std::string time_cell(const std::optional<double>& t) {
   return t ? fmt::format("<td class=n data-t=\"{}\">{:.5g}</td>", shortest(*t), *t) : "<td></td>";
 }
@@ -138,7 +138,7 @@ std::string table(const std::string& head, const std::string& rows) {
                             head, rows);
 }
 
-/// The unit stands below.
+/// A heading with the unit in a second line.
 std::string heading(const std::string& text, const std::string& unit = "") {
   return "<th>" + html_text(text) + (unit.empty() ? "" : "<br>[" + html_text(unit) + "]") + "</th>";
 }
@@ -147,7 +147,7 @@ std::string heading(const std::string& text, const std::string& unit = "") {
 
 namespace {
 
-/// Of tables of support loads; `more`: a sentence that follows.
+/// Sign conventions below tables of support loads; `more`: an additional sentence.
 std::string signs(const std::string& more = "") {
   return "<p class=signs>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the reaction "
          "at the start "
@@ -201,13 +201,13 @@ std::string responses_html(const Json& summary, bool envelopes) {
 
 namespace {
 
-/// A row of all cases: a figure and its values.
+/// One row for all cases: a figure and its values.
 struct CaseRow {
   Figure of;
-  std::vector<std::optional<Figure>> values;  ///< one a case
+  std::vector<std::optional<Figure>> values;  ///< one per case
 };
 
-/// Every figure that any case has, in the order of the first that has it.
+/// All figures of all cases, in the order of their first occurrence.
 std::vector<CaseRow> case_rows(const std::vector<LoadCase>& cases) {
   std::vector<CaseRow> rows;
   for (std::size_t c = 0; c < cases.size(); ++c)
@@ -231,7 +231,7 @@ bool is_done(const LoadCase& c) {
   return text_in(entry_of(entry_of(c.summary, "outcome"), "kind")) == "done";
 }
 
-/// The case that governs, of those that were computed to their end; -1: none has a value, or the value is 0 in all.
+/// Index of the governing case among the completed ones; -1: none has a value, or the value is 0 in all.
 int governing(const std::vector<LoadCase>& cases, const CaseRow& row) {
   int best = -1;
   double most = 0.0;
@@ -250,7 +250,7 @@ int governing(const std::vector<LoadCase>& cases, const CaseRow& row) {
   return any ? best : -1;
 }
 
-/// Names of directories may have commas and quotes.
+/// Quotes cells, since names of directories may contain commas and quotes.
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -357,7 +357,7 @@ std::string load_cases_csv(const std::vector<LoadCase>& cases) {
 
 namespace {
 
-/// "a=b, c=d" of --set a=b --set=c=d on a run's command line: what makes a case of a scene.
+/// "a=b, c=d" from --set a=b --set=c=d on a run's command line: the description of a case.
 std::string overrides_of(const Json& summary) {
   const Json& line = entry_of(summary, "command_line");
   std::string text;

@@ -1,10 +1,11 @@
-// load_cases.hpp: what a run's summary.json says about loads, as figures; of one run as tables, of several side by side.
+// load_cases.hpp: loads from summary.json as figures: tables for one run, or several runs side by side.
 //
-//   contacts[].static_reaction, .load    N at rest; least and greatest N and T with their times; residual slip; friction loss
-//   response[]                           least and greatest value with time, and the place of an envelope; value at the end
+//   contacts[].static_reaction, .load    N at rest; least and largest N and T with their times; residual slip; friction
+// loss
+//   response[]                           least and largest value with time, and the place of an envelope; final value
 //
-// Signs are those of the summary: N < 0 is compression, so that least N is the greatest compression. A number that is rounding beside
-// the greatest of its kind in its run is shown as 0.
+// Signs are those of the summary: N < 0 is compression, so the least N is the largest compression. A number of rounding
+// size relative to the largest of its kind in its run is shown as 0.
 #pragma once
 
 #include <filesystem>
@@ -15,25 +16,26 @@
 
 namespace signorini {
 
-/// A run of several, and what it is called beside the others.
+/// One of several runs, with its name in the comparison.
 struct LoadCase {
   std::string name;
   Json summary;
 };
 
-/// "<table>..." of one run, and its signs; empty where it has none. Times are buttons for the page's player: <td data-t=...>.
+/// "<table>..." of one run, with the sign conventions; empty if it has no contacts. Times are buttons of the page's
+/// player: <td data-t=...>.
 [[nodiscard]] std::string support_loads_html(const Json& summary);
-/// Outputs that are no envelope, and those that are.
+/// Table of the outputs without envelopes, or of the envelopes.
 [[nodiscard]] std::string responses_html(const Json& summary, bool envelopes);
 
-/// Summaries of run directories, named by the directory's last part. Errors: FileError, also where one is no run, two have the same
-/// name, or units differ.
+/// Summaries of run directories, named by the directory's last part. Errors: FileError, also if a directory is no run,
+/// if two have the same name, or if units differ.
 [[nodiscard]] std::vector<LoadCase> read_load_cases(const std::vector<std::filesystem::path>& directories);
 
-/// Sentences: cases that did not reach their end, and cases of different structures.
+/// Warnings: cases that did not reach their end, and cases with different structures.
 [[nodiscard]] std::vector<std::string> load_case_doubts(const std::vector<LoadCase>& cases);
 
-/// item,quantity,unit,CASE,CASE t,...,governing: a row a figure; a cell is empty where the case has no such item.
+/// item,quantity,unit,CASE,CASE t,...,governing: one row per figure; a cell is empty if the case has no such item.
 [[nodiscard]] std::string load_cases_csv(const std::vector<LoadCase>& cases);
 /// Sections: cases, support loads, responses, member envelopes.
 [[nodiscard]] std::string load_cases_html(const std::vector<LoadCase>& cases);

@@ -14,7 +14,7 @@ namespace signorini {
 namespace {
 
 constexpr double accuracy =
-    1e-3;  // of the greatest displacement: a quarter of a pixel where that is an eighth of 2000
+    1e-3;  // relative to the largest displacement: a quarter of a pixel if that is an eighth of 2000 pixels
 constexpr std::size_t most_on_page = 120'000;  // numbers: about 0.8 MB
 
 Json digits(double value, int count) {

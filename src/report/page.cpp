@@ -27,12 +27,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_rows = 2000;  // of a table on the page
+constexpr std::size_t most_rows = 2000;  // limit for a table on the page
 
 struct Kind {
   const char *marker, *name;
 };
-// In this order: a comparison has no summary of its own, but folders of runs.
+// The order matters: a comparison has no summary of its own, but folders of runs.
 constexpr Kind kinds[] = {{"compare.json", "comparison"},
                           {"study.json", "study"},
                           {"sweep.json", "sweep"},
@@ -63,7 +63,7 @@ std::string part(std::string_view name) {
   return {};
 }
 
-/// A value as a reader wants it: a text without quotes, a number to six digits.
+/// A value for readers: a text without quotes, a number with six digits.
 std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
@@ -135,7 +135,7 @@ std::string run_facts(const Json& summary) {
   return text;
 }
 
-/// Of events.csv what fits a page, with units in the header: the rest stays in the file.
+/// The part of events.csv that fits a page, with units in the header; the rest stays in the file.
 std::string event_table(const fs::path& file, const Units& units) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
@@ -153,7 +153,7 @@ std::string event_table(const fs::path& file, const Units& units) {
                              "impulses and forces after it, too.</p>\n";
 }
 
-/// What the terminal calls a condition of the audit, and its unit.
+/// Name of a condition of the audit, as on the terminal, and its unit.
 struct Condition {
   const char *key, *name, *unit;
 };
@@ -190,7 +190,7 @@ std::string audit_table(const Json& summary, const Units& units) {
          rows + "</tbody></table></div>\n";
 }
 
-/// Scalars of the top level.
+/// List of the scalars at the top level.
 std::string json_facts(const Json& json) {
   std::string text;
   for (const auto& [name, value] : json.items())
@@ -198,7 +198,7 @@ std::string json_facts(const Json& json) {
   return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
 }
 
-/// Of a run of one period: what orbit.json says, and the greatest multipliers.
+/// Section for a run of one period: facts of orbit.json, and the largest multipliers.
 std::string orbit_section(const fs::path& directory) {
   constexpr std::size_t most_multipliers = 12;
   std::error_code error;
@@ -223,14 +223,14 @@ std::string orbit_section(const fs::path& directory) {
   return section("orbit", "Periodic motion", json_facts(orbit) + families + table);
 }
 
-/// `taken`: bytes of the page without them.
+/// `taken`: size of the page without pictures, in bytes.
 std::string pictures(const fs::path& directory, const std::string& command, std::size_t taken) {
   constexpr std::size_t most = 2'950'000;  // of 3 MB
   const std::string all = figures(directory, taken < most ? most - taken : 0);
   return all.empty() ? "<p>There are none; " + html_text(command) + " draws them.</p>\n" : all;
 }
 
-/// What study.md says in sentences; its table and picture are on the page already.
+/// The sentences of study.md; its table and picture are on the page already.
 std::string sentences(const std::string& markdown) {
   std::string text;
   std::istringstream lines(markdown);

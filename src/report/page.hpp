@@ -1,11 +1,12 @@
-// page.hpp: a directory of results as one page of HTML that needs nothing else: no network, no other file.
+// page.hpp: a directory of results as one self-contained HTML page.
 //
 //   write_file(dir / "report.html", page_of(dir, check))
 //
-// What is shown is read from the directory: of a run everything, with an animation; of a comparison, study, sweep or verification
-// its tables, facts and pictures. The texts, style and script of the page stand in src/report/page. There is no library in it: what
-// moves is one SVG of a few dozen shapes, and charts are lines on a canvas with one cursor that motion, charts and events share. That is
-// 300 lines of script; a library of charts has its own cursor and legend, which would have to be tied to the player, and 50 KB.
+// Everything is read from the directory: for a run all tables, with an animation; for a comparison, study, sweep or
+// verification its tables, facts and pictures. The texts, style and script of the page are in src/report/page. It uses
+// no library: the animation is one SVG of a few dozen shapes, charts are lines on a canvas, and motion, charts and
+// events share one cursor. That is 300 lines of script; a chart library would add 50 KB and its own cursor, to be
+// connected to the player.
 #pragma once
 
 #include <filesystem>
@@ -17,18 +18,18 @@
 
 namespace signorini {
 
-/// What a directory holds: "run", "comparison", "study", "sweep", "verification", "sensitivity", "fit",
+/// Kind of results in a directory: "run", "comparison", "study", "sweep", "verification", "sensitivity", "fit",
 /// "branch". Errors: FileError for any other.
 [[nodiscard]] std::string kind_of_results(const std::filesystem::path& directory);
 
-/// The page of a run; `scene`: its run.toml, `check`: what `check` says about it. Errors: FileError.
+/// The page of a run; `scene`: its run.toml, `check`: output of `check` for it. Errors: FileError.
 [[nodiscard]] std::string run_page(const std::filesystem::path& directory, const Scene& scene,
                                    const std::string& check);
 
 /// The page of several runs side by side (load_cases.hpp).
 [[nodiscard]] std::string load_cases_page(const std::vector<LoadCase>& cases);
 
-/// The page of anything else. Errors: FileError.
+/// The page of any other kind of results. Errors: FileError.
 [[nodiscard]] std::string results_page(const std::filesystem::path& directory);
 
 }  // namespace signorini

@@ -20,7 +20,7 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-/// A row of a record, and the part of the way to the next one; after a jump that happens at t.
+/// A row of a record, and the fraction of the way to the next one; at a jump, the row after it.
 struct Place {
   std::size_t row = 0;
   double part = 0.0;
@@ -38,7 +38,7 @@ Place place_in(const Json& times, double t) {
   return place;
 }
 
-/// Numbers that are not finite stand as null.
+/// Numbers that are not finite are null in JSON.
 double number_of(const Json& value) { return value.is_number() ? value.get<double>() : 0.0; }
 
 double value_at(const Json& values, const Place& place) {
@@ -47,7 +47,7 @@ double value_at(const Json& values, const Place& place) {
   return place.part > 0.0 ? from + place.part * (number_of(values[place.row + 1]) - from) : from;
 }
 
-/// What a file holds, as it grows.
+/// The cells and data of a file under construction.
 class Grid {
  public:
   std::size_t point(double x, double y, const Pair& displacement, const Pair& force = {0.0, 0.0}) {
@@ -77,7 +77,7 @@ class Grid {
   std::size_t count_ = 0;
 };
 
-constexpr int vertex = 1, line = 3, polyline = 4;  // VTK's numbers of cells
+constexpr int vertex = 1, line = 3, polyline = 4;  // cell types of VTK
 
 std::vector<FrameEnd> ends_at(const Json& data, double t) {
   const Json& times = data["curve"]["times"];

@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A time of frame_bodies.csv.
+/// Rows of frame_bodies.csv for one time.
 struct BodiesAt {
   double t = 0.0;
   std::vector<std::array<double, 6>>
-      nodes;  ///< ux, uy, xx, yy, xy, mises; of all bodies one behind the other
+      nodes;  ///< ux, uy, xx, yy, xy, mises of each node; the bodies one after another
 };
 
 /// A row of frame_seams.csv.
@@ -59,7 +59,7 @@ std::vector<SeamNodeAt> read_seams_at(const TableFolder& tables) {
   return all;
 }
 
-/// VTK's numbers of cells.
+/// Cell types of VTK.
 int cell_type(PlaneShape shape) {
   switch (shape) {
     case PlaneShape::t3:
@@ -109,11 +109,11 @@ class BodyCells {
   const Scene& scene_;
   std::string points_, bodies_, seams_;
   VtkCells cells_;
-  std::vector<std::size_t> point_of_;  // a node of the scene
+  std::vector<std::size_t> point_of_;  // by node of the scene
   std::size_t count_ = 0, elements_ = 0;
 };
 
-/// seams: rows of all seams, in their order; empty: the run has no such table.
+/// seams: rows of all seams, in their order; empty if the run has no such table.
 std::string BodyCells::point_data(const BodiesAt& at, const std::vector<SeamNodeAt>& seams) const {
   std::string displacements, stresses, mises;
   for (const auto& [ux, uy, xx, yy, xy, equivalent] : at.nodes) {
@@ -170,7 +170,7 @@ std::optional<fs::path> write_paraview_bodies(const fs::path& directory, const S
   const std::vector<SeamNodeAt> seams = read_seams_at(tables);
   std::size_t row = 0;
   for (const BodiesAt& at : read_bodies_at(tables)) {
-    if (at.nodes.size() != cells.points()) break;  // of a run that was killed
+    if (at.nodes.size() != cells.points()) break;  // incomplete frame of a killed run
     std::vector<SeamNodeAt> own;
     for (; row < seams.size() && seams[row].t == at.t; ++row) own.push_back(seams[row]);
     series.add(at.t, cells.frame(at, own));

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A coordinate in tenths, as short as it goes.
+/// A coordinate in tenths, in its shortest form.
 std::string tenths(long value) {
   std::string text = value < 0 ? "-" : "";
   const long size = std::labs(value);
@@ -29,7 +29,7 @@ std::string tenths(long value) {
   return text;
 }
 
-/// "3.2" behind "1": a blank, or nothing before a sign.
+/// Appends a number: after a blank, or directly if it has a sign.
 void append(std::string& path, long value) {
   const std::string text = tenths(value);
   const bool apart =
@@ -41,7 +41,7 @@ struct Point {
   long x = 0, y = 0;
 };
 
-/// "74.59,420.49" at `at`, which then stands behind it; false for anything else.
+/// Reads "74.59,420.49" at `at` and advances it; false for anything else.
 bool read_point(const std::string& path, std::size_t& at, Point& point) {
   double x = 0.0, y = 0.0;
   const char* end = path.data() + path.size();
@@ -49,14 +49,14 @@ bool read_point(const std::string& path, std::size_t& at, Point& point) {
   if (first.ec != std::errc() || first.ptr == end || *first.ptr != ',') return false;
   const auto second = std::from_chars(first.ptr + 1, end, y);
   if (second.ec != std::errc()) return false;
-  constexpr double most = 1e6;  // no picture is as large
+  constexpr double most = 1e6;  // larger than any picture
   if (!(std::abs(x) < most && std::abs(y) < most)) return false;
   point = {std::lround(10.0 * x), std::lround(10.0 * y)};
   at = static_cast<std::size_t>(second.ptr - path.data());
   return true;
 }
 
-/// A path of M x,y and L x,y only; any other as it was.
+/// Shortens a path that only has M x,y and L x,y; other paths are unchanged.
 std::string slim_path(const std::string& path) {
   std::string result;
   Point here;
@@ -91,7 +91,7 @@ std::string read_whole(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What a data address in a quoted attribute may not have as it is.
+/// Escapes characters that a data address in a quoted attribute must not contain.
 std::string address(const std::string& svg) {
   std::string result;
   for (const char c : svg) {
@@ -143,7 +143,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// The SVG, or the PNG beside it where that is smaller: a picture of many thousand points.
+/// The SVG, or the PNG beside it if that is smaller: a picture with many thousand points.
 std::string smaller_figure(const fs::path& svg) {
   std::string text = figure(svg, svg.stem().string());
   const fs::path png = fs::path(svg).replace_extension(".png");
@@ -165,8 +165,8 @@ std::string figures(const fs::path& directory, std::size_t room) {
   for (const auto& entry : fs::directory_iterator(directory / "plots", error))
     if (entry.path().extension() == ".svg") all.emplace_back(entry.path(), smaller_figure(entry.path()));
   std::sort(all.begin(), all.end());
-  // What a reader looks for first, then small ones; single contacts last, of these first the ones where most happens. The charts of
-  // the page have what contacts' pictures show.
+  // The pictures of the whole run come first, then small ones; single contacts last, those with the most events first.
+  // The page's charts contain the contents of the contacts' pictures.
   std::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), 0);
   const auto rank = [&](std::size_t i) {

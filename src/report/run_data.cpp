@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_values = 60'000;  // of displacements on a page: with their times a megabyte
-constexpr std::size_t most_motion = 16'000;  // rows of contacts
+constexpr std::size_t most_values = 60'000;  // limit for displacements on a page: a megabyte with their times
+constexpr std::size_t most_motion = 16'000;  // limit for rows of contacts
 constexpr std::size_t most_events = 5'000;
 
 double rounded(double value, int digits) {
@@ -41,7 +41,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-/// Which rows of times are kept: every `step`-th, and both sides of a jump.
+/// Indices of the kept rows: every `step`-th, and both sides of a jump.
 std::vector<std::size_t> kept_rows(const std::vector<double>& t, std::size_t most) {
   const std::size_t step = std::max<std::size_t>(1, (t.size() + most - 1) / std::max<std::size_t>(most, 1));
   std::vector<std::size_t> kept;
@@ -52,7 +52,7 @@ std::vector<std::size_t> kept_rows(const std::vector<double>& t, std::size_t mos
   return kept;
 }
 
-/// The displacements that a run's tables have, by name of the column; several may share their times.
+/// Displacements in a run's tables, by name of the column; several may share their times.
 struct Displacements {
   struct Curve {
     std::size_t times = 0;
@@ -63,7 +63,7 @@ struct Displacements {
   std::vector<Curve> curves;
 };
 
-/// Of history.csv, rows left out evenly.
+/// Displacements of history.csv, with rows dropped evenly.
 Displacements evenly(CsvReader& reader) {
   Displacements all;
   std::vector<std::size_t> index;
@@ -92,7 +92,7 @@ struct ValueOf {
   std::array<double, 1> operator()(const CurvePoint& point) const { return {point.value}; }
 };
 
-/// Of curves.csv, each with its own times.
+/// Displacements of curves.csv, each with its own times.
 Displacements each(const fs::path& file, const std::vector<std::string>& names, double t_end) {
   std::map<std::string, std::vector<CurvePoint>> points;
   CsvReader reader(file);
@@ -144,7 +144,7 @@ Json curve_json(const Displacements& all) {
   return {{"times", std::move(times)}, {"columns", std::move(columns)}};
 }
 
-/// Places by name: nodes of the scene, or degrees of freedom in a row.
+/// Positions by name: nodes of the scene, or degrees of freedom in a row.
 class Places {
  public:
   Places(const Scene& scene, const std::vector<std::string>& columns) {
@@ -225,7 +225,7 @@ Json supports_json(const Scene& scene, const Places& places) {
   return supports;
 }
 
-/// The histories of loads.csv, by the name of their column.
+/// The histories of loads.csv, by column name.
 std::map<std::string, Json> load_histories(const fs::path& directory) {
   std::map<std::string, Json> histories;
   if (!is_file(directory / "loads.csv")) return histories;
@@ -266,7 +266,7 @@ Json loads_json(const Scene& scene, const Places& places, const fs::path& direct
   return loads;
 }
 
-/// Where a direction acts: its node, or of [matrices] the degree of freedom that it moves most.
+/// Index of the place where a direction acts: its node, or with [matrices] its largest degree of freedom.
 int place_of_direction(const Direction& direction, const Places& places) {
   if (!direction.node.empty()) return places.of(direction.node);
   int place = -1;
@@ -280,7 +280,7 @@ int place_of_direction(const Direction& direction, const Places& places) {
 }
 
 Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& places) {
-  // The tangent is (ny, -nx), so of a slider n = (-ty, tx). Degrees of freedom are drawn as moving upwards.
+  // The tangent is (ny, -nx), so for a slider n = (-ty, tx). Degrees of freedom are drawn as moving upwards.
   std::array<double, 2> n{0.0, 1.0};
   const Direction& direction = contact.normal ? *contact.normal : *contact.tangent;
   if (!scene.matrices)
@@ -297,7 +297,7 @@ Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& 
 
 /// A row of a contact.
 struct ContactRow {
-  double t = 0.0, N = 0.0, T = 0.0, gap = 0.0;  // gap: no number of sliders
+  double t = 0.0, N = 0.0, T = 0.0, gap = 0.0;  // gap: NaN for sliders
   std::ptrdiff_t state = 0;
 };
 struct DrawnOf {
@@ -371,7 +371,7 @@ Json events_json(const Scene& scene, const fs::path& directory) {
   return events;
 }
 
-/// Columns of response.csv, with units of summary.json; rows left out evenly, jumps kept.
+/// Columns of response.csv, with units from summary.json; rows are dropped evenly, jumps kept.
 Json responses_json(const fs::path& directory) {
   Json responses = Json::array();
   const fs::path file = directory / "response.csv";

@@ -1,16 +1,17 @@
-// run_data.hpp: what the page of a run draws and plays, from the scene and the run's own record.
+// run_data.hpp: data for drawing and playing a run on its page, from the scene and the run's tables.
 //
-//   nodes   name, x, y, columns of ux, uy, rz in `curve` (-1: held, or not recorded)
+//   nodes   name, x, y, columns of ux, uy, rz in `curve` (-1: fixed, or not recorded)
 //   pieces  a, b (indices of nodes), bar, shape (index); springs, supports, loads, contacts with their directions
-//   mesh    edges of bodies, pairs of nodes; nodes[k].mesh: of a body's mesh, without a name of its own and without columns
-//   shapes, magnification: how pieces bend, how far motions are magnified (drawn_lines.hpp)
+//   mesh    edges of bodies, pairs of nodes; nodes[k].mesh: node of a body's mesh, without a name of its own and
+// without columns
+//   shapes, magnification: deflection shapes of pieces, and the scale of motions (drawn_lines.hpp)
 //   curve   times: lists;   columns: t (index of its list), u;   contacts[k].motion: t, state, N, T, gap
 //   events  t, contact (index, -1 without), event, from, to
 //
-// Displacements come from curves.csv where it has all nodes, else from history.csv. A scene of [matrices] has its degrees of
-// freedom as nodes in a row, which move across it. Each curve has its own times, as in the record (base/thinned.hpp);
-// of history.csv rows are left out evenly, but never the two sides of a jump.
-// Numbers have six digits, enough to draw; times all of theirs, so that an event is found in every record.
+// Displacements come from curves.csv if it has all nodes, else from history.csv. A scene of [matrices] has its degrees
+// of freedom as nodes in a row, which move across it. Each curve has its own times, as in the record
+// (base/thinned.hpp); rows of history.csv are dropped evenly, but never the two sides of a jump. Numbers have six
+// digits, enough for drawing; times have all digits, so that an event is found in every record.
 #pragma once
 
 #include <filesystem>

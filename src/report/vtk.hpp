@@ -1,4 +1,4 @@
-// vtk.hpp: the parts of VTK's XML files that frames share, as text.
+// vtk.hpp: parts of VTK's XML files that all frames share, as text.
 //
 //   VtkCells cells;  cells.add(type, corners);  ...
 //   vtk_grid(points, cells, point_data + cell_data)           the text of a .vtu file
@@ -12,13 +12,13 @@
 
 namespace signorini {
 
-/// values: numbers with blanks or line ends between them.
+/// values: numbers separated by blanks or line ends.
 [[nodiscard]] std::string vtk_array(std::string_view type, std::string_view name, const std::string& values,
                                     int components = 1);
 
 class VtkCells {
  public:
-  /// type: VTK's number; corners: indices of points.
+  /// type: VTK's cell type; corners: indices of points.
   void add(int type, const std::vector<std::size_t>& corners);
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::string text() const;
@@ -28,11 +28,11 @@ class VtkCells {
   std::size_t count_ = 0, end_ = 0;
 };
 
-/// points: three coordinates each.
+/// points: three coordinates per point.
 [[nodiscard]] std::string vtk_grid(const std::string& points, std::size_t point_count, const VtkCells& cells,
                                    const std::string& data);
 
-/// Files FOLDER/PREFIX-0001.vtu, ... and the list of them with their times. Errors: FileError.
+/// Files FOLDER/PREFIX-0001.vtu, ... and a list of them with their times. Errors: FileError.
 class VtkSeries {
  public:
   VtkSeries(std::filesystem::path folder, std::string prefix)

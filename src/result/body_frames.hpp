@@ -6,8 +6,8 @@
 //   sigma = D (B (u + beta v) - alpha T e) at the nodes (model/element/nodal_stress.hpp)
 //   pressure = -N_k / (D_k t),   shear = T_k / (D_k t),   s_k = s_(k-1) + |x_k - x_(k-1)|
 //
-// Places are undeformed; stresses and pressures: force/length^2, tension and compression positive. D_k t: the area of a
-// seam's node. opening: the gap. Files are made with the first frame. Errors: FileError.
+// Positions are undeformed; stresses and pressures: force/length^2, tension and compression positive. D_k t: the
+// tributary area of a seam's node. opening: the gap. The files are created with the first frame. Errors: FileError.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -41,13 +41,13 @@ struct SeamFrameRow {
 };
 [[nodiscard]] const CsvTable<SeamFrameRow>& seam_frame_table();
 
-/// The nodes of a seam at an instant, in their order.
+/// Rows for the nodes of a seam at an instant, in their order.
 [[nodiscard]] std::vector<SeamFrameRow> seam_frame(const Scene& scene, const SeamSpec& seam, double t,
                                                    const std::vector<ContactSample>& contacts);
 
 class BodyFrameWriter {
  public:
-  /// A scene with bodies. Both must outlive it.
+  /// For a scene with bodies. Both arguments must outlive the object.
   BodyFrameWriter(const std::filesystem::path& directory, const Scene& scene, const Model& model);
   void write(const Sample& sample);
 
@@ -57,7 +57,7 @@ class BodyFrameWriter {
   const Scene& scene_;
   double beta_;
   NodeMovers movers_;
-  std::vector<History> strains_;  ///< a body: alpha T
+  std::vector<History> strains_;  ///< per body: alpha T
   std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> stresses_;
   TableFile<BodyFrameRow> bodies_;
   std::optional<TableFile<SeamFrameRow>> seams_;

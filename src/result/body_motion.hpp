@@ -1,9 +1,10 @@
-// body_motion.hpp: body_motion.csv, how the meshes of bodies move, for the page (docs/output.md).
+// body_motion.hpp: body_motion.csv, motions of the meshes of bodies, for the page (docs/output.md).
 //
-//   t, NODE.ux, NODE.uy, ...     every k-th output time, the first and the last; nodes that are drawn (scene/mesh_lines.hpp)
+//   t, NODE.ux, NODE.uy, ...     every k-th output time, the first and the last; drawn nodes only
+// (scene/mesh_lines.hpp)
 //
-// k is the least at which the table has most_values numbers, but at least fewest_times rows where output times are as many.
-// Numbers have six digits.
+// k is the smallest value for which the table has at most most_values numbers, but it has at least fewest_times rows if
+// there are as many output times. Numbers have six digits.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +18,11 @@ class BodyMotionFile {
  public:
   static constexpr std::size_t most_values = 400'000, fewest_times = 25, most_times = 250;
 
-  /// Nothing is kept of a scene without bodies.
+  /// Stores nothing for a scene without bodies.
   BodyMotionFile(const Scene& scene, const Model& model);
-  /// At every output time.
+  /// To be called at every output time.
   void add(const Sample& sample);
-  /// Nothing where nothing was kept. Errors: FileError.
+  /// Writes no file if nothing was stored. Errors: FileError.
   void write(const std::filesystem::path& directory) const;
 
  private:
@@ -32,7 +33,7 @@ class BodyMotionFile {
   NodeMovers movers_;
   std::size_t every_ = 1, count_ = 0;
   std::vector<std::vector<double>> rows_;  ///< t, then displacements
-  std::vector<double> last_;               ///< not among them yet
+  std::vector<double> last_;               ///< the last row, not yet in rows_
 };
 
 }  // namespace signorini

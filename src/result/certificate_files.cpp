@@ -11,9 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t much = 1 << 16;  // bytes at a time
+constexpr std::size_t much = 1 << 16;  // bytes per write
 
-/// Row by row, so that a long list of events is not in memory as text.
+/// Works row by row, so that a long list of events is never in memory as text.
 void add_columns(const fs::path& path, const Certificate& certificate) {
   std::ifstream old(path, std::ios::binary);
   std::string line;
@@ -21,7 +21,7 @@ void add_columns(const fs::path& path, const Certificate& certificate) {
   fs::path draft = path;
   draft += ".part";
   std::error_code error;
-  fs::remove(draft, error);  // what a kill has left, or somebody's link, which must not be followed
+  fs::remove(draft, error);  // left by a killed run, or a foreign link, which must not be followed
   {
     CsvFile file(draft);
     CsvBlock block;

@@ -1,9 +1,9 @@
-// certificate_files.hpp: what a certified run has besides (docs/output.md).
+// certificate_files.hpp: additional files of a certified run (docs/output.md).
 //
-//   events.csv   two columns more, t_error and certain
+//   events.csv   two additional columns, t_error and certain
 //   errors.csv   the header of history.csv, bounds as values
 //
-// events.csv is there whole at any time: without these columns until they are known, with them from then on.
+// events.csv is complete at any time: first without these columns, and with them once they are known.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// certificate_json.hpp: what summary.json says of a certificate (docs/output.md).
+// certificate_json.hpp: the certificate in summary.json (docs/output.md).
 #pragma once
 
 #include "base/json.hpp"
@@ -6,12 +6,12 @@
 
 namespace signorini {
 
-/// `certified`; null where there is no certificate.
+/// `certified`; null if there is no certificate.
 [[nodiscard]] Json certificate_json(const CertifiedReport& run);
 
-/// Bounds of the peaks of contact k; null where nobody knows.
+/// Error bounds of the peaks of contact k; null if unknown.
 [[nodiscard]] Json peak_errors_json(const CertifiedReport& run, std::size_t k);
-/// The same of one of its landings.
+/// Error bounds of one of its landings; null if unknown.
 [[nodiscard]] Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing);
 
 }  // namespace signorini

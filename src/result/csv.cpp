@@ -66,7 +66,7 @@ CsvFile::CsvFile(const std::filesystem::path& path) : path_(path) {
   errno = 0;
   file_.reset(std::fopen(path.c_str(), "wb"));
   if (!file_) throw FileError(path.string(), "cannot be created: " + reason(errno));
-  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a block is one write
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // one write per block
 }
 
 void CsvFile::write(CsvBlock& block) {
@@ -80,7 +80,7 @@ void CsvFile::write(CsvBlock& block) {
 void CsvFile::fail() {
   const std::string why = reason(errno);
   file_.reset();
-  std::error_code ignored;  // not every file can be cut, and the message matters more
+  std::error_code ignored;  // not every file can be truncated, and the message is more important
   std::filesystem::resize_file(path_, good_, ignored);
   throw FileError(path_.string(), "cannot be written: " + why);
 }
@@ -91,7 +91,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   const auto create = [&] { return open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); };
   int file = create();
   if (file < 0 && errno == EEXIST) {
-    // What stands there is a draft that a kill has left, or somebody else's link, which must not be followed.
+    // A file there is a draft of a killed run, or a foreign link, which must not be followed.
     unlink(draft.c_str());
     file = create();
   }

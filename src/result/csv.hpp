@@ -1,10 +1,10 @@
-// csv.hpp: a CSV file that is readable at every moment.
+// csv.hpp: a CSV file that is valid at every moment.
 //
 //   one header row, commas, no comments; numbers as shortest() writes them
 //
-// A block of rows is handed to the system in one write as soon as it is complete; a write that fails (disk
-// full) is cut back to whole rows and becomes a FileError. SIGKILL may end a write where a page of the file
-// ends, so what a killed run leaves has at most one line that is cut, the last: without its line end.
+// A block of rows is passed to the system in one write as soon as it is complete; after a failed write (disk full) the
+// file is truncated to whole rows, and a FileError is thrown. SIGKILL may end a write at a page boundary of the file,
+// so a killed run leaves at most one incomplete line, the last, without its line end.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ namespace signorini {
 class CsvBlock {
  public:
   CsvBlock& number(double value);
-  /// An empty cell when absent.
+  /// Adds an empty cell for nullopt.
   CsvBlock& number(const std::optional<double>& value);
-  /// Quoted if it holds a comma, a quote or a line break.
+  /// The text is quoted if it contains a comma, a quote or a line break.
   CsvBlock& text(std::string_view value);
   CsvBlock& empty();
-  /// Cells that are text of a table already, commas and all.
+  /// Adds cells that are CSV text already, commas included.
   CsvBlock& raw(std::string_view cells);
   void end_row();
 
@@ -55,10 +55,10 @@ class CsvFile {
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::uintmax_t good_ = 0;  // bytes that surely arrived
+  std::uintmax_t good_ = 0;  // number of bytes known to be written
 };
 
-/// Writes a whole text file through a neighbour that is renamed: the old one or the new one, never half.
+/// Writes a text file through a temporary neighbour and a rename: readers see the old or the new file, never a part.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace signorini

@@ -1,12 +1,12 @@
-// csv_read.hpp: reads back the tables of a run, for the pictures.
+// csv_read.hpp: reads the tables of a run, for the pictures.
 //
 //   CsvReader reader("pipeline-run/events.csv");
 //   const auto contact = reader.column("contact");
 //   while (reader.next()) use(reader.cell(contact), reader.t());
 //
-// A last line without its line break (a run that is being written, or was killed) is left out. gnuplot does
-// not know that: what it is to read of a table are the rows that were counted here. Of tables that people write
-// (LastLine::counts) it is a row as any other, and a byte order mark before the header is none of its characters.
+// A last line without its line break (a run in progress, or killed) is omitted. gnuplot would read it, so scripts limit
+// it to the rows counted here. In tables written by people (LastLine::counts) it is a row like any other, and a byte
+// order mark before the header is skipped.
 #pragma once
 
 #include <cstddef>
@@ -19,37 +19,37 @@
 
 namespace signorini {
 
-/// What a last line without its line break is.
+/// Treatment of a last line without its line break.
 enum class LastLine { cut, counts };
 
-/// Errors of all members: FileError, of rows with their line.
+/// Errors of all members: FileError; errors in rows have their line.
 class CsvReader {
  public:
   /// Opens the file and reads its header.
   explicit CsvReader(const std::filesystem::path& path, LastLine last = LastLine::cut);
 
   [[nodiscard]] const std::vector<std::string>& header() const { return header_; }
-  /// Index of a column of that name.
+  /// Index of the column with this name.
   [[nodiscard]] std::size_t column(const std::string& name) const;
 
   /// The row's `t`.
   [[nodiscard]] double t() const { return number(time_ ? *time_ : column("t")); }
 
-  /// Moves to the next row; false at the end. A row that has not as many cells as the header is refused.
+  /// Moves to the next row; false at the end. Refuses a row whose number of cells differs from the header.
   bool next();
-  /// The same, whatever its length.
+  /// Same for a row of any length.
   bool next_of_any_length();
-  /// What is wrong with the length of the row; empty: nothing.
+  /// Error message for the row's length; empty: the length is right.
   [[nodiscard]] std::string misfit() const;
   [[nodiscard]] const std::string& cell(std::size_t index) const { return cells_[index]; }
   [[nodiscard]] double number(std::size_t index) const;
 
-  /// Of the row, from 1, where no cell holds a line break.
+  /// Line number of the row, from 1, if no cell contains a line break.
   [[nodiscard]] int line() const { return line_; }
-  /// At the end: a line without its line break was left out.
+  /// At the end: true if a line without its line break was omitted.
   [[nodiscard]] bool is_cut() const { return cut_; }
 
-  /// Throws the FileError that names this table.
+  /// Throws a FileError with the name of this table.
   [[noreturn]] void refuse(const std::string& why) const;
 
  private:
@@ -62,7 +62,7 @@ class CsvReader {
   bool cut_ = false;
 };
 
-/// The tables of a directory of results.
+/// The tables in a directory of results.
 class TableFolder {
  public:
   explicit TableFolder(std::filesystem::path directory) : directory_(std::move(directory)) {}

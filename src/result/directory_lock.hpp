@@ -1,9 +1,9 @@
-// directory_lock.hpp: one writer a directory.
+// directory_lock.hpp: one writer per directory.
 //
 //   DirectoryLock lock;   if (!lock.take("pipeline-run")) throw FileError(...);
 //
-// The lock is the system's (flock): it goes with the object and the processes it was handed to, killed or
-// not.
+// The lock is the system's (flock): it ends with the object and with the processes that inherited it, even if they are
+// killed.
 #pragma once
 
 #include <filesystem>
@@ -17,8 +17,8 @@ class DirectoryLock {
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
-  /// False where somebody else holds it. Some network file systems know no locks; there it is true. Errors:
-  /// FileError where the directory cannot be opened.
+  /// Returns false if another process holds the lock. Some network file systems have no locks; there it is true.
+  /// Errors: FileError if the directory cannot be opened.
   [[nodiscard]] bool take(const std::filesystem::path& directory);
 
  private:

@@ -7,7 +7,7 @@ namespace signorini {
 
 namespace {
 
-/// Where a row of frames.csv has a node, and how that has moved.
+/// Columns of frames.csv for a node: its position and its displacement.
 class EndColumns {
  public:
   explicit EndColumns(const CsvReader& rows)
@@ -78,7 +78,7 @@ struct Box {
   [[nodiscard]] double size() const { return x1 >= x0 ? std::hypot(x1 - x0, y1 - y0) : 0.0; }
 };
 
-/// 1, 2 or 5 times a power of ten, at most x.
+/// Largest value of 1, 2 or 5 times a power of ten that is not above x.
 double round_down(double x) {
   const double power = std::pow(10.0, std::floor(std::log10(x)));
   const double digit = x / power;
@@ -103,7 +103,7 @@ double magnification_of(double size, double greatest) {
 
 namespace {
 
-/// On the straight line.
+/// Displacement on the straight line.
 FrameEnd straight_between(const FrameEnd& a, const FrameEnd& b, double s) {
   FrameEnd p;
   p.x = a.x + s * (b.x - a.x);
@@ -126,7 +126,7 @@ FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const LineShape
   const double c = (b.x - a.x) / length, d = (b.y - a.y) / length;
   const double va = -d * a.ux + c * a.uy, vb = -d * b.ux + c * b.uy;
   const double v = h.a * va + h.b * vb + length * (h.turn_a * a.rz + h.turn_b * b.rz);
-  const double more = v - (va + s * (vb - va));  // beyond the straight line
+  const double more = v - (va + s * (vb - va));  // deviation from the straight line
   p.ux += -d * more;
   p.uy += c * more;
   return p;

@@ -1,11 +1,10 @@
-// frame_data.hpp: deformed shapes read back, with the scales at which they are drawn.
+// frame_data.hpp: reads deformed shapes, and finds the scales of their drawings.
 //
 //   X = x + magnification u,   arrow = force_scale (-N n - T t)
 //
-// magnification: 1, 2 or 5 times a power of ten, so that the greatest displacement is drawn at most an
-// eighth of the structure's size; 1 when it is that large by itself. Frames share one, but for those that
-// would show less than a fifth of what they could. Arrows have one scale: the longest is that of the greatest
-// force of the run.
+// magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an eighth of
+// the structure's size; 1 if it is that large already. Frames share one magnification, except those that would use less
+// than a fifth of their range. Arrows have one scale: the longest belongs to the largest force of the run.
 #pragma once
 
 #include <string>
@@ -37,7 +36,8 @@ struct Frame {
     double N = 0.0, T = 0.0;
   };
   double t = 0.0;
-  double slid_x = 0.0, slid_y = 0.0;  ///< taken out of the displacements, and added to the places
+  double slid_x = 0.0, slid_y = 0.0;  ///< mean translation, subtracted from displacements and added to
+                                      ///< positions
   std::vector<Element> elements;
   std::vector<Point> points;
   std::vector<Force> forces;
@@ -46,27 +46,27 @@ struct Frame {
 struct FrameScales {
   double magnification = 1.0;
   double greatest_force = 0.0;                    ///< force
-  double force_scale = 0.0;                       ///< length on the picture for each unit of force
-  double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0;  ///< what is drawn, arrows included
+  double force_scale = 0.0;                       ///< length in the picture per unit of force
+  double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0;  ///< drawn area, arrows included
 };
 
-/// Frames between the two times; none where frames.csv is missing. Errors: FileError.
+/// Frames between the two times; empty if frames.csv is missing. Errors: FileError.
 [[nodiscard]] std::vector<Frame> read_frames(const TableFolder& tables, double from, double to);
-/// A structure that slides far shows nothing of its deformation: where the shapes differ from a translation
-/// by less than half of their greatest displacement, each frame's mean translation is drawn in true scale.
+/// A structure that slides far would show no deformation: if the shapes differ from a translation by less than half of
+/// their largest displacement, each frame's mean translation is drawn in true scale.
 void take_out_slides(std::vector<Frame>& frames);
-/// greatest_force: of the run, at least that of the frames.
+/// greatest_force: largest force of the run; at least that of the frames is used.
 [[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force = 0.0);
-/// Those of a frame beside others whose scales are `shared`.
+/// Scales of one frame among others whose scales are `shared`.
 [[nodiscard]] FrameScales scales_of(const Frame& frame, const FrameScales& shared);
 
-/// 1, 2 or 5 times a power of ten, so that the greatest displacement is drawn at most an eighth of the size; 1 where
+/// 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an eighth of the size; 1 if
 /// nothing moves.
 [[nodiscard]] double magnification_of(double size, double greatest);
 
-/// Displacement at the fraction s of an element: along it linear, across cubic (beams).
+/// Displacement at the fraction s of an element: linear along it, cubic across it (beams).
 [[nodiscard]] FrameEnd between(const Frame::Element& element, double s);
-/// The same by what both ends do to a place across the line (model/element/line_element.hpp).
+/// Same with given shape functions across the line (model/element/line_element.hpp).
 [[nodiscard]] FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const LineShapes& across);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// hangers_json.hpp: springs with a preload, as check and summary.json tell them.
+// hangers_json.hpp: springs with a preload, in check and summary.json.
 #pragma once
 
 #include "base/json.hpp"

@@ -1,12 +1,13 @@
-// instants.hpp: both sides of every instant of a run, for whoever checks it by the files alone (docs/output.md).
+// instants.hpp: states on both sides of every instant of a run, so that it can be checked from files alone
+// (docs/output.md).
 //
 //   instants.csv   t, side ("before", "after"), resolution, start, breakpoint, load_jumps, located, forgiven, dependence;
 //                  displacements, velocities and accelerations of all degrees of freedom of the model;
 //                  of each contact c: c.state, c.p, c.N, c.T, c.blows, c.capture_n, c.capture_t, c.released
 //
-// Two rows an instant, one block: a run that is killed leaves both or, at the very end, one. Cells that mean nothing on a
-// side are empty. c.blows: impacts that the contact took part in, "turn:Pn:Pt" between blanks. States of laws of one's own
-// are their numbers. Errors: FileError.
+// Each instant has two rows in one block: a killed run has both or, at the very end, one. Cells without meaning on a
+// side are empty. c.blows: impacts on the contact, "turn:Pn:Pt" separated by blanks. States of user laws are numbers.
+// Errors: FileError.
 #pragma once
 
 #include <filesystem>
@@ -37,11 +38,11 @@ class InstantWriter {
 
 class InstantReader {
  public:
-  /// The columns must be those of the model.
+  /// The columns must match the model.
   InstantReader(const std::filesystem::path& directory, const Model& model);
-  /// Nothing: the file has ended.
+  /// The next instant; nullopt at the end of the file.
   [[nodiscard]] std::optional<InstantRow> next();
-  /// Of the last row, from 1; at the end that behind it.
+  /// Position of the last row, from 1; at the end, of the row after it.
   [[nodiscard]] const CsvReader& rows() const { return reader_; }
 
  private:

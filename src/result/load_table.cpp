@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-constexpr int pieces = 1200;                     // about a pixel each
+constexpr int pieces = 1200;                     // about one per pixel
 constexpr std::size_t most_breakpoints = 10000;  // more than a picture can show
 
 /// The base's acceleration acts as -M r a.

@@ -5,7 +5,7 @@
 namespace signorini {
 
 NodeMovers::NodeMovers(const Scene& scene, const Model& model) : movers_(scene.nodes.size()) {
-  for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // the first of the drawn nodes, in the same order
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // they are the first drawn nodes, in the same order
     for (const std::size_t c : {0U, 1U}) movers_[n][c].dof = model.drawn_nodes[n].dofs[c];
   for (const Support& support : scene.supports) {
     if (!support.motion || support.rz) continue;

@@ -1,4 +1,4 @@
-// node_movers.hpp: what moves the nodes of a scene along x and y: a degree of freedom, a support, or nothing.
+// node_movers.hpp: displacement of the nodes of a scene: by a degree of freedom, a support, or none.
 #pragma once
 
 #include <array>

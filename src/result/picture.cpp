@@ -19,8 +19,8 @@ std::string quoted(const std::string& text) {
       result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
       continue;
     }
-    // Within a block, gnuplot takes three quotes at the start for an empty string, and does not read four in a row:
-    // apostrophes side by side become a string of their own.
+    // Within a block, gnuplot reads three quotes at the start as an empty string, and fails at four in a row:
+    // consecutive apostrophes become a string of their own.
     const std::size_t count = std::min(text.find_first_not_of('\'', i), text.size()) - i;
     if (count > 1) {
       result += "'.\"";
@@ -68,7 +68,7 @@ std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas
 
 namespace {
 
-// Letters of legends are some 8.8 pixels wide, in front of them a line of 55.
+// Letters of legends are about 8.8 pixels wide, after a line sample of 55 pixels.
 constexpr double letter = 8.8, line_of_legend = 55.0;
 constexpr std::size_t longest_name = 44;
 
@@ -79,7 +79,7 @@ std::string legend_name(const std::string& name) {
   constexpr std::size_t half = (longest_name - 3) / 2;
   std::size_t end = half, begin = name.size() - half;
   const auto inside = [&](std::size_t i) { return (static_cast<unsigned char>(name[i]) & 0xC0) == 0x80; };
-  while (inside(end)) --end;  // of a letter of several bytes
+  while (inside(end)) --end;  // do not split a multi-byte letter
   while (inside(begin)) ++begin;
   return name.substr(0, end) + "..." + name.substr(begin);
 }
@@ -92,7 +92,7 @@ double room_for(const std::vector<std::string>& names) {
 
 namespace {
 
-/// A line's letters, smaller where it would not fit: some 0.62 of their height wide.
+/// Font size of a heading line, reduced if it would not fit: a letter is about 0.62 of its height wide.
 double heading(const Canvas& canvas, const std::string& text, double size) {
   const auto letters = std::count_if(text.begin(), text.end(),
                                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });

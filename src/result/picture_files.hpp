@@ -1,8 +1,8 @@
-// picture_files.hpp: the files of a set of pictures: scripts, and tables that they read beside those of the results.
+// picture_files.hpp: files of a set of pictures: scripts, and their tables in addition to those of the results.
 //
 //   DIR/plots/NAME.gp, TABLE.csv
 //
-// Run in DIR/plots, each script writes pictures of its own name. Nothing here starts gnuplot.
+// When run in DIR/plots, each script writes pictures with its own name. Nothing here starts gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ namespace signorini {
 
 class PictureFiles {
  public:
-  /// `ours`: which files in the folder earlier pictures of this kind have left; they are replaced. None: nothing is.
+  /// `ours`: true for files that earlier pictures of this kind left in the folder; they are replaced. Null: no file is.
   explicit PictureFiles(bool (*ours)(const std::filesystem::path&) = nullptr) : ours_(ours) {}
 
-  /// A picture without panels is none.
+  /// Adds a picture; one without panels is ignored.
   void add(const PlottedRun& run, const Picture& picture);
-  /// `text`: with its header.
+  /// `text` includes the header.
   void add_table(const std::string& name, std::string text);
-  /// Into DIR/plots; the scripts, in their order. Without any nothing is touched. Errors: FileError.
+  /// Writes into DIR/plots; returns the scripts, in their order. Without scripts nothing is changed. Errors: FileError.
   std::vector<std::filesystem::path> write(const std::filesystem::path& directory) const;
 
  private:

@@ -16,11 +16,11 @@ namespace signorini {
 namespace {
 
 constexpr double wide = 1120.0;                                           // pixels
-constexpr double pixels_a_mm = 96.0 / 25.4, dots_a_pixel = 300.0 / 96.0;  // PNG: 300 an inch
-constexpr double usual_dots = 1.5;                                        // PNG: a pixel
-constexpr double most_dots = 32000.0;                                     // of a side
+constexpr double pixels_a_mm = 96.0 / 25.4, dots_a_pixel = 300.0 / 96.0;  // PNG: 300 dots per inch
+constexpr double usual_dots = 1.5;                                        // PNG: dots per pixel
+constexpr double most_dots = 32000.0;                                     // per side
 constexpr double letter_height = 13.0;                                    // pixels
-constexpr double least_letter = 6.0 * 96.0 / 72.0;                        // 6 points, what journals ask for
+constexpr double least_letter = 6.0 * 96.0 / 72.0;                        // 6 points, the minimum of journals
 
 std::string white(const std::string& size, double font) {
   return fmt::format("size {} background '#ffffff' font 'DejaVu Sans,{:.4g}'", size, font);
@@ -80,7 +80,7 @@ Canvas canvas_of(const PictureLook& look, double height, bool over_time, bool fi
   const double size = look.width * pixels_a_mm;
   canvas.pixel = std::max(least_letter / letter_height, 1.05 * size / wide);
   const double high = over_time ? look.height * pixels_a_mm : 0.0;
-  // Panels of less than half their height have no room for what stands beside them: smaller letters, then.
+  // Panels of less than half their height have no room for text beside them: smaller letters, then.
   if (high > 0.0) canvas.pixel = std::min(canvas.pixel, high / (0.5 * height));
   canvas.width = size / canvas.pixel;
   if (high > 0.0) {

@@ -1,4 +1,4 @@
-// picture_tables.hpp: motion.csv and curves.csv, which pictures and the page are drawn from.
+// picture_tables.hpp: motion.csv and curves.csv, the data of pictures and of the page.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@ namespace signorini {
 /// Errors of all members: FileError.
 class PictureTables {
  public:
-  /// The directory is there. The model must outlive the tables.
+  /// The directory must exist. The model must outlive the tables.
   PictureTables(std::filesystem::path directory, const Model& model)
       : directory_(std::move(directory)), model_(model) {}
 
-  /// As Recorder::motion and Recorder::curves: rows of the next contact; the curves, once.
+  /// Same calls as Recorder::motion (rows of the next contact) and Recorder::curves (once).
   void motion(int contact, const std::vector<MotionRow>& rows);
   void curves(const Curves& curves);
 

@@ -1,10 +1,10 @@
-// picture_words.hpp: the words of pictures in the languages that papers are written in.
+// picture_words.hpp: translations of the words in pictures.
 //
 //   say("de", "slip") == "Gleiten"
 //
-// One table, a row a word or a phrase; what stands in no row stays English. Names of contacts, symbols and units stay
-// as they are. Words of mechanics as in the textbooks of each language; stick, slip: Haften, Gleiten; сцепление,
-// скольжение, as in the paper behind the program.
+// One table, with one row per word or phrase; phrases without a row stay English. Names of contacts, symbols and units
+// are not translated. Terms of mechanics follow the textbooks of each language; stick, slip: Haften, Gleiten;
+// сцепление, скольжение, as in the paper behind the program.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace signorini {
 
-/// "en" first.
+/// Language codes, "en" first.
 [[nodiscard]] const std::vector<std::string>& picture_languages();
 
 /// The phrase in a language of picture_languages().

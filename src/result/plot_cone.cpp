@@ -12,13 +12,13 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_panels = 20;
-constexpr double least_panel = 130.0, small_panel = 300.0;  // pixels, with what stands beside it
+constexpr double least_panel = 130.0, small_panel = 300.0;  // pixels, including text beside the panel
 
 struct Grid {
   std::size_t columns = 1, rows = 1;
 };
 
-/// No more panels beside each other than `most`.
+/// Arrangement of panels, with at most `most` side by side.
 Grid grid_for(std::size_t panels, std::size_t most) {
   Grid grid;
   grid.columns = panels <= 3
@@ -31,14 +31,14 @@ Grid grid_for(std::size_t panels, std::size_t most) {
 
 std::string rgb(const std::string& colour) { return "0x" + colour.substr(1); }
 
-/// 1, 2 or 5 times a power of ten, at least a third of the range: so many figures fit below a small panel.
+/// 1, 2 or 5 times a power of ten, at least a third of the range: the numbers then fit below a small panel.
 double tic_step(double range) {
   const double power = std::pow(10.0, std::floor(std::log10(range / 3.0)));
   const double digit = range / 3.0 / power;
   return (digit > 5.0 ? 10.0 : digit > 2.0 ? 5.0 : digit > 1.0 ? 2.0 : 1.0) * power;
 }
 
-/// A function for gnuplot: the colour of a state.
+/// The colour of a state, as a gnuplot function.
 std::string colour_function() {
   std::string s = "state_colour(s) = ";
   for (const std::string& name : state_names())
@@ -63,7 +63,7 @@ std::vector<Curve> curves_of(const PlottedRun& run, std::size_t k, bool small) {
                     "with filledcurves fillstyle solid 0.5 noborder linecolor '#fbe9e7'"});
   cone(contact.static_friction, "");
   if (contact.kinetic_friction != contact.static_friction) cone(contact.kinetic_friction, " dashtype 2");
-  // Output times may lie far apart: the thin line only says in which order the points come.
+  // Output times may be far apart: the thin line only shows the order of the points.
   curves.push_back({data, inside, "with lines linewidth 0.4 linecolor '#b8b8b8'"});
   curves.push_back({data, inside + ":(state_colour(" + rows.word("state") + "))",
                     std::string("with points pointtype 7 pointsize ") + (small ? "0.2" : "0.35") +
@@ -80,7 +80,7 @@ std::vector<Curve> curves_of(const PlottedRun& run, std::size_t k, bool small) {
 
 bool rubs(const PlottedRun& run, std::size_t k) { return run.facts.contacts[k].static_friction != 0.0; }
 
-/// The legend in a panel of its own without axes.
+/// The legend, in a panel of its own without axes.
 Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   const double left = canvas.right() + 10.0 / canvas.width;
   Panel panel;
@@ -97,7 +97,7 @@ Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   const auto entry = [&](const std::string& look, const std::string& name) {
     curves.push_back({"keyentry", "", "with " + look, name});
   };
-  curves.push_back({"2", "", ""});  // entries of a legend alone are no plot to gnuplot
+  curves.push_back({"2", "", ""});  // gnuplot draws no plot that consists of legend entries only
   entry("lines linecolor '#c0182b' linewidth 1.2", "±f|N|");
   const auto two = [](const auto& c) { return c.kinetic_friction != c.static_friction; };
   if (std::any_of(run.facts.contacts.begin(), run.facts.contacts.end(), two))
@@ -120,7 +120,7 @@ Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   return panel;
 }
 
-/// Name and coefficients above a panel, and what it shows.
+/// Name and friction coefficients above a panel, and its ranges.
 std::string heading_and_ranges(const PlottedRun& run, std::size_t k, const Canvas& canvas, bool small) {
   const auto& contact = run.facts.contacts[k];
   const std::string f =

@@ -18,7 +18,7 @@ std::string friction_text(const PlottedRun& run, const RunFacts::Contact& contac
   return say(run, "friction {} static, {} kinetic", contact.static_friction, contact.kinetic_friction);
 }
 
-/// One contact's picture, panel by panel.
+/// Picture of one contact, panel by panel.
 class ContactPicture {
  public:
   ContactPicture(const PlottedRun& run, std::size_t k)
@@ -29,7 +29,7 @@ class ContactPicture {
         ranges_(run.ranges[k]),
         scales_(scales_of(run.ranges)) {}
 
-  /// From the top: states, N, T (not without friction), gap (none for sliders), motion along the tangent.
+  /// From the top: states, N, T (only with friction), gap (not for sliders), tangential motion.
   [[nodiscard]] Picture picture() const {
     Picture p{"contact-" + run_.slugs[k_] + run_.suffix,
               say(run_, "Contact '{}'", contact_.name) + ", " + friction_text(run_, contact_),
@@ -38,11 +38,11 @@ class ContactPicture {
     const bool rubs = contact_.static_friction > 0.0;
     p.panels = {states(), normal_force()};
     if (rubs) p.panels.push_back(friction_force());
-    // On its own scale: a lift-off is small beside the sliding.
+    // on its own scale: a lift-off is small compared with the sliding
     if (!contact_.slider)
       p.panels.push_back(panel(192.0, "g " + length(), {curve("gap", "#2166ac", say(run_, "gap g"))},
                                steady(ranges_.gap, scales_.length)));
-    // A wheel or a guide moves along its tangent, too; one that only rounding moves says nothing there.
+    // A wheel or a guide also moves along its tangent; a motion of rounding size is not drawn.
     if (rubs || !is_rounding(ranges_.ut, scales_.length)) p.panels.push_back(sliding());
     double height = room_above + room_below - p.space;
     for (const Panel& panel : p.panels) height += panel.weight + p.space;
@@ -54,7 +54,7 @@ class ContactPicture {
   [[nodiscard]] std::string length() const { return "[" + run_.facts.units.length + "]"; }
   [[nodiscard]] std::string force() const { return " [" + run_.facts.units.force + "]"; }
 
-  /// Curves in front of the states.
+  /// A panel with curves in front of the states.
   [[nodiscard]] Panel panel(double weight, const std::string& label, const std::vector<Curve>& curves,
                             const std::string& axes) const {
     Panel p{label, bands_of(run_, k_, 0.28), axes, weight};
@@ -70,7 +70,7 @@ class ContactPicture {
   [[nodiscard]] Panel normal_force() const {
     std::vector<Curve> curves = band_legend(run_, k_);
     curves.insert(curves.begin(), curve("N", "#1a1a1a", "N"));
-    // N <= 0; a constant one stands below zero
+    // N <= 0; a constant N is drawn below zero
     const bool none = is_rounding(ranges_.N, scales_.force);
     return panel(177.0, "N" + force(), curves,
                  none ? steady(ranges_.N, scales_.force) : "set yrange [*:0] noextend\n");
@@ -106,7 +106,7 @@ class ContactPicture {
     return panel(208.0, length(), curves, steady(range, scales_.length));
   }
 
-  /// Of a column of the contact's table.
+  /// Curve of a column of the contact's table.
   [[nodiscard]] Curve curve(std::string_view column, const char* colour, const std::string& title,
                             const char* look = "") const {
     return {rows_, fmt::format("{}:{}", contact_table().number("t"), contact_table().number(column)),

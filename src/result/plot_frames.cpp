@@ -13,8 +13,9 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t most_pictures = 40;  // evenly chosen of more
-constexpr std::size_t most_labelled = 6;   // contacts with their forces in figures; more only by name
+constexpr std::size_t most_pictures = 40;  // evenly selected from more
+constexpr std::size_t most_labelled = 6;   // contacts with numbers at their forces; further ones only have
+                                           // names
 constexpr std::size_t most_names = 30;
 
 struct ShapePoint {
@@ -23,7 +24,7 @@ struct ShapePoint {
   double magnification;
 };
 
-/// Undeformed, and deformed as it is drawn.
+/// Undeformed positions, and deformed positions as drawn.
 const CsvTable<ShapePoint>& shape_table() {
   using P = ShapePoint;
   static const CsvTable<P> table = {{"kind", &P::kind},
@@ -34,7 +35,7 @@ const CsvTable<ShapePoint>& shape_table() {
   return table;
 }
 
-/// A blank line ends a line; elements that continue each other are one, so that no joint shows.
+/// A blank line ends a line; consecutive elements form one line, so that no joint is visible.
 std::string shape_text(const Frame& frame, double magnification) {
   const int steps = frame.elements.size() > 2000 ? 1 : 12;
   CsvBlock all;
@@ -56,7 +57,7 @@ std::string shape_text(const Frame& frame, double magnification) {
   return text + block.str();
 }
 
-/// The arrow of a contact's force: its tip, and what leads there.
+/// The arrow of a contact's force: its tip and its vector.
 CsvTable<Frame::Force> force_table(const FrameScales& scales) {
   using F = Frame::Force;
   const double m = scales.magnification, s = scales.force_scale;
@@ -91,14 +92,14 @@ Layout layout_of(const FrameScales& scales, const PlottedRun& run) {
   return l;
 }
 
-/// What is written at a contact, at the tail of its arrow.
+/// Labels of contacts, at the tails of their arrows.
 std::string labels(const Frame& frame, const FrameScales& scales, const Layout& l, const PlottedRun& run) {
   std::string s;
   const bool figures = frame.forces.size() <= most_labelled;
   if (frame.forces.size() > most_names) return s;
   for (const Frame::Force& f : frame.forces) {
     const double length = std::hypot(f.fx, f.fy);
-    // Without a force the label stands where the arrow of a pressing one would.
+    // Without a force the label is where the arrow of a compressive force would be.
     const double dx = length > 0.0 ? -f.fx / length : -f.nx, dy = length > 0.0 ? -f.fy / length : -f.ny;
     const double x = f.x + scales.magnification * f.ux - scales.force_scale * f.fx;
     const double y = f.y + scales.magnification * f.uy - scales.force_scale * f.fy;
@@ -110,7 +111,7 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
       text += " " + run.facts.units.force;
     }
     const bool sideways = std::abs(dx) > 2.0 * std::abs(dy);
-    const bool upright = !figures && !sideways;  // many names stand side by side
+    const bool upright = !figures && !sideways;  // many names side by side
     const double part = (x - l.x0) / (l.x1 - l.x0);
     const char* side = upright       ? (dy < 0.0 ? "right rotate by 90" : "left rotate by 90")
                        : sideways    ? (dx > 0.0 ? "left" : "right")
@@ -124,7 +125,7 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
   return s;
 }
 
-/// "Shape at t = ...": what the picture shows, and how much magnified.
+/// "Shape at t = ...": time and magnification of the picture.
 std::string subtitle(const Frame& frame, const FrameScales& scales, const PlottedRun& run) {
   const bool slid = frame.slid_x != 0.0 || frame.slid_y != 0.0;
   const auto number = [](double x, int digits) { return fmt::format("{:.{}g}", x, digits); };

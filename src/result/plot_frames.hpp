@@ -1,10 +1,10 @@
 // plot_frames.hpp: pictures of deformed shapes, from frames.csv and frame_contacts.csv.
 //
-//   DIR/plots/frame-1.gp          one a frame: the structure at rest thin and grey, deformed, contact forces
+//   DIR/plots/frame-1.gp          one per frame: the structure at rest thin and grey, deformed, contact forces
 //   DIR/plots/frame-1-shape.csv   kind,x,y,X,Y    x, y at rest; X, Y deformed and magnified
 //   DIR/plots/frame-1-forces.csv  contact,state,x,y,dx,dy
 //
-// Magnification, scale of the forces and section are the same in all frames of a run, and stated.
+// Magnification, force scale and drawn area are the same in all frames of a run, and are printed.
 #pragma once
 
 #include "result/picture_files.hpp"
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// A picture a frame of the time shown, evenly chosen where there are many.
+/// Adds one picture per frame in the time window, evenly selected if there are many.
 void add_frame_pictures(const PlottedRun& run, PictureFiles& pictures);
 
 }  // namespace signorini

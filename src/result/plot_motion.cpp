@@ -13,9 +13,10 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name; curves.csv has them
+constexpr std::size_t most_curves = 24;  // number of names in a legend beside the panel; curves.csv has all
+                                         // curves
 
-constexpr double turn = 1e-3;  // rad; of a structure's rotations, so that those of 1e-15 are rounding
+constexpr double turn = 1e-3;  // rad; relative to this, rotations of 1e-15 are rounding
 
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                 "#e7298a", "#666666", "#a6761d", "#17becf"};
@@ -35,17 +36,18 @@ struct PlottedLine {
   TableColumn curve;
 };
 
-/// Of a panel with more than eight curves, the six that move most.
+/// In a panel with more than eight curves, only the six with the largest motion are drawn.
 constexpr std::size_t most_displacements = 8, chosen_displacements = 6;
 
 struct PanelOfLines {
-  std::string key, label;  ///< key: what its lines have in common
+  std::string key, label;  ///< key: common name of its lines
   std::vector<PlottedLine> lines;
-  std::string axis = "";      ///< where gnuplot would not find a good one
-  std::size_t chosen_of = 0;  ///< above 0: the lines are those of so many that move most
+  std::string axis = "";      ///< gnuplot lines where its own axis would be poor
+  std::size_t chosen_of = 0;  ///< above 0: number of lines, from which those with the largest motion were
+                              ///< selected
 };
 
-/// Twenty curves are a tangle; those that move most, in the order of the nodes.
+/// Keeps the lines with the largest motion, in the order of the nodes: twenty curves would be illegible.
 void choose_lines(const PlottedRun& run, PanelOfLines& p) {
   if (p.lines.size() <= most_displacements) return;
   const auto size_of = [&](const PlottedLine& line) {
@@ -93,7 +95,7 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
   return panels;
 }
 
-/// One a unit.
+/// One panel per unit.
 std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
   std::vector<PanelOfLines> panels;
   for (std::size_t i = 0; i + 1 < run.responses.size(); ++i) {
@@ -115,7 +117,7 @@ Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canva
   const std::size_t shown = std::min(p.lines.size(), most_curves);
   if (shown > 12) panel.axes += fmt::format("set key spacing 0.9 font ',{:.4g}'\n", canvas.font(10.0));
   for (std::size_t j = 0; j < shown; ++j)
-    // Curves that coincide show through: every other one is thinner and dashed, on top.
+    // Coinciding curves stay visible: every other one is thinner and dashed, on top.
     panel.curves.push_back({p.lines[j].curve.rows, p.lines[j].curve.columns(),
                             std::string("with lines linewidth ") + (j % 2 == 0 ? "1.9 " : "1.2 ") +
                                 colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),

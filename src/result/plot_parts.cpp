@@ -13,16 +13,16 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t most_points = 20000;  // a curve; beyond that an SVG is slow to open and shows no more
+constexpr std::size_t most_points = 20000;  // per curve; an SVG with more is slow to open and shows no more
 
-/// " every ..." for rows of a table with `group` rows a time.
+/// " every ..." for rows of a table with `group` rows per time.
 std::string every(std::size_t times, std::size_t group, std::size_t index) {
   const std::size_t stride = (times + most_points - 1) / most_points;
-  // Up to the last whole row: behind it may stand one that a kill has cut.
+  // Up to the last whole row; a row after it may be incomplete in a killed run.
   return fmt::format(" every {}::{}::{}", std::max<std::size_t>(stride, 1) * group, index, times * group - 1);
 }
 
-/// Where they stand in the table of bands, which is in the order of their names.
+/// Rows in the table of bands, which is ordered by state name.
 PlottedRun::Rows bands_in(const PlottedRun& run, std::size_t k, const std::string& state) {
   PlottedRun::Rows rows;
   for (const PlottedRun::Band& band : run.bands[k]) {
@@ -61,7 +61,7 @@ double row_height(double usual, std::size_t count, const PictureLook& look) {
 }
 
 std::string row_tics(const std::vector<RunFacts::Contact>& contacts, double height) {
-  constexpr double line = 14.0;  // pixels that a label needs
+  constexpr double line = 14.0;  // pixels per label
   const auto stride = static_cast<std::size_t>(std::max(1.0, std::ceil(line / height)));
   std::vector<std::pair<std::string, std::size_t>> names;
   for (std::size_t k = 0; k < contacts.size(); k += stride) names.emplace_back(contacts[k].name, k);

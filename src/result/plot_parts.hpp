@@ -1,4 +1,4 @@
-// plot_parts.hpp: what the pictures of a run share: rows of its tables, states as bands, looks of events.
+// plot_parts.hpp: parts shared by the pictures of a run: rows of its tables, states as bands, looks of events.
 #pragma once
 
 #include <array>
@@ -13,47 +13,46 @@
 
 namespace signorini {
 
-/// Rows of a table with one row a time: thins out what no picture could show.
+/// Rows of a table with one row per time, thinned to the resolution of a picture.
 [[nodiscard]] std::string rows_over_time(const std::string& table, std::size_t times);
 
-/// The rows of a contact: of motion.csv, else of contacts.csv; both have the same columns. run_directory: as seen
-/// from the folder of the scripts.
+/// Rows of a contact: from motion.csv, else from contacts.csv; both have the same columns. run_directory: path from the
+/// folder of the scripts.
 [[nodiscard]] std::string contact_rows(const PlottedRun& run, std::size_t k,
                                        const std::string& run_directory = "..");
 
-/// Rows of a table for gnuplot, and the numbers of their columns of time and value, from 1.
+/// Rows of a table for gnuplot, and the column numbers of time and value, from 1.
 struct TableColumn {
   std::string rows;
   std::size_t time = 1, number = 0;
   [[nodiscard]] std::string columns() const { return fmt::format("{}:{}", time, number); }
 };
-/// These rows of one of the tables, for gnuplot.
+/// The given rows of one of the tables, for gnuplot.
 [[nodiscard]] std::string recorded(const std::string& table, const PlottedRun::Rows& rows);
-/// A curve by name: of curves.csv where it has it.
+/// A curve by name, from curves.csv if it is there.
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& name,
                                    const TableColumn& otherwise);
 
-/// Pixels of a row where `count` stand above each other: less than usual where the picture would be taller than can be
-/// drawn.
+/// Height in pixels of one of `count` stacked rows: less than usual if the picture would be too tall.
 [[nodiscard]] double row_height(double usual, std::size_t count, const PictureLook& look);
-/// Names of contacts beside rows of this height: as many as do not overlap.
+/// Names of contacts beside rows of this height, without those that would overlap.
 [[nodiscard]] std::string row_tics(const std::vector<RunFacts::Contact>& contacts, double height);
 
 /// Fill colour of a state, "#rrggbb".
 [[nodiscard]] std::string state_colour(const std::string& state);
-/// states-CONTACT.csv: the bands of a state together.
+/// Text of states-CONTACT.csv: bands sorted by state.
 [[nodiscard]] std::string band_table(std::vector<PlottedRun::Band> bands);
-/// The bands of contact k in this state, from `low` to `high`; opacity 0..1. Nothing where it never is in that state.
+/// The bands of contact k in this state, from `low` to `high`; opacity 0..1. nullopt if the state never occurs.
 [[nodiscard]] std::optional<Curve> band_curve(const PlottedRun& run, std::size_t k, const std::string& state,
                                               double low, double high, double opacity);
 /// States in the order of legends.
 [[nodiscard]] const std::vector<std::string>& state_names();
-/// They fill the panel (second y axis 0..1) with the states of contact k; `opacity` 0..1.
+/// Bands that fill the panel (second y axis 0..1) with the states of contact k; `opacity` 0..1.
 [[nodiscard]] std::vector<Curve> bands_of(const PlottedRun& run, std::size_t k, double opacity);
 /// Legend entries of the states that occur.
 [[nodiscard]] std::vector<Curve> band_legend(const PlottedRun& run, std::size_t k);
 
-/// The events that pictures show, from the top of a lane to its bottom, with their colours "#rrggbb".
+/// Event types shown in pictures, from the top of a lane to its bottom, with their colours "#rrggbb".
 struct EventLook {
   EventType type;
   const char* colour;
@@ -68,18 +67,18 @@ static_assert(event_looks.size() + 1 == all_event_types.size(),
 /// marks.csv.
 [[nodiscard]] const CsvTable<Mark>& mark_table();
 
-// The pictures; one without panels is none.
+// The pictures; one without panels is not written.
 [[nodiscard]] Picture displacement_picture(const PlottedRun& run);
 [[nodiscard]] Picture contact_picture(const PlottedRun& run, std::size_t k);
-/// Where a contact is in the plane of -N and T, with its friction cone; none without friction.
+/// Paths of contacts in the plane of -N and T, with their friction cones; without panels if there is no friction.
 [[nodiscard]] Picture cone_picture(const PlottedRun& run);
-/// The events of all contacts over time, a row a contact, a lane a type.
+/// The events of all contacts over time, one row per contact, one lane per type.
 [[nodiscard]] Picture raster_picture(const PlottedRun& run);
-/// The states of all contacts over time, a row a contact.
+/// The states of all contacts over time, one row per contact.
 [[nodiscard]] Picture states_picture(const PlottedRun& run);
 /// Loads over time, and the base's acceleration.
 [[nodiscard]] Picture loads_picture(const PlottedRun& run);
-/// The outputs over time, a panel a unit.
+/// The outputs over time, one panel per unit.
 [[nodiscard]] Picture response_picture(const PlottedRun& run);
 [[nodiscard]] Picture energy_picture(const PlottedRun& run);
 

@@ -12,7 +12,7 @@ bool occurs(const PlottedRun& run, EventType type) {
   return std::find(run.event_types.begin(), run.event_types.end(), to_string(type)) != run.event_types.end();
 }
 
-/// Lanes of a row, from above.
+/// Lanes of a row, from the top.
 std::vector<EventLook> lanes_of(const PlottedRun& run) {
   std::vector<EventLook> lanes;
   for (const EventLook& look : event_looks)
@@ -58,7 +58,7 @@ Picture raster_picture(const PlottedRun& run) {
         fmt::format("{}:({} + {:.4f}):(0):({:.4f})", at, mark_table().value("row"),
                     -0.42 + lane * static_cast<double>(i), 0.86 * lane),
         fmt::format("with vectors nohead linewidth 1.6 linecolor '{}'", lanes[i].colour), std::nullopt);
-  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // a legend alone is no plot
+  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot needs a plot
   for (const EventLook& look : lanes)
     panel.curves.push_back({"keyentry", "", fmt::format("with lines linewidth 4 linecolor '{}'", look.colour),
                             say(run, to_string(look.type))});

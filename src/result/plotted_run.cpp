@@ -16,9 +16,10 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t most_bands = 5000;     // a contact; shorter ones are narrower than any picture resolves
-constexpr double most_marks = 3000;          // of one contact and type, over the picture's width
-constexpr const char* close_up = "-events";  // of pictures from the first event to the last
+constexpr std::size_t most_bands = 5000;     // per contact; shorter ones are below the resolution of a
+                                             // picture
+constexpr double most_marks = 3000;          // per contact and type, over the picture's width
+constexpr const char* close_up = "-events";  // suffix of pictures from the first event to the last
 
 std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
   std::vector<std::string> slugs;
@@ -51,7 +52,7 @@ std::size_t number_of(const ContactNumbers& numbers, const std::string& contact,
 
 bool shows(const PlottedRun& run, double t) { return t >= run.from && t <= run.to; }
 
-/// Counts the next row among those of one name, which stand together.
+/// Counts the next row among the adjacent rows of one name.
 void count(PlottedRun::Rows& rows, std::size_t row, const CsvReader& table, const char* of) {
   if (rows.count == 0) rows.first = row;
   if (row != rows.first + rows.count)
@@ -59,7 +60,7 @@ void count(PlottedRun::Rows& rows, std::size_t row, const CsvReader& table, cons
   ++rows.count;
 }
 
-/// Returns how many output times the window shows.
+/// Returns the number of output times in the window.
 std::size_t read_times(const TableFolder& tables, const PlotWindow& window, PlottedRun& run) {
   std::size_t shown = 0;
   CsvReader history = tables.open("history.csv");
@@ -72,7 +73,7 @@ std::size_t read_times(const TableFolder& tables, const PlotWindow& window, Plot
   return shown;
 }
 
-/// States at the first output time; how many rows there are of all contacts.
+/// States at the first output time; returns the number of rows of all contacts.
 std::size_t read_states(const TableFolder& tables, const ContactNumbers& index, PlottedRun& run) {
   CsvReader contacts = tables.open("contacts.csv");
   const std::size_t name = contacts.column("contact"), state = contacts.column("state");
@@ -101,7 +102,7 @@ void read_motion(const TableFolder& tables, const ContactNumbers& numbers, Plott
   }
 }
 
-/// Bands that are exact to the event, not sampled.
+/// Bands with limits at the exact event times.
 void read_events(const TableFolder& tables, const ContactNumbers& index, PlottedRun& run) {
   CsvReader events = tables.open("events.csv");
   const std::size_t who = events.column("contact"), to = events.column("to");
@@ -136,7 +137,7 @@ void read_curves(const TableFolder& tables, PlottedRun& run) {
   for (std::size_t row = 0; curves.next(); ++row) {
     count(run.curves[curves.cell(name)], row, curves, "curves");
     if (curves.number(value) != 0.0)
-      run.energies.used.insert(curves.cell(name));  // those of displacements are not asked for
+      run.energies.used.insert(curves.cell(name));  // displacement curves are not needed
   }
 }
 
@@ -167,7 +168,7 @@ void read_contact_ranges(const TableFolder& tables, PlottedRun& run) {
   }
 }
 
-/// What is drawn of displacements: it stands in curves.csv, where there is such a table.
+/// Ranges of displacements, from curves.csv if there is such a table.
 void read_moves(const TableFolder& tables, PlottedRun& run) {
   run.moves.clear();
   const bool record = tables.has("curves.csv");
@@ -198,7 +199,7 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
     const auto [place, first] = last.try_emplace({events.cell(who), events.cell(type)}, t);
     if (!first && t - place->second < least) continue;
     place->second = t;
-    // A load's own time event belongs to no contact: row -1.
+    // A load's time event has no contact: row -1.
     if (events.cell(who).empty())
       run.marks.push_back({-1, t, events.cell(type), 0.0, 0.0});
     else
@@ -210,7 +211,7 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
   });
 }
 
-/// What depends on the time shown.
+/// Reads everything that depends on the time window.
 void read_shown(const TableFolder& tables, PlottedRun& run) {
   read_contact_ranges(tables, run);
   read_moves(tables, run);
@@ -226,7 +227,7 @@ void read_headers(const TableFolder& tables, PlottedRun& run) {
     run.responses.push_back(response.column(column.name) + 1);
 }
 
-/// Before anything is removed: gnuplot draws nothing of a window without data, and fails.
+/// Checked before anything is removed: gnuplot fails for a window without data.
 void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun& run) {
   const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
     if (!t || (std::isfinite(*t) && shows)) return;
@@ -272,7 +273,7 @@ PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts, co
   run.bands.resize(index.size());
   run.greatest_compression.assign(index.size(), 0.0);
   const std::size_t rows = read_states(tables, index, run);
-  // Less than in history.csv where a kill came between them.
+  // Fewer than in history.csv if the run was killed in between.
   if (!index.empty()) run.times = std::min(run.times, rows / index.size());
   read_motion(tables, index, run);
   read_events(tables, index, run);
@@ -287,7 +288,7 @@ PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts, co
 }
 
 std::optional<PlottedRun> closer(const TableFolder& tables, const PlottedRun& run) {
-  constexpr std::size_t most_contacts = 6;  // more would bury the folder in pictures
+  constexpr std::size_t most_contacts = 6;  // limit for pictures of single contacts
   double first = run.t_last, last = run.t_first;
   std::size_t changes = 0;
   for (const auto& bands : run.bands) {
@@ -311,7 +312,7 @@ PlottedRun read_compared(const TableFolder& tables, const RunFacts& facts, doubl
   PlottedRun run;
   run.facts = facts;
   read_times(tables, {}, run);
-  // What is killed may lack the last row in contacts.csv, or have a part of it.
+  // A killed run may lack the last row of contacts.csv, or have only a part of it.
   if (run.times > 0 && run.facts.outcome == "running") --run.times;
   run.from = run.t_first;
   run.to = std::max(run.t_last, t_end);

@@ -1,4 +1,4 @@
-// reduction_json.hpp: what summary.json and check --json say about a reduced model.
+// reduction_json.hpp: a reduced model in summary.json and check --json.
 #pragma once
 
 #include "base/json.hpp"
@@ -7,8 +7,8 @@
 
 namespace signorini {
 
-/// `report`: of the run, or null. With it every direction of a contact has `followed`, its compliance left
-/// out times the greatest force: how far the modes left out moved the contact, as if they had no inertia.
+/// `report`: report of the run, or null. With it every direction of a contact has `followed`, its omitted compliance
+/// times the largest force: the displacement of the contact by the modes left out, without their inertia.
 [[nodiscard]] Json reduction_json(const Reduction& reduction, const Report* report);
 
 }  // namespace signorini

@@ -37,7 +37,7 @@ std::vector<std::string_view> run_files() {
   return files;
 }
 
-/// Replacing the run must not take the scene that is to be computed with it.
+/// Refuses to replace a run if that would remove the scene itself.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
   std::error_code missing;
   for (const std::string_view name : run_files()) {
@@ -105,7 +105,7 @@ RunDirectory::~RunDirectory() = default;
 
 RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
-  check_run_directory(path_, options_.force);  // again: it may have appeared since
+  check_run_directory(path_, options_.force);  // again: it may have been created since
   const fs::path created = make_directory(path_);
   if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
   try {

@@ -1,4 +1,4 @@
-// run_directory.hpp: the Recorder that keeps a run on disk.
+// run_directory.hpp: the Recorder that writes a run to disk.
 //
 //   RunDirectory directory("pipeline-run", scene, model, {.force = false, .command_line = ...});
 //   directory.finish(simulate(model, scene.run, directory));
@@ -25,8 +25,8 @@ class PictureTables;
 struct RunDirectoryOptions {
   bool force = false;
   std::vector<std::string> command_line;  ///< for summary.json
-  bool instants = false;                  ///< instants.csv, too
-  bool pictures = true;                   ///< motion.csv, curves.csv and body_motion.csv, too
+  bool instants = false;                  ///< also write instants.csv
+  bool pictures = true;                   ///< also write motion.csv, curves.csv and body_motion.csv
 };
 
 /// Errors of all members: FileError.
@@ -51,16 +51,16 @@ class RunDirectory : public Recorder {
   /// says, too.
   std::string finish(const Report& report);
   std::string finish(const CertifiedReport& run);
-  /// After a FileError: summary.json says where and why the run stopped, if it can still be written.
+  /// After a FileError: summary.json gets the time and the reason of the stop, if it can still be written.
   void abandon(double t, const std::string& reason);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Whether anything has been written yet.
+  /// True if anything has been written.
   [[nodiscard]] bool started() const { return writers_ != nullptr; }
 
  private:
   struct Writers;
-  /// Everything from which another run may go on.
+  /// Writes the complete state, from which another run may continue.
   void keep_state(const Sample& sample);
   Writers& writers();
   PictureTables& pictures();
@@ -71,12 +71,12 @@ class RunDirectory : public Recorder {
   const Scene& scene_;
   const Model& model_;
   RunDirectoryOptions options_;
-  DirectoryLock lock_;  // from the first row on
+  DirectoryLock lock_;  // held from the first row on
   std::unique_ptr<Writers> writers_;
 };
 
-/// Removes the files of a run, its summary too where asked to, and nothing else; the directory itself stays.
-/// Errors: FileError.
+/// Removes the files of a run, optionally its summary too, and nothing else; the directory itself stays. Errors:
+/// FileError.
 void remove_run(const std::filesystem::path& path, bool summary = true);
 
 /// Throws FileError unless a run may be written there.

@@ -7,9 +7,9 @@ namespace signorini {
 
 namespace {
 
-double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // below zero: held by a support
+double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // negative: fixed by a support
 
-/// A member of an event: the contact as its name.
+/// Converts a member of an event to a cell; the contact is written by name.
 struct EventCell {
   CsvBlock& block;
   const Model& model;

@@ -1,7 +1,7 @@
-// run_tables.hpp: the tables of a run (docs/output.md), a column a row.
+// run_tables.hpp: the tables of a run (docs/output.md), as lists of columns.
 //
 //   events.csv    the columns of signorini/event.hpp
-//   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T,ratio  one row a time and contact
+//   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T,ratio  one row per time and contact
 //   motion.csv    the same, contact by contact
 //   history.csv   t, then the model's columns
 //   response.csv  t, then the model's outputs
@@ -9,7 +9,7 @@
 //   curves.csv    curve,t,value
 //   frames.csv, frame_contacts.csv                           deformed shapes, and the contacts in them
 //
-// Writers and pictures take columns from here, by name. A model is kept by reference.
+// Writers and pictures use these columns, by name. A model is kept by reference.
 #pragma once
 
 #include <optional>
@@ -28,16 +28,16 @@ struct ContactRow {
   const Contact& contact;
   const ContactSample& sample;
 };
-/// |T| / |N|; nothing without friction, where the contact is open or N is zero.
+/// |T| / |N|; nullopt without friction, for an open contact, and for N = 0.
 [[nodiscard]] std::optional<double> friction_ratio(const Contact& contact, const ContactSample& sample);
-/// contacts.csv and motion.csv.
+/// Columns of contacts.csv and motion.csv.
 [[nodiscard]] const CsvTable<ContactRow>& contact_table();
 
 [[nodiscard]] CsvTable<Sample> history_table(const Model& model);
 
 struct ResponseRow {
   double t;
-  const std::vector<double>& values;  ///< one an output
+  const std::vector<double>& values;  ///< one per output
 };
 [[nodiscard]] CsvTable<ResponseRow> response_table(const Model& model);
 
@@ -49,7 +49,7 @@ struct CurveRow {
 };
 [[nodiscard]] const CsvTable<CurveRow>& curve_table();
 
-/// One of an element's nodes (`element` from 1), or a node by itself.
+/// A node of an element (`element` from 1), or a node of its own.
 struct FrameRow {
   double t;
   const char* kind;
@@ -59,7 +59,7 @@ struct FrameRow {
 };
 [[nodiscard]] const CsvTable<FrameRow>& frame_table();
 
-/// A contact at its node; x, y: where it is drawn, undeformed.
+/// A contact at its node; x, y: drawn position, undeformed.
 struct FrameContactRow {
   double t;
   const Contact& contact;

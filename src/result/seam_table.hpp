@@ -3,7 +3,7 @@
 //   N = sum N_k,   T = sum T_k,   moment = sum (x_k - x_m) x (-N_k n_k - T_k t_k),   x_m = sum D_k x_k / sum D_k
 //   stick, slip, open: sums of D_k
 //
-// Forces act on the slave; units: force, force * length, length. Places are those of the undeformed state.
+// Forces act on the slave; units: force, force * length, length. Positions are undeformed.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct SeamRow {
 };
 
 [[nodiscard]] const CsvTable<SeamRow>& seam_table();
-/// contacts: one a contact of the scene.
+/// contacts: one per contact of the scene.
 [[nodiscard]] SeamRow seam_row(const SeamSpec& seam, double t, const std::vector<ContactSample>& contacts);
 
 }  // namespace signorini

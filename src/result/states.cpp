@@ -13,7 +13,7 @@ StateWriter::StateWriter(const std::filesystem::path& directory, const Model& mo
     if (c.has_friction()) rubbing_.push_back(k);
     if (!c.obeys_coulomb()) own_.push_back(k);
   }
-  // The points that slide come last, and have columns of their own, which reduced models need, too.
+  // Sliding points are the last degrees of freedom. They have separate columns, which reduced models need, too.
   structural_ = model.physical_dofs().size() - (model.reduction ? 0 : sliding_.size());
   for (const Load& load : model.loads)
     if (load.kind == LoadKind::support) supports_.push_back(&load);

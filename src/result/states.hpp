@@ -1,8 +1,8 @@
-// states.hpp: whole states of a run, from which another may go on (docs/output.md).
+// states.hpp: complete states of a run, from which another run can continue (docs/output.md).
 //
 //   states.csv   t, displacements of all degrees of freedom, their velocities; motions of supports, their
-//                velocities; places p of the sliding points of shear elements, p = slip + motion of the surface;
-//                motions of surfaces; T and state of contacts with friction; state and memory of laws of one's own
+//                 velocities; positions p of the sliding points of shear elements, p = slip + motion of the surface;
+//                 motions of surfaces; T and state of contacts with friction; state and memory of user laws
 //
 // One row at each time of run.frames, and one at t_end. Read by scene/saved_state.hpp. Errors: FileError.
 #pragma once
@@ -17,18 +17,19 @@ namespace signorini {
 class StateWriter {
  public:
   StateWriter(const std::filesystem::path& directory, const Model& model);
-  /// Once for each time.
+  /// To be called once for each time.
   void write(const Sample& sample);
 
  private:
   void head();
 
   const Model& model_;
-  std::size_t structural_ = 0;                                   // degrees of freedom but sliding points
-  std::vector<std::size_t> sliding_, surfaces_, rubbing_, own_;  // contacts
+  std::size_t structural_ = 0;                                   // number of degrees of freedom without
+                                                                 // sliding points
+  std::vector<std::size_t> sliding_, surfaces_, rubbing_, own_;  // indices of contacts
   CsvBlock block_;
   CsvFile file_;
-  std::vector<const Load*> supports_;  // that move
+  std::vector<const Load*> supports_;  // loads of moving supports
   double last_ = -1.0;
 };
 

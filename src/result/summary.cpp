@@ -59,7 +59,7 @@ Json version_json() {
   return {{"signorini", version}, {"sundials", sundials_version}, {"compiler", "g++ " __VERSION__}};
 }
 
-/// How the loads came: changes of state, and the contacts at the end of each part of a stage.
+/// History of a frictional start: changes of state, and the contacts at the end of each part of a stage.
 Json frictional_json(const Model& model) {
   Json events = Json::array(), stages = Json::array();
   const auto name = [&](int k) { return model.contacts[static_cast<std::size_t>(k)].name; };
@@ -276,9 +276,9 @@ Json head_json(const Scene& scene, const Model& model, const std::vector<std::st
           {"model", model_json(model)}};
 }
 
-// Names come from files in any encoding; a byte that is not UTF-8 must not cost the summary.
+// Names come from files in any encoding; a byte that is not UTF-8 must not prevent the summary.
 
-/// Why states could not be decided. What is not known or infinite is written as null.
+/// Reason why states could not be decided. Unknown or infinite values are written as null.
 Json refusal_json(const Model& model, const Refusal& refusal) {
   Json contacts = Json::array();
   for (const std::size_t c : refusal.contacts) contacts.push_back(model.contacts[c].name);
@@ -331,7 +331,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
 
 namespace {
 
-/// Without what only the Report of a run knows.
+/// summary.json without the results of the run's Report.
 std::string brief_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line,
                        const Json& outcome) {
   Json json;

@@ -1,4 +1,4 @@
-// summary.hpp: summary.json, what a run was and how it went, written and read back (docs/output.md).
+// summary.hpp: summary.json, inputs and outcome of a run, written and read (docs/output.md).
 //
 //   outcome.kind: running (not ended, or killed), done, stopped, interrupted
 #pragma once
@@ -19,16 +19,16 @@ namespace signorini {
 [[nodiscard]] std::string summary_json(const Scene& scene, const Model& model, const CertifiedReport& run,
                                        const std::vector<std::string>& command_line);
 
-/// What can be said at the start: outcome.kind is "running", nothing counted yet.
+/// Content at the start of a run: outcome.kind is "running", without counters.
 [[nodiscard]] std::string running_json(const Scene& scene, const Model& model,
                                        const std::vector<std::string>& command_line);
 
-/// The same of a run whose files could not be written: outcome.kind is "stopped", nothing counted.
+/// Content for a run whose files could not be written: outcome.kind is "stopped", without counters.
 [[nodiscard]] std::string abandoned_json(const Scene& scene, const Model& model,
                                          const std::vector<std::string>& command_line, double t,
                                          const std::string& reason);
 
-/// What the pictures need to know about a run.
+/// Facts about a run for its pictures.
 struct RunFacts {
   struct Contact {
     std::string name;
@@ -38,12 +38,12 @@ struct RunFacts {
   std::string title, outcome;
   Units units;
   double t_end = 0.0;
-  std::optional<double> certain_until;  ///< of a certified run whose sequence is not certain to its end
+  std::optional<double> certain_until;  ///< set for a certified run whose sequence is not certain to its end
   std::vector<Contact> contacts;
   struct Response {
     std::string name, unit;
   };
-  std::vector<Response> response;  ///< the columns of response.csv behind t
+  std::vector<Response> response;  ///< columns of response.csv after t
 };
 
 /// Reads them from DIR/summary.json. Errors: FileError.

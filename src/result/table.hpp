@@ -1,11 +1,11 @@
-// table.hpp: a table of results: its columns as rows, one writer, numbers of columns by name.
+// table.hpp: a table of results: list of columns, one writer, column numbers by name.
 //
 //   const CsvTable<Wave> waves = {{"t", &Wave::t}, {"height", [](const Wave& w) { return w.top - w.bottom; }}};
 //   waves.text(list)              header and rows
-//   waves.number("height")        2: the column of that name for gnuplot, which counts from 1
+//   waves.number("height")        2: number of this column for gnuplot, which counts from 1
 //
-// A cell is what its column gives: a number, an optional one (empty when absent), or a text. A name that a table has not
-// is an error of the program, not of a file.
+// A column provides a number, an optional number (empty if absent), or a text. Asking for an unknown name is an error
+// of the program, not of a file.
 #pragma once
 
 #include <concepts>
@@ -24,7 +24,7 @@
 
 namespace signorini {
 
-/// Puts a value into a block: texts as they are, numbers as shortest() writes them.
+/// Puts a value into a block: texts unchanged, numbers by shortest().
 template <class Value>
 void put_cell(CsvBlock& block, const Value& value) {
   if constexpr (std::convertible_to<Value, std::string_view>)
@@ -32,7 +32,7 @@ void put_cell(CsvBlock& block, const Value& value) {
   else
     block.number(static_cast<double>(value));
 }
-/// Nothing where absent.
+/// Puts an empty cell for nullopt.
 template <class Value>
 void put_cell(CsvBlock& block, const std::optional<Value>& value) {
   if (value)
@@ -63,21 +63,21 @@ class CsvTable {
   void add(std::string name, Cell cell) {
     columns_.emplace_back(std::move(name), std::move(cell));
   }
-  /// Of a column whose rows put cells of several kinds.
+  /// Adds a column whose rows put cells of different types.
   void add_put(std::string name, std::function<void(CsvBlock&, const Row&)> put) {
     columns_.emplace_back(std::move(name), std::move(put), nullptr);
   }
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
-  /// For gnuplot, from 1.
+  /// Column number for gnuplot, from 1.
   [[nodiscard]] std::size_t number(std::string_view name) const {
     for (std::size_t i = 0; i < columns_.size(); ++i)
       if (columns_[i].name == name) return i + 1;
     throw std::logic_error("a table without a column '" + std::string(name) + "'");
   }
-  /// "$3": its value in gnuplot's expressions.
+  /// "$3": the column's value in gnuplot expressions.
   [[nodiscard]] std::string value(std::string_view name) const { return "$" + std::to_string(number(name)); }
-  /// "strcol(3)": its text.
+  /// "strcol(3)": the column's text.
   [[nodiscard]] std::string word(std::string_view name) const {
     return "strcol(" + std::to_string(number(name)) + ")";
   }
@@ -90,7 +90,7 @@ class CsvTable {
     for (const Column& column : columns_) column.put(block, row);
     block.end_row();
   }
-  /// The whole of a short one.
+  /// Text of a whole short table.
   template <class Rows>
   [[nodiscard]] std::string text(const Rows& rows) const {
     CsvBlock block;
@@ -103,7 +103,7 @@ class CsvTable {
   std::vector<Column> columns_;
 };
 
-/// A table that is written as its rows come. Errors of all members: FileError.
+/// A table that is written during the run. Errors of all members: FileError.
 template <class Row>
 class TableFile {
  public:
@@ -112,12 +112,12 @@ class TableFile {
     table_.put_header(block_);
     flush();
   }
-  /// Kept until there is much, or flush().
+  /// Buffers the row until there are enough of them, or until flush().
   void add(const Row& row) {
     table_.put_row(block_, row);
     if (block_.str().size() > much) flush();
   }
-  /// Hands all rows to the system.
+  /// Passes all rows to the system.
   void flush() { file_.write(block_); }
 
  private:

@@ -1,10 +1,10 @@
-// trace_writer.hpp: the rounds of all decisions, one JSON object a line (docs/output.md).
+// trace_writer.hpp: the rounds of all decisions, one JSON object per line (docs/output.md).
 //
 //   {"t":0.3,"round":1,"fired":[...],"touching":["A"],"impact":false,
 //    "tried":{"A":"slip+","B":"open"},"failed":[{"contact":"A","guard":"slip rate","order":1,"excess":7.5}],
 //    "holds":false}
 //
-// The last line of an instant holds, unless the run stops there. Errors: FileError.
+// The last round of an instant holds, unless the run stops there. Errors: FileError.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
-// unit_words.hpp: units of tables in a scene's words.
+// unit_words.hpp: units of tables with the unit names of a scene.
 //
-//   "force/length", { force = "kN", length = "m" }   ->   "kN/m"        a product, "*", is a blank
+//   "force/length", { force = "kN", length = "m" }   ->   "kN/m"        a product, "*", becomes a blank
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-/// `unit` has letters in names of quantities only; words that are none of the four stay.
+/// In `unit`, letters only occur in names of quantities; words other than the four are unchanged.
 [[nodiscard]] std::string unit_in_words(std::string_view unit, const Units& units);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// units_json.hpp: the units of a scene, in the words of scene files.
+// units_json.hpp: the units of a scene as JSON, with the keys of scene files.
 #pragma once
 
 #include "base/json.hpp"
@@ -7,9 +7,9 @@
 
 namespace signorini {
 
-/// force, mass, length, time
+/// Object with force, mass, length, time.
 [[nodiscard]] Json units_json(const Units& units);
-/// The same, read back. Errors: Json::exception.
+/// The inverse of units_json. Errors: Json::exception.
 [[nodiscard]] Units units_from(const Json& json);
 
 }  // namespace signorini

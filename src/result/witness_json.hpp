@@ -1,4 +1,4 @@
-// witness_json.hpp: what a witness found, in summary.json and by `signorini witness --json`.
+// witness_json.hpp: results of a witness, for summary.json and `signorini witness --json`.
 #pragma once
 
 #include "base/json.hpp"

@@ -171,8 +171,8 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
   // A contact without force may be closed only since Newton's method released rigid contacts, and would displace a free
   // motion: it opens, once. If its gap is negative without it, it closes for good.
   std::vector<bool> opened(contacts.size(), false);
-  // Newton ended on a slightly supported structure; without that support a contact that only just
-  // touches may change its side, and change back: after 20 rounds either will do.
+  // Newton's method ended on a slightly supported structure; without that support a contact that barely touches may
+  // change its state, and change back: after 20 rounds either state is acceptable.
   for (int round = 0;; ++round) {
     const Trial trial = attempt(problem, closed);
     if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force, search.key);

@@ -39,10 +39,10 @@ struct PanelEdges {
 struct Panel {
   std::string label;  ///< label of the vertical axis
   std::vector<Curve> curves;
-  std::string axes = "";     ///< gnuplot lines for axes that differ from the usual ones
-  double weight = 1.0;       ///< relative height of the panel
-  std::string after = "";    ///< gnuplot lines that undo permanent settings of `axes`
-  bool own_axis = false;     ///< has numbers and a label at its horizontal axis, even if panels follow below
+  std::string axes = "";   ///< gnuplot lines for axes that differ from the usual ones
+  double weight = 1.0;     ///< relative height of the panel
+  std::string after = "";  ///< gnuplot lines that undo permanent settings of `axes`
+  bool own_axis = false;   ///< has numbers and a label at its horizontal axis, even if panels follow below
   std::string margins =
       "";  ///< gnuplot lines for its position and all of its axes; empty: panels above each other
 };

@@ -1,4 +1,4 @@
-// figures.hpp: figures that a run may not have, in tables and JSON.
+// figures.hpp: optional figures of a run, in tables and JSON.
 #pragma once
 
 #include <optional>
@@ -7,14 +7,14 @@
 
 namespace signorini {
 
-/// For a cell; absent ones stay so.
+/// Value for a cell; empty if absent.
 template <class Value>
 [[nodiscard]] std::optional<double> number_of(const std::optional<Value>& value) {
   if (!value) return std::nullopt;
   return static_cast<double>(*value);
 }
 
-/// null where absent.
+/// JSON value; null if absent.
 template <class Value>
 [[nodiscard]] Json json_of(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();

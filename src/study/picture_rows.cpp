@@ -52,7 +52,7 @@ class PictureRows final : public Recorder {
     motions_[static_cast<std::size_t>(contact)] = rows;
   }
   void curves(const Curves& curves) override { curves_ = curves; }
-  /// They are of no use, but a run that hands them over is made as a whole (run/apart.hpp).
+  /// Instants are not used, but a run that delivers them is not split into parts (run/apart.hpp).
   [[nodiscard]] bool wants_instants() const override { return instants_; }
   bool progress(double /*t*/) override { return go_on_(); }
 
@@ -74,7 +74,7 @@ class PictureRows final : public Recorder {
   std::optional<BodyMotionFile> bodies_;
 };
 
-/// Row by row; a certificate has added columns behind those of the run.
+/// Compares row by row; a certificate has appended columns to those of the run.
 bool same_events(const std::string& events, const fs::path& file) {
   std::istringstream expected(events);
   std::ifstream found(file, std::ios::binary);
@@ -94,12 +94,12 @@ bool lacks_picture_rows(const fs::path& directory) {
   try {
     const Json summary = parse_json(stream);
     const std::string kind = summary.at("outcome").at("kind");
-    // A full disk ended it: the same run would not end there.
+    // A run that a full disk ended would not end there again.
     const bool by_itself = summary.at("outcome").value("exit_code", 0) != static_cast<int>(ExitCode::file);
     return (kind == "done" || kind == "stopped") && by_itself &&
            summary.at("versions").at("signorini") == version;
   } catch (const Json::exception&) {
-    return false;  // whoever draws says what is wrong with it
+    return false;  // the drawing itself reports the error
   }
 }
 

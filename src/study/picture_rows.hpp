@@ -1,9 +1,9 @@
-// picture_rows.hpp: what pictures need of a run that was computed without it (run --no-plots).
+// picture_rows.hpp: picture data of a run that was computed without them (run --no-plots).
 //
 //   run.toml -> the same run once more -> motion.csv, curves.csv, body_motion.csv
 //
-// A run repeats itself to the last bit, so its events are those of events.csv; where they are not, nothing is written: what
-// run.toml reads (records, the run it goes on from) or the program is another by now.
+// Runs are bitwise reproducible, so the repeated events must equal those of events.csv. If they differ, nothing is
+// written: files that run.toml refers to (records, the continued run) or the program have changed.
 #pragma once
 
 #include <filesystem>

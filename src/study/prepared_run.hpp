@@ -1,4 +1,4 @@
-// prepared_run.hpp: a scene, changed or not, ready to run; and the run of it, in memory or on disk.
+// prepared_run.hpp: a scene with overrides, ready to run; and its run, in memory or on disk.
 //
 //   file + overrides -read-> Scene -cutoff of [reduction] tolerance-> Scene -build-> Model
 //   in memory: run.ends(recorder), or simulate(run.model, run.scene.run, recorder)
@@ -18,17 +18,17 @@
 
 namespace signorini {
 
-/// A run that is on disk.
+/// A run that has been written to disk.
 struct KeptRun {
   CertifiedReport certified;
-  std::string summary;  ///< the text of summary.json
+  std::string summary;  ///< text of summary.json
 };
 
 struct PreparedRun {
-  Scene scene;  ///< with the cutoff that was found
+  Scene scene;  ///< with the cutoff that was found for a tolerance
   Model model;
 
-  /// In memory, with rows of output at both ends only. Errors: SceneError for what the engine refuses.
+  /// Runs in memory, with output rows at both ends only. Errors: SceneError for scenes that the engine refuses.
   Report ends(Recorder& recorder) const;
   /// Into `directory`, to which `watch` passes all on; certified where options are given. Where a file cannot be
   /// written the directory says how far the run came. Errors: as of ends(); FileError.
@@ -36,13 +36,13 @@ struct PreparedRun {
                const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 
-/// go_on: as of find_cutoff. Errors: those of read_scene, find_cutoff and build_model.
+/// go_on: same as in find_cutoff. Errors: those of read_scene, find_cutoff and build_model.
 [[nodiscard]] PreparedRun prepare_run(
     const std::string& file, const std::vector<Override>& changes,
     const std::function<bool()>& go_on = [] { return true; });
-/// One of several runs that are compared, with the cutoff that was `found` for the first.
+/// One of several runs that are compared, with the cutoff `found` for the first one.
 [[nodiscard]] PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found);
-/// The same run with rows of output at both ends only.
+/// The same run with output rows at both ends only.
 [[nodiscard]] RunSpec without_rows(RunSpec run);
 
 }  // namespace signorini

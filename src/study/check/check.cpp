@@ -10,7 +10,7 @@ namespace {
 
 constexpr int shown_modes = 5;
 
-/// C with the dashpots of contacts.
+/// C including the dashpots of contacts.
 SparseMatrix with_dashpots(const Model& model) {
   std::vector<LineSpring> dashpots;
   for (const Contact& c : model.contacts) {
@@ -19,7 +19,7 @@ SparseMatrix with_dashpots(const Model& model) {
   return with_springs(model.damping, dashpots);
 }
 
-/// The model as it was before its reduction.
+/// The model before its reduction.
 Model unreduced(Scene scene) {
   scene.reduction.reset();
   return build_model(scene);
@@ -35,9 +35,9 @@ void measure_mass(const Scene& scene, const Model& structure, CheckReport& repor
   if (!scene.matrices) report.mass = checks::mass_of(scene, structure);
 }
 
-/// What of the initial state the reduced model does not have.
+/// Warns of the part of the initial state that the reduced model cannot represent.
 void warn_of_lost_state(const Model& model, std::vector<std::string>& warnings) {
-  constexpr double worth_a_word = 1e-9;  // of the scene's scales
+  constexpr double worth_a_word = 1e-9;  // relative to the scene's scales
   const Reduction& reduction = *model.reduction;
   const auto warn = [&](double lost, double scale, const char* what, const std::string& unit) {
     if (lost > worth_a_word * scale)

@@ -112,7 +112,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   Json columns = {"t"};
   for (const Column& column : model.columns) columns.push_back(column.name);
   json["columns"] = std::move(columns);
-  // Names come from files in any encoding; a byte that is not UTF-8 must not cost the answer.
+  // Names come from files in any encoding; a byte that is not UTF-8 must not prevent the output.
   return json_text(json);
 }
 

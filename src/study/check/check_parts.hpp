@@ -1,29 +1,29 @@
-// check_parts.hpp: the pieces of check(), one question each.
+// check_parts.hpp: the parts of check().
 #pragma once
 
 #include "study/check/check.hpp"
 
 namespace signorini::checks {
 
-/// The first state decision and the first step, by simulate() itself.
+/// Result of the first state decision and the first step, by simulate() itself.
 struct Start {
   std::vector<ContactSample> contacts;
   Method method;
-  std::vector<std::string> warnings;  ///< of the run itself
+  std::vector<std::string> warnings;  ///< warnings of the run itself
 };
 /// Errors: SceneError with the reason why the run cannot start.
 [[nodiscard]] Start start(const Scene& scene, const Model& model);
 
-/// Why the forces of contacts that stick without tangential stiffness are not unique.
+/// Reason why the forces of sticking contacts without tangential stiffness are not unique.
 struct Ambiguity {
   std::size_t contact = 0;
-  std::string reason;  ///< in words
+  std::string reason;  ///< one sentence
 };
 [[nodiscard]] std::optional<Ambiguity> ambiguous_contacts(const Model& model);
 
-/// Nodes that nothing is attached to, and sections that no member has; one sentence each.
+/// Nodes without any attachment, and sections that no member uses; one sentence each.
 [[nodiscard]] std::vector<std::string> loose_parts(const Scene& scene);
-/// A motion that grows by itself, with the contacts as they are at t = 0; empty when there is none.
+/// An unstable motion with the contacts as they are at t = 0; empty if there is none.
 [[nodiscard]] std::string unstable_motion(const Scene& scene, const Model& model,
                                           const std::vector<ContactSample>& contacts);
 [[nodiscard]] MassFacts mass_of(const Scene& scene, const Model& model);

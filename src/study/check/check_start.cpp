@@ -1,4 +1,4 @@
-// The start of the run, and why there is none.
+// The start of the run, or the reason why it cannot start.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace signorini::checks {
 namespace {
 
-/// Keeps the contacts at t = 0 and stops the run after its first step.
+/// Stores the contacts at t = 0 and stops the run after its first step.
 class FirstStep : public Recorder {
  public:
   void event(const Event& /*event*/) override {}
@@ -28,7 +28,7 @@ class FirstStep : public Recorder {
   std::vector<ContactSample> contacts;
 };
 
-/// t on the degrees of freedom with mass: only there does a rigid hold act at once.
+/// The tangent restricted to degrees of freedom with mass: only there does a rigid constraint act immediately.
 Vector heavy_part(const Model& model, const Combination& tangent) {
   Vector t = full(tangent, model.size());
   for (int i = 0; i < model.size(); ++i)
@@ -36,7 +36,8 @@ Vector heavy_part(const Model& model, const Combination& tangent) {
   return t;
 }
 
-/// On ground that stands, with mass all over: several such that hold one motion share their force (linear/shared_rows.hpp).
+/// True on a stationary ground with mass on all degrees of freedom: several contacts that constrain one motion then
+/// share their force (linear/shared_rows.hpp).
 bool may_share(const Model& model, const Contact& contact) {
   return contact.surface_motion.is_constant() &&
          std::none_of(contact.tangent.terms.begin(), contact.tangent.terms.end(), [&](const auto& term) {
@@ -44,10 +45,10 @@ bool may_share(const Model& model, const Contact& contact) {
          });
 }
 
-/// The same for contacts whose tangents lie on common degrees of freedom.
+/// Ambiguity among contacts whose tangents act on common degrees of freedom.
 std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<std::size_t>& contacts) {
-  std::vector<std::string> names;  // of the columns of `held`
-  std::vector<bool> shares;        // may they share?
+  std::vector<std::string> names;  // names of the columns of `held`
+  std::vector<bool> shares;        // true: the contact may share its force
   Eigen::MatrixXd held(model.size(), 0);
   for (const std::size_t k : contacts) {
     const Contact& c = model.contacts[k];

@@ -1,4 +1,4 @@
-// Mass, free motions, and contact springs against the structure.
+// Mass, free motions, and stiffness of contact springs relative to the structure.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace signorini::checks {
 namespace {
 
-/// r M r for a unit translation of all degrees of freedom whose names end so.
+/// r M r for a unit translation of all degrees of freedom with this name ending.
 double moving_mass(const Model& model, std::string_view component) {
   Vector r = Vector::Zero(model.size());
   for (int i = 0; i < model.size(); ++i)
@@ -41,7 +41,7 @@ std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSampl
   return closed;
 }
 
-/// Springs in place of rigid contacts that hold what frozen forces push.
+/// Stiffness factor of the springs that replace rigid contacts; larger if contacts must stabilise frozen forces.
 double firmness_of(const Model& model) { return model.geometric ? 1e6 : 1.0; }
 
 }  // namespace
@@ -102,7 +102,7 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
   };
   const Mesh mesh = make_mesh(scene);
   for (const auto& e : mesh.elements) {
-    // Along x what is spread evenly has the shares of the nodes.
+    // The shares of the nodes are those of a uniform load along x.
     const ElementVector shares = e->spread({1.0 / e->extent(), 0.0});
     const std::vector<ElementUnknown> unknowns = e->unknowns();
     double x = 0.0, y = 0.0;
@@ -126,15 +126,16 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
 
 namespace {
 
-/// The structure without the points that slide (model/shear.hpp), the last degrees of freedom: in a free motion their springs
-/// do not stretch, so that they say nothing of their own.
+/// The structure without sliding points (model/shear.hpp), the last degrees of freedom: in a free motion their springs
+/// have no elongation, so the points add no motion of their own.
 struct WithoutSlipPoints {
   WithoutSlipPoints(const Model& model, int own) : contacts(model.contacts), size(own) {
     stiffness = model.stiffness.topLeftCorner(own, own);
     load = static_load(model.loads, model.size()).head(own);
     for (Contact& contact : contacts) contact.tangent = contact.body_tangent();
   }
-  /// A free motion of the structure with its points: each as far as its body, or, where it is measured from that, at rest.
+  /// A free motion of the structure, extended to sliding points: each moves with its body, or, if measured relative to
+  /// it, rests.
   [[nodiscard]] Vector with_points(const Model& model, const Vector& motion) const {
     Vector all = Vector::Zero(model.size());
     all.head(size) = motion;
@@ -164,7 +165,7 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
       StaticProblem{model.stiffness, load, model.contacts, map, firmness_of(model)}.matrix(closed);
   std::vector<std::string> names;
   for (const FreeMotion& f : hold_motions(problem, null_motions(k).topRows(own.size), closed, true)) {
-    // Without friction or a spring a contact follows the motion and does not hold it.
+    // A contact without friction or a spring follows the motion and does not hold it.
     const Contact* holder = f.holder < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.holder)];
     const bool holds =
         holder != nullptr && closed[static_cast<std::size_t>(f.holder)] && holder->has_friction();
@@ -186,7 +187,7 @@ std::vector<StiffnessRatio> stiffness_ratios(const Model& model) {
   std::vector<StiffnessRatio> result;
   const auto add = [&](std::size_t contact, bool normal, const Combination& form, double stiffness) {
     const double give = form.dot(structure.solve(full(form, model.size())));
-    // 1 / give is the spring and the rest side by side; below roundoff there is no rest.
+    // 1 / give is the sum of the spring and the rest in parallel; below rounding there is no rest.
     const double rest = give > 0.0 ? 1.0 / give - stiffness : 0.0;
     result.push_back({static_cast<int>(contact), normal, stiffness, rest > 1e-12 * stiffness ? rest : 0.0});
   };

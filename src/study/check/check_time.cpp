@@ -1,4 +1,4 @@
-// Discontinuities of the forcing, and what the time loop will cost.
+// Discontinuities of the forcing, and estimated cost of the time loop.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace signorini::checks {
 namespace {
 
-/// Does the slope jump at a breakpoint, beyond roundoff?
+/// True if the slope jumps at a breakpoint, beyond rounding.
 bool slope_jumps(const History& history, double t) {
   const double before = history.piece_before(t).value(t, 1), after = history.piece(t).value(t, 1);
   return std::abs(after - before) > 1e-12 * (std::abs(before) + std::abs(after));

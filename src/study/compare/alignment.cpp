@@ -15,7 +15,7 @@ bool same(const LoggedEvent& a, const LoggedEvent& b) {
   return a.contact == b.contact && a.type == b.type && a.from == b.from && a.to == b.to;
 }
 
-/// One list while it is walked: what is taken, and each contact's next event.
+/// Position in one list: events taken so far, and each contact's next event.
 class Walk {
  public:
   Walk(const std::vector<LoggedEvent>& events, double t_end, double instant)
@@ -30,7 +30,7 @@ class Walk {
 
   [[nodiscard]] const LoggedEvent& operator[](std::size_t i) const { return events_[i]; }
 
-  /// The first that is not taken.
+  /// The first event that has not been taken.
   std::optional<std::size_t> first() {
     while (head_ < order_.size() && taken_[order_[head_]]) ++head_;
     if (head_ == order_.size()) return std::nullopt;
@@ -48,7 +48,7 @@ class Walk {
 
   void take(std::size_t i) { taken_[i] = true; }
 
-  /// Those that are not taken and stand before i.
+  /// Events before i that have not been taken.
   std::vector<std::size_t> passed_over(std::size_t i) {
     std::vector<std::size_t> list;
     first();
@@ -64,7 +64,7 @@ class Walk {
     return std::abs(events_[i].t - events_[j].t) <=
            instant_ + events_[i].uncertainty + events_[j].uncertainty;
   }
-  /// It may lie beyond the end as well, where the other run did not look.
+  /// True if the event may lie beyond the end within its uncertainty, so that the other run may lack it.
   [[nodiscard]] bool at_end(std::size_t i) const {
     return events_[i].t >= t_end_ - instant_ - events_[i].uncertainty;
   }
@@ -87,7 +87,7 @@ class Walk {
 
 enum class Order { same, one_instant, undetermined, different };
 
-/// May `event` of the reference be taken together with `partner`, although `other` has more before it?
+/// Whether `event` of the reference may be paired with `partner`, although `other` has earlier events left.
 Order order_of(Walk& reference, Walk& other, std::size_t event, std::size_t partner) {
   Order order = Order::same;
   for (const std::size_t before : other.passed_over(partner)) {

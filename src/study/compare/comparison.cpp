@@ -20,7 +20,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Which quantity a column of history.csv is part of.
+/// The quantity to which a column of history.csv belongs.
 Deviation& quantity(Comparison& c, const std::string& column) {
   const NamedMotion motion = motion_named(column);
   if (motion.rotation) return motion.rate ? c.angular_velocity : c.rotation;
@@ -59,7 +59,7 @@ std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b,
   return columns;
 }
 
-/// Where a table of differences over time is wanted.
+/// Output file for a table of differences over time, if requested.
 template <class Row>
 std::optional<TableFile<Row>> series_of(const ComparisonSettings& settings, const char* kind,
                                         const CsvTable<Row>& table) {
@@ -94,7 +94,7 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
 void compare_response(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
   if (a.figures.facts.response.empty() || b.figures.facts.response.empty()) return;
   TimeJoin join(a.figures.directory / "response.csv", b.figures.directory / "response.csv", c.t_end);
-  Comparison ignored;  // its columns have no other quantity
+  Comparison ignored;  // its columns belong to no other quantity
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "response.csv");
   c.notes.insert(c.notes.end(), ignored.notes.begin(), ignored.notes.end());
   for (const CommonColumn& column : columns)
@@ -114,7 +114,7 @@ void compare_response(const ComparedRun& a, const ComparedRun& b, double split, 
 
 void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
   TimeJoin join(a.figures.directory / "energy.csv", b.figures.directory / "energy.csv", c.t_end);
-  Comparison ignored;  // its columns have no other quantity
+  Comparison ignored;  // its columns belong to no other quantity
   std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "energy.csv");
   std::erase_if(columns, [](const CommonColumn& column) { return column.name == "balance"; });
   c.energy.alone = std::move(ignored.displacement.alone);
@@ -126,7 +126,7 @@ void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Co
   c.rows.energy = join.rows();
 }
 
-/// Whether an event of either run lies between two times; both must not decrease from call to call.
+/// Tells whether an event of either run lies between two times; both times must not decrease from call to call.
 class EventsBetween {
  public:
   EventsBetween(const ComparedRun& a, const ComparedRun& b) {
@@ -144,7 +144,7 @@ class EventsBetween {
   std::size_t at_ = 0;
 };
 
-/// Its next time, and its rows counted; false: none up to the end.
+/// Moves to its next time, and counts its rows; false: no more rows before the end.
 bool next_row(ContactRowReader& reader, double end, std::size_t& count) {
   if (!reader.next() || beyond(reader.t(), end)) return false;
   count += reader.forces().size();
@@ -169,7 +169,8 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
   auto series = series_of(settings, "forces-", force_difference_table());
   ForcesByContact by_contact;
 
-  // A time is judged when the next one is known: is there an event from the time before up to the next?
+  // A time is evaluated once the next one is known, because it needs to know whether an event lies between its two
+  // neighbours.
   struct Waiting {
     double t, before;
     Greatest greatest;

@@ -1,10 +1,10 @@
-// comparison.hpp: two runs of one scene, side by side.
+// comparison.hpp: comparison of two runs of one scene.
 //
 //   Comparison c = compare_runs(read_run_figures("ida"), read_run_figures("exact"), settings);
 //
-// Events are aligned one by one (alignment.hpp); tables are compared row by row at the output times that
-// both runs have, and column by column at the columns that both have. Everything is read as a stream: runs
-// may be larger than memory. Units are those of the scene.
+// Events are aligned one by one (alignment.hpp); tables are compared row by row at the output times of both runs, and
+// column by column for the columns of both. Everything is read as a stream: runs may be larger than memory. Units are
+// those of the scene.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@
 
 namespace signorini {
 
-/// A run's events beside its figures.
+/// A run's figures and events.
 struct ComparedRun {
   RunFigures figures;
   std::vector<LoggedEvent> events;
@@ -31,39 +31,38 @@ struct ComparedRun {
 
 struct ComparisonSettings {
   double instant = 0.0;                                    ///< AlignmentSettings::instant
-  double t_end = std::numeric_limits<double>::infinity();  ///< what lies beyond is not compared
-  /// Where the differences over time are written (for pictures): motion-SLUG.csv, forces-SLUG.csv; none if
-  /// empty.
+  double t_end = std::numeric_limits<double>::infinity();  ///< later times are not compared
+  /// Folder for differences over time (for pictures): motion-SLUG.csv, forces-SLUG.csv; empty: not written.
   std::filesystem::path folder;
   std::string slug;
 };
 
 struct Comparison {
-  std::string name;    ///< of the run that is compared with the reference
-  double t_end = 0.0;  ///< up to where both runs are there
+  std::string name;    ///< name of the run that is compared with the reference
+  double t_end = 0.0;  ///< end of the time that both runs cover
   Alignment alignment;
   Deviation event_time;
   Deviation displacement, rotation, velocity, angular_velocity;
   Deviation force;       ///< N and T of the contacts
-  Deviation force_away;  ///< the same, at output times with no event of either run up to their neighbours
-  Deviation energy;      ///< stored, lost and done, each by itself
-  std::vector<std::pair<std::string, Deviation>> columns;  ///< of history.csv; then NAME.N and NAME.T
-  /// The response quantities that both have, at the rows that both have.
+  Deviation force_away;  ///< the same, at output times without an event of either run up to their neighbours
+  Deviation energy;      ///< stored energies, dissipations and works, each separately
+  std::vector<std::pair<std::string, Deviation>> columns;  ///< columns of history.csv; then NAME.N and NAME.T
+  /// The response quantities of both runs, at the rows of both.
   struct Response {
     std::string name, unit;
     Deviation deviation;
   };
   std::vector<Response> response;
   std::size_t common_times = 0;
-  /// Rows up to t_end; those of contacts.csv one a time and contact.
+  /// Rows up to t_end; in contacts.csv one row per time and contact.
   struct Rows {
     RowCount history, contacts, energy, response;
   } rows;
-  bool ends_differ = false;        ///< one run goes on beyond t_end
-  std::vector<std::string> notes;  ///< what could not be compared, one sentence each
+  bool ends_differ = false;        ///< one run continues beyond t_end
+  std::vector<std::string> notes;  ///< parts that could not be compared, one sentence each
 };
 
-/// Errors: FileError; of the settings' folder too.
+/// Errors: FileError, also for the settings' folder.
 [[nodiscard]] Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
                                       const ComparisonSettings& settings = {});
 

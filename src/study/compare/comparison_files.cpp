@@ -14,7 +14,7 @@ namespace {
 
 using Audit = std::map<std::string, double>;
 
-/// Of runs; audits have the columns of the reference.
+/// Table of runs; audits have the columns of the reference.
 CsvTable<RunFigures> run_table(const Audit& audit) {
   using R = RunFigures;
   CsvTable<R> table = {{"run", &R::name},
@@ -45,7 +45,7 @@ std::string runs_csv(const ComparisonReport& report) {
   table.put_header(block);
   for (const ComparedRun& run : report.runs) table.put_row(block, run.figures);
   for (const auto& [name, reason] : report.refused) {
-    // An engine that refused the scene has a name and a reason.
+    // an engine that refused the scene only has a name and a reason
     const std::map<std::string, std::string> cells = {
         {"run", name}, {"engine", name}, {"outcome", "refused"}, {"reason", reason}};
     for (const auto& column : table.columns()) {
@@ -57,7 +57,7 @@ std::string runs_csv(const ComparisonReport& report) {
   return block.str();
 }
 
-/// A quantity of one run.
+/// Difference of a quantity in one run.
 struct Difference {
   const std::string& run;
   Quantity quantity;
@@ -83,7 +83,7 @@ std::string differences_csv(const ComparisonReport& report) {
   return table.text(rows);
 }
 
-/// A column of one run.
+/// Difference of a column in one run.
 struct ColumnDifference {
   const std::string &run, &column;
   const Deviation& deviation;

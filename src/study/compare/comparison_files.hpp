@@ -1,10 +1,10 @@
-// comparison_files.hpp: a comparison of several runs as tables (docs/command-line.md).
+// comparison_files.hpp: tables of a comparison of several runs (docs/command-line.md).
 //
-//   runs.csv         one row a run: outcome, events, cost, audit
+//   runs.csv         one row per run: outcome, events, cost, audit
 //   differences.csv  run,quantity,unit,value,t,where,value_until_split,t_until_split,where_until_split
 //   columns.csv      run,column,value,t,value_until_split,t_until_split
-//   events.csv       run,t_reference,t,difference,contact,event,from,to,swapped   one row an aligned pair
-//   compare.json     all of it but the rows of events.csv
+//   events.csv       run,t_reference,t,difference,contact,event,from,to,swapped   one row per aligned pair
+//   compare.json     all of it except the rows of events.csv
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@
 namespace signorini {
 
 struct ComparisonReport {
-  std::vector<ComparedRun> runs;        ///< the first is the reference; those that could be read
-  std::vector<Comparison> comparisons;  ///< of runs[1], runs[2], ... with the reference
+  std::vector<ComparedRun> runs;        ///< readable runs; the first is the reference
+  std::vector<Comparison> comparisons;  ///< runs[1], runs[2], ... compared with the reference
   std::vector<Limit> limits;
   std::vector<std::string> exceeded;  ///< limits.hpp
   /// Engines that refused the scene: name and reason.

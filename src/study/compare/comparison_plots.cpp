@@ -21,9 +21,9 @@ namespace {
 
 constexpr std::array<const char*, 6> colours = {"#1a1a1a", "#d95f02", "#1f77b4",
                                                 "#1b9e77", "#e7298a", "#7b3294"};
-constexpr std::size_t most_contacts = 24;  // pictures; more would bury the folder
+constexpr std::size_t most_contacts = 24;  // limit for pictures of single contacts
 
-/// The later runs are thinner and dashed, on top: curves that coincide show through.
+/// Later runs are thinner and dashed, on top: coinciding curves stay visible.
 std::string look(std::size_t run) {
   const std::string colour = colours[run % colours.size()];
   if (run == 0) return "linewidth 2.6 linecolor '" + colour + "'";
@@ -32,17 +32,17 @@ std::string look(std::size_t run) {
 
 std::string plain(const std::string& name) { return file_name(name, 60, "-", '_'); }
 
-/// As seen from the folder of the scripts.
+/// Path relative to the folder of the scripts.
 std::string path_from(const fs::path& folder, const fs::path& file) {
   std::error_code error;
   const fs::path base = fs::canonical(folder, error), target = fs::weakly_canonical(file, error);
   return error ? file.string() : target.lexically_proximate(base).string();
 }
 
-/// A panel of a contact.
+/// A panel for one quantity of a contact.
 struct ContactCurve {
   std::string label;
-  const char* column;  ///< of contacts.csv
+  const char* column;  ///< column of contacts.csv
   Range ContactRanges::*range;
   double ContactScales::*scale;
 };
@@ -138,7 +138,7 @@ class Pictures {
     return canvas_of(runs_.front().look, 142.0 + 230.0 * static_cast<double>(panels), true);
   }
 
-  /// Where the curves of all runs together hardly move.
+  /// A fixed axis if the curves of all runs together are nearly constant.
   [[nodiscard]] std::string axis(const std::string& contact, const ContactCurve& curve) const {
     Range all;
     ContactScales scales;
@@ -152,8 +152,8 @@ class Pictures {
     return steady(all, scales.*curve.scale);
   }
 
-  /// At most 12 decades below the greatest one. A logarithmic axis needs something positive, also where all
-  /// runs agree to the last digit.
+  /// At most 12 decades below the largest value. A logarithmic axis needs a positive value, even if all runs agree
+  /// exactly.
   [[nodiscard]] std::string y_range(const DifferenceCurve& curve, std::vector<Curve>& curves) const {
     double greatest = 0.0;
     for (const Comparison& c : report_.comparisons) {
@@ -212,7 +212,7 @@ void begin_comparison_plots(const fs::path& directory) {
 std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report,
                                              const PictureLook& look) {
   const Pictures pictures(directory / "plots", report, look);
-  PictureFiles files;  // their tables are there already
+  PictureFiles files;  // their tables exist already
   if (!pictures.any()) return {};
   const auto& contacts = report.runs.front().figures.facts.contacts;
   for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k)

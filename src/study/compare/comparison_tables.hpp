@@ -1,8 +1,8 @@
-// comparison_tables.hpp: the tables of a comparison that pictures draw, a column a row.
+// comparison_tables.hpp: the tables of a comparison for its pictures, as lists of columns.
 //
-//   plots/motion-RUN.csv  t,displacement,velocity     greatest difference of any column from the reference at t
-//   plots/forces-RUN.csv  t,N,T                       of any contact
-//   events.csv            run,t_reference,t,difference,contact,event,from,to,swapped   one row an aligned pair
+//   plots/motion-RUN.csv  t,displacement,velocity     largest difference of any column from the reference at t
+//   plots/forces-RUN.csv  t,N,T                       the same for any contact
+//   events.csv            run,t_reference,t,difference,contact,event,from,to,swapped   one row per aligned pair
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// Length, length/time.
+/// Units: length, length/time.
 struct MotionDifference {
   double t, displacement, velocity;
 };
@@ -23,7 +23,7 @@ struct MotionDifference {
   return table;
 }
 
-/// Forces.
+/// Unit: force.
 struct ForceDifference {
   double t, N, T;
 };
@@ -33,11 +33,11 @@ struct ForceDifference {
   return table;
 }
 
-/// An event of the reference and the same of another run.
+/// An event of the reference and its partner in another run.
 struct EventPair {
   const std::string& run;
   const LoggedEvent& reference;
-  double t;  ///< in the other run
+  double t;  ///< time in the other run
   bool swapped;
 };
 [[nodiscard]] inline const CsvTable<EventPair>& event_pair_table() {

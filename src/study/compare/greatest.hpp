@@ -1,4 +1,4 @@
-// greatest.hpp: the greatest of many differences, and where it is.
+// greatest.hpp: the largest of many differences, and its place.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ struct Greatest {
   double t = 0.0;
   std::string where;  ///< a column, a contact, an event
 
-  /// Keeps the greater one. A difference that is no number counts as greater than all that are.
+  /// Keeps the larger difference. NaN counts as larger than all numbers.
   void take(double difference, double at, const std::string& place) {
     if (std::isnan(value) || difference <= value) return;
     value = difference;
@@ -22,12 +22,13 @@ struct Greatest {
   }
 };
 
-/// One quantity: over the whole time that both runs cover, and up to where their sequences part.
+/// Largest difference of one quantity: over the time that both runs cover, and up to the first difference of their
+/// sequences.
 struct Deviation {
   Greatest whole, until_split;
-  std::size_t count = 0;              ///< pairs compared; 0: nothing to compare
-  std::size_t count_until_split = 0;  ///< of these, after t = 0 and before the sequences part
-  std::vector<std::string> alone;     ///< columns, or contacts, that one of the two runs has only
+  std::size_t count = 0;              ///< number of compared pairs; 0: nothing to compare
+  std::size_t count_until_split = 0;  ///< number of pairs after t = 0 and before the sequences differ
+  std::vector<std::string> alone;     ///< columns or contacts that only one of the two runs has
 
   void take(double difference, double at, const std::string& place, double split) {
     ++count;

@@ -6,7 +6,7 @@
 namespace signorini {
 
 bool same_time(double a, double b) {
-  constexpr double roundoff = 1e-13;  // of grids that were summed up rather than multiplied
+  constexpr double roundoff = 1e-13;  // for time grids made by summation instead of multiplication
   return std::abs(a - b) <= roundoff * std::max(std::abs(a), std::abs(b));
 }
 

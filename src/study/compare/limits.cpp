@@ -13,7 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr const char* sequence = "sequence";
-const std::string response = "response:";  // and the name of an [[output]]
+const std::string response = "response:";  // followed by the name of an [[output]]
 
 std::vector<std::string> limit_names() {
   std::vector<std::string> names = quantity_names();
@@ -36,8 +36,8 @@ std::string of_rows(const RowCount& rows) {
   return fmt::format("{} of {} and {}", rows.compared, rows.reference, rows.other);
 }
 
-/// What of its table was not compared; empty: nothing. Tables have their rows at the times of history.csv, a row a
-/// contact in contacts.csv; those of response.csv at events, too, whose times differ from run to run.
+/// Part of the quantity's table that was not compared; empty: none. Tables have their rows at the times of history.csv,
+/// contacts.csv one per contact; response.csv also has rows at events, whose times differ from run to run.
 std::string not_covered(const std::string& quantity, const RunFigures& reference, const RunFigures& other,
                         const Comparison& c) {
   const auto sentence = [](const char* file, const RowCount& rows) {
@@ -64,7 +64,7 @@ std::string not_covered(const std::string& quantity, const RunFigures& reference
   return rows.all() ? "" : sentence(file, rows);
 }
 
-/// "A.ux, B.ux", of many the first three.
+/// "A.ux, B.ux"; of many names only the first three.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 3;
   std::string text;
@@ -72,7 +72,7 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
 }
 
-/// Columns, or contacts, of the quantity that not both have; empty: all are common, and there are some.
+/// Columns or contacts of the quantity that only one run has; empty: all are common, and there are some.
 std::string not_common(const Quantity& quantity, const Comparison& c) {
   const std::vector<std::string>& alone = quantity.deviation->alone;
   if (quantity.deviation->count > 0 && alone.empty()) return "";
@@ -86,10 +86,10 @@ std::string not_common(const Quantity& quantity, const Comparison& c) {
   return "neither run has any; in both: " + both;
 }
 
-/// Why a limit of it says nothing of both runs; empty: it does.
+/// Reason why a limit on the quantity cannot be applied to both runs; empty: it can.
 std::string no_comparison(const Quantity& quantity, const RunFigures& reference, const RunFigures& other,
                           const Comparison& c) {
-  if (quantity.name == "event_time") return "";  // events without a partner are counted
+  if (quantity.name == "event_time") return "";  // events without a partner count as well
   if (c.common_times < 2) return "there are no output times to compare";
   if (std::string why = not_common(quantity, c); !why.empty()) return why;
   return not_covered(quantity.name, reference, other, c);

@@ -82,7 +82,7 @@ std::vector<LoggedEvent> read_events(const std::filesystem::path& directory) {
   const auto at = [&](auto field) { return reader.column(event_column(field)); };
   const std::size_t t = at(&Event::t), contact = at(&Event::contact), type = at(&Event::type);
   const std::size_t from = at(&Event::from), to = at(&Event::to);
-  const auto& header = reader.header();  // the tables of other programs may know no uncertainty
+  const auto& header = reader.header();  // tables of other programs may lack uncertainties
   const auto uncertainty = static_cast<std::size_t>(
       std::find(header.begin(), header.end(), event_column(&Event::t_uncertainty)) - header.begin());
   while (reader.next()) {

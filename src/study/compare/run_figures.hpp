@@ -1,9 +1,9 @@
-// run_figures.hpp: what a run directory says about its run, for tables of several runs.
+// run_figures.hpp: figures of a run from its directory, for tables of several runs.
 //
 //   RunFigures run = read_run_figures("pipeline-run");
 //   std::vector<LoggedEvent> events = read_events(run.directory);
 //
-// Runs that stopped early, were interrupted or killed have fewer figures: those are absent.
+// Runs that stopped early, were interrupted or killed have fewer figures: the others are absent.
 #pragma once
 
 #include <filesystem>
@@ -18,22 +18,22 @@
 namespace signorini {
 
 struct RunFigures {
-  std::string name;  ///< in tables: the engine, or the directory as given
+  std::string name;  ///< name in tables: the engine, or the directory as given
   std::filesystem::path directory;
   RunFacts facts;              ///< outcome: done, stopped, interrupted, running
   std::string engine, reason;  ///< reason: empty when done
-  double t = 0.0;              ///< reached; the last output time where the summary does not say
+  double t = 0.0;              ///< time reached; the last output time if the summary lacks it
   std::optional<double> wall_time;
   std::optional<long> steps, factorisations, solves, restarts;
   std::map<std::string, long> events_by_type;
-  std::map<std::string, double> audit;  ///< relative violations, by the names of summary.json
+  std::map<std::string, double> audit;  ///< relative violations, by their names in summary.json
   std::map<std::string, double> friction_work;
-  std::optional<double> friction, damping;  ///< dissipated in all
+  std::optional<double> friction, damping;  ///< total dissipation
 
   [[nodiscard]] bool done() const { return facts.outcome == "done"; }
 };
 
-/// Errors: FileError where there is no run.
+/// Errors: FileError if there is no run.
 [[nodiscard]] RunFigures read_run_figures(const std::filesystem::path& directory);
 
 /// The rows of events.csv. Errors: FileError.

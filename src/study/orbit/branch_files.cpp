@@ -80,7 +80,7 @@ fs::path mark_folder(const fs::path& directory) {
   return !fs::exists(last) && fs::exists(before) ? before : last;
 }
 
-/// What a branch belongs to: the scene at its beginning, and the options that say which orbit it is.
+/// Identifies a branch: the scene at its beginning, and the options that determine the orbit.
 ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& options) {
   ResolvedKeys keys = resolved_keys(branch_reader(read, options.path, options.from)({}));
   const auto given = [](const std::optional<double>& value) { return value ? shortest(*value) : "none"; };

@@ -1,10 +1,11 @@
-// branch_files.hpp: what `orbit --over` writes.
+// branch_files.hpp: files of `orbit --over`.
 //
-//   branch.csv    a row a point of the branch, as it comes (docs/command-line.md)
-//   branch.json   the key, why the branch ends, its sequences of events by number
-//   last/         a point of the first branch, as `orbit` writes an orbit, and mark.json: --resume continues from there
+//   branch.csv    one row per point of the branch, written as it is found (docs/command-line.md)
+//   branch.json   the key, the reason for the branch's end, its sequences of events by number
+//   last/         a point of the first branch, in the format of `orbit`, and mark.json: --resume continues from there
 //
-// last/ is written while the branch is followed, through a neighbour that takes its place: a kill leaves a whole one.
+// last/ is written while the branch is followed, through a temporary neighbour that replaces it: after a kill it is
+// complete.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +18,7 @@ namespace signorini {
 
 class BranchWriter {
  public:
-  /// outputs: names. Errors of all members: FileError.
+  /// outputs: names of the outputs. Errors of all members: FileError.
   BranchWriter(const std::filesystem::path& directory, const std::vector<std::string>& outputs);
   void add(const BranchPoint& point);
 
@@ -26,7 +27,7 @@ class BranchWriter {
   CsvFile file_;
 };
 
-/// The first rows of branch.csv. Errors: FileError, also where there are fewer.
+/// The first rows of branch.csv. Errors: FileError, also if there are fewer.
 [[nodiscard]] std::vector<BranchPoint> read_branch(const std::filesystem::path& directory,
                                                    std::size_t outputs, std::size_t rows);
 
@@ -35,7 +36,8 @@ void write_mark(const std::filesystem::path& directory, const SceneReader& read,
                 const BranchMark& mark);
 /// Removes the mark of an earlier branch.
 void remove_mark(const std::filesystem::path& directory);
-/// The mark of a branch that ended early, or was killed. Errors: FileError; UsageError where the branch is complete, or another one.
+/// The mark of a branch that ended early, or was killed. Errors: FileError; UsageError if the branch is complete, or a
+/// different one.
 [[nodiscard]] BranchMark read_mark(const std::filesystem::path& directory, const SceneReader& read,
                                    const BranchOptions& options);
 

@@ -17,13 +17,13 @@ constexpr std::size_t most_outputs = 6;
 constexpr const char* low_colour = "#d95f02";
 constexpr const char* high_colour = "#1f77b4";
 
-/// Points of one curve: gnuplot breaks a line where a value is not a number.
+/// Points of one curve: gnuplot breaks a line at a value that is not a number.
 struct DrawnPoint {
   const BranchPoint* point;  // null: a break
-  bool stable, unstable;     // of which curves it is a part
+  bool stable, unstable;     // curves that contain the point
 };
 
-/// A piece is unstable where one of its ends is. A point that was located belongs to both sides.
+/// A segment is unstable if one of its ends is. A located point belongs to both sides.
 std::vector<DrawnPoint> drawn_points(const Branch& branch) {
   std::vector<const BranchPoint*> order;
   for (const BranchPoint& p : branch.points) order.push_back(&p);
@@ -67,7 +67,7 @@ class BranchTable {
         block.number(cell(*p.point));
     });
   }
-  /// Values in the stable or unstable parts, elsewhere none.
+  /// Values in the stable or unstable parts, NaN elsewhere.
   [[nodiscard]] std::string parts(const std::string& name, const char* kind) const {
     return fmt::format("{}:({} > 0 ? {} : NaN)", table_.number("x"), table_.value(kind), table_.value(name));
   }
@@ -112,7 +112,7 @@ constexpr std::array marks{
     MarkOfPoint{"end", "with points pointtype 3 pointsize 1.1 linecolor '#1a1a1a'"},
     MarkOfPoint{"restart", "with points pointtype 2 pointsize 1.0 linecolor '#666666'"}};
 
-/// Those that occur, with their names in the first panel.
+/// Marks of the kinds that occur, with their names in the first panel.
 void add_marks(const BranchTable& table, const Branch& branch, const std::string& name, bool first,
                Panel& panel) {
   for (const MarkOfPoint& mark : marks) {
@@ -125,7 +125,7 @@ void add_marks(const BranchTable& table, const Branch& branch, const std::string
   }
 }
 
-/// Grey behind every second sequence, where the branch does not turn: bands would lie above each other.
+/// Grey bands for every second sequence; only if the branch has no fold, where bands would overlap.
 std::string bands(const Branch& branch) {
   std::string s;
   int object = 10;

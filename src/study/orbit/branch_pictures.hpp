@@ -1,6 +1,7 @@
-// branch_pictures.hpp: a branch of orbits as a frequency response, or over whatever key it was followed.
+// branch_pictures.hpp: picture of a branch of orbits: a frequency response, or amplitudes over another key.
 //
-//   plots/branch.gp     a panel an output (its least and greatest value in a period), the greatest multiplier, the number
+//   plots/branch.gp     one panel per output (its least and largest value in a period), the largest multiplier, the
+// number
 //                       of the sequence of events; stable parts solid, unstable ones dashed, located points marked
 //   plots/branch.csv    the curves: x, stable 1 or 0, sequence, special, multiplier, amplitude, outputs
 #pragma once
@@ -10,7 +11,7 @@
 
 namespace signorini {
 
-/// outputs: their names with units, in the order of BranchPoint::minima; six panels of them at most.
+/// outputs: names with units, in the order of BranchPoint::minima; at most six panels of them.
 [[nodiscard]] PictureFiles branch_pictures(const std::string& title, const Units& units,
                                            const BranchOptions& options,
                                            const std::vector<std::string>& outputs, const Branch& branch,

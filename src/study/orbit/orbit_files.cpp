@@ -36,7 +36,7 @@ Json cycle_json(const Energy& cycle) {
   return json;
 }
 
-/// Quoted as TOML has it.
+/// The path as a TOML string.
 std::string quoted(const fs::path& path) {
   std::string text = "\"";
   for (const char c : path.string()) {
@@ -46,7 +46,7 @@ std::string quoted(const fs::path& path) {
   return text + "\"";
 }
 
-/// Only what a run goes on from (scene/read_initial.cpp).
+/// Contains only the data from which a run continues (scene/read_initial.cpp).
 std::string start_summary(const Model& model) {
   const Scales& s = model.scales;
   const Json scales = {{"displacement", s.displacement},

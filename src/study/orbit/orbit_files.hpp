@@ -1,8 +1,8 @@
-// orbit_files.hpp: what `orbit` writes beside the run of one period (docs/command-line.md).
+// orbit_files.hpp: files of `orbit` in addition to the run of one period (docs/command-line.md).
 //
 //   orbit.json         period, residual, multipliers, stability, loss, families, energy of a cycle, sequence
 //   start/states.csv   the state at the orbit's time 0: initial = { run = ".../start" } in run.toml
-//   start/run.toml, start/summary.json    the scene's structure, its scales and damping, as a run of it has them
+//   start/run.toml, start/summary.json    the scene's structure, its scales and damping, in the format of a run
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@ namespace signorini {
 
 [[nodiscard]] std::string orbit_json(const Model& model, const Orbit& orbit);
 
-/// The scene of orbit_scene(), whose run.toml begins from DIR/start.
+/// The scene of orbit_scene(); its run.toml begins from DIR/start.
 [[nodiscard]] Scene scene_beginning_in(Scene scene, const std::filesystem::path& directory);
 
-/// DIR/orbit.json and DIR/start. model: of that scene. Errors: FileError.
+/// Writes DIR/orbit.json and DIR/start. model: model of that scene. Errors: FileError.
 void write_orbit(const std::filesystem::path& directory, const Scene& scene, const Model& model,
                  const Orbit& orbit);
 

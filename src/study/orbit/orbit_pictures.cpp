@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t most_portraits = 3;
 constexpr const char* portrait_colours[] = {"#1f77b4", "#d95f02", "#1b9e77"};
 
-/// Columns of history.csv of one degree of freedom.
+/// Columns of history.csv for one degree of freedom.
 struct Portrait {
   std::string u_name;
   std::size_t u, v;  // columns
@@ -24,7 +24,7 @@ struct Portrait {
   [[nodiscard]] double range() const { return greatest - least; }
 };
 
-/// "A.ux" and "A.vx", "d0.u" and "d0.v": a name, a point, u or v, a direction.
+/// "A.ux" and "A.vx", "d0.u" and "d0.v": a name, a dot, u or v, a direction.
 std::vector<Portrait> portraits_of(const std::vector<std::string>& header) {
   std::vector<Portrait> list;
   for (std::size_t i = 0; i < header.size(); ++i) {
@@ -39,7 +39,7 @@ std::vector<Portrait> portraits_of(const std::vector<std::string>& header) {
   return list;
 }
 
-/// Those that move most, by their range.
+/// The phase portraits with the largest ranges.
 std::vector<Portrait> greatest_portraits(const std::filesystem::path& directory) {
   CsvReader reader(directory / "history.csv");
   std::vector<Portrait> list = portraits_of(reader.header());

@@ -1,7 +1,7 @@
-// orbit_pictures.hpp: pictures of one orbit, beside those of its run.
+// orbit_pictures.hpp: pictures of one orbit, in addition to those of its run.
 //
 //   plots/multipliers.gp   Floquet multipliers and the unit circle
-//   plots/phase.gp         v over u of the degrees of freedom that move most, from history.csv; three at most
+//   plots/phase.gp         v over u of the degrees of freedom with the largest motion, from history.csv; three at most
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace signorini {
 
-/// directory: holds the run of a period. Errors: FileError.
+/// directory: contains the run of a period. Errors: FileError.
 [[nodiscard]] PictureFiles orbit_pictures(const std::filesystem::path& directory, const std::string& title,
                                           const Units& units, const Orbit& orbit,
                                           const PictureLook& look = {});

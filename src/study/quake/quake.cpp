@@ -32,7 +32,7 @@ double amplitude(const QuakeSpec& spec, double frequency) {
                    (square(1.0 - q * q) + low));
 }
 
-/// A sum of cosines whose amplitudes may change; their phases stay.
+/// A sum of cosines with adjustable amplitudes and constant phases.
 class Waves {
  public:
   explicit Waves(const QuakeSpec& spec) : spec_(spec) {
@@ -40,8 +40,8 @@ class Waves {
     samples_ = steps + 1;
     const std::unique_ptr<gsl_rng, void (*)(gsl_rng*)> random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
     gsl_rng_set(random.get(), spec.seed);
-    // As far as three samples a wave, so that there is something to match at 0.05 s. What lines between samples make less
-    // of these waves, the spectrum of the lines has in it.
+    // Frequencies up to three samples per wave, so that the spectrum can be matched at 0.05 s. Linear interpolation
+    // between samples attenuates these waves; the spectrum, which also interpolates, includes this effect.
     const double most = 1.0 / (3.0 * spec.dt);
     for (double f = 1.0 / spec.duration; f <= most; f += 1.0 / spec.duration) {
       frequencies.push_back(f);
@@ -52,7 +52,7 @@ class Waves {
   [[nodiscard]] std::vector<double> sum() const {
     std::vector<double> a(samples_, 0.0);
     for (std::size_t k = 0; k < frequencies.size(); ++k) {
-      // cos(w t + phi) from sample to sample by turning: 1e-13 off after 1000 of them.
+      // cos(w t + phi) from sample to sample by rotation: error 1e-13 after 1000 samples.
       const double turn = two_pi * frequencies[k] * spec_.dt, c = std::cos(turn), s = std::sin(turn);
       double x = amplitudes[k] * std::cos(phases_[k]), y = amplitudes[k] * std::sin(phases_[k]);
       for (double& value : a) {
@@ -85,7 +85,7 @@ void scale(std::vector<double>& values, double factor) {
   for (double& value : values) value *= factor;
 }
 
-/// Takes c1 and c2 so that both integrals are zero at the end.
+/// Chooses c1 and c2 so that both integrals are zero at the end.
 void come_to_rest(std::vector<double>& a, double dt) {
   std::vector<double> first(a.size()), second(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -93,7 +93,7 @@ void come_to_rest(std::vector<double>& a, double dt) {
     first[i] = s * (1.0 - s);
     second[i] = first[i] * (1.0 - 2.0 * s);
   }
-  for (int turn = 0; turn < 2; ++turn) {  // the second one takes the rounding of the first
+  for (int turn = 0; turn < 2; ++turn) {  // the second iteration removes the rounding of the first
     const GroundMotion g = ground_motion(a, dt), p = ground_motion(first, dt), q = ground_motion(second, dt);
     const double det = p.end_velocity * q.end_displacement - q.end_velocity * p.end_displacement;
     const double c1 = (g.end_velocity * q.end_displacement - q.end_velocity * g.end_displacement) / det;
@@ -102,8 +102,8 @@ void come_to_rest(std::vector<double>& a, double dt) {
   }
 }
 
-/// A_k by the quotient of target and spectrum, taken at periods at equal distances of their logarithms. The turns do not
-/// converge, since a peak of the motion may change its place: the best one is kept.
+/// Scales A_k by the ratio of target and spectrum, at periods equally spaced on a logarithmic scale. The iteration does
+/// not converge, since a peak of the motion may move; the best iterate is kept.
 void match(Waves& waves, const QuakeSpec& spec) {
   constexpr int turns = 20, periods = 120;
   const double low = std::log(0.6 * least_matched), high = std::log(2.0 * greatest_matched);

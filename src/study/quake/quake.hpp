@@ -5,9 +5,9 @@
 //   e(t)    rises as (t / 0.15 D)^2, is 1 to 0.5 D, and falls as exp(-3 x) to zero at D, x from 0 to 1
 //   A_k     by filter, white noise through the ground (Kanai and Tajimi) and a high pass (Clough and Penzien):
 //             A_k^2 ~ (1 + 4 zg^2 r^2) / ((1 - r^2)^2 + 4 zg^2 r^2) * q^4 / ((1 - q^2)^2 + 4 zf^2 q^2),  r = w/wg, q = w/wf;
-//             then a is scaled to its greatest value, pga
-//           by spectrum: as by filter, then A_k *= target(T_k) / PSA(T_k), the best of 20 turns; not scaled again
-//   c1, c2  velocity and displacement of the ground, from rest, are zero at the end. Between samples a is linear
+//             then a is scaled to its largest value, pga
+//           by spectrum: as by filter, then A_k *= target(T_k) / PSA(T_k), the best of 20 iterations; not scaled again
+//   c1, c2  make the ground's final velocity and displacement zero, starting from rest. a is linear between samples
 //
 // Sources: R. W. Clough, J. Penzien, Dynamics of Structures (1993), section 28; D. Gasparini, E. Vanmarcke, SIMQKE (MIT R76-4, 1976).
 #pragma once
@@ -20,21 +20,22 @@ namespace signorini {
 struct QuakeSpec {
   double duration = 20.0;  ///< D, s
   double dt = 0.01;        ///< s
-  double pga = 0.0;        ///< greatest |a|, in the unit of a
+  double pga = 0.0;        ///< largest |a|, in the unit of a
   unsigned long seed = 1;
   double ground_frequency = 2.5, ground_damping = 0.6;  ///< wg / 2 pi in Hz, zg
   double low_frequency = 0.25, low_damping = 0.6;       ///< wf / 2 pi in Hz, zf
-  std::function<double(double T)> target = {};          ///< PSA at 5 % of critical; none: by filter
+  std::function<double(double T)> target = {};          ///< PSA at 5 % of critical damping; none: by filter
 };
 
-/// Periods over which a spectrum is matched, and what is told of it.
+/// Range of periods over which a spectrum is matched and reported.
 inline constexpr double least_matched = 0.05, greatest_matched = 2.0;  // s
 inline constexpr double spectrum_damping = 0.05;
 
-/// Samples at 0, dt, ..., D. Unit: that of pga or target.
+/// Samples at 0, dt, ..., D, in the unit of pga or target.
 [[nodiscard]] std::vector<double> quake(const QuakeSpec& spec);
 
-/// The ground's greatest |velocity| and |displacement|, and those at the end, from rest, a linear between samples.
+/// Largest |velocity| and |displacement| of the ground, and their final values, starting from rest, with a linear
+/// between samples.
 struct GroundMotion {
   double velocity = 0.0, displacement = 0.0, end_velocity = 0.0, end_displacement = 0.0;
 };

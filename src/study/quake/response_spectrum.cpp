@@ -8,10 +8,10 @@ namespace signorini {
 
 namespace {
 
-/// One step h of the oscillator: state (u, v) and the accelerations at both ends to the state behind.
+/// One step h of the oscillator: from the state (u, v) and the accelerations at both ends to the next state.
 struct Step {
   double uu = 0.0, uv = 0.0, vu = 0.0, vv = 0.0;  // free motion
-  double ua = 0.0, ub = 0.0, va = 0.0, vb = 0.0;  // of a at the beginning and at the end
+  double ua = 0.0, ub = 0.0, va = 0.0, vb = 0.0;  // response to a at the beginning and at the end
 
   Step(double w, double z, double h) {
     const double d = w * std::sqrt(1.0 - z * z), e = std::exp(-z * w * h);
@@ -20,7 +20,7 @@ struct Step {
     uv = s;
     vu = -w * w * s;
     vv = c - z * w * s;
-    // Particular solution for a = p + q t: u = -(p - 2 z q / w) / w^2 - q t / w^2, from rest.
+    // Particular solution for a = p + q t: u = -(p - 2 z q / w) / w^2 - q t / w^2, starting from rest.
     const auto driven = [&](double p, double q, double& u, double& v) {
       const double u0 = -(p - 2.0 * z * q / w) / (w * w), v0 = -q / (w * w);
       u = u0 + v0 * h - uu * u0 - uv * v0;

@@ -18,12 +18,12 @@
 namespace signorini {
 namespace {
 
-constexpr Eigen::Index fewest_modes = 6;  // with stiffness, in the first trial; chosen
-// Of the cutoff: what swings twice as fast is 1 % greater between two samples.
+constexpr Eigen::Index fewest_modes = 6;  // modes with stiffness in the first trial; chosen value
+// Radians of the cutoff: at twice the cutoff, an extreme between two samples is 1 % larger.
 constexpr double radians_a_sample = 0.15;
-constexpr double most_growth = 4.0;   // of the cutoff from one trial to the next
-constexpr double least_growth = 2.0;  // so that what the next one adds is most of what is missing
-constexpr double most_radians = 1.0;  // in half a step, where few instants are compared: a factor of 1.85
+constexpr double most_growth = 4.0;   // growth of the cutoff from one trial to the next
+constexpr double least_growth = 2.0;  // so that the next trial adds most of the missing part
+constexpr double most_radians = 1.0;  // per half step, where few instants are compared: a factor of 1.85
 constexpr double nothing_known =
     1.0;  // error of a trial beside one that misses no less: all of the displacement
 constexpr double usual_order = 2.0;             // of what is missed, in the cutoff, until two trials tell
@@ -85,7 +85,7 @@ class Watcher final : public Recorder {
   }
   bool progress(double /*t*/) override { return go_on_(); }
 
-  double greatest = 0.0;  ///< displacement
+  double greatest = 0.0;  ///< largest displacement
   Eigen::MatrixXd at;     ///< places x instants of comparison
 
  private:
@@ -154,7 +154,7 @@ class Structure {
   std::optional<KeptModes> all_;
 };
 
-/// A run with a cutoff.
+/// A trial run with one cutoff.
 struct Trial {
   bool ended = false;   // it was told to
   std::string failure;  // why there is none
@@ -163,7 +163,7 @@ struct Trial {
   CutoffTrial told = {};
 };
 
-/// Steps of a run that resolve this frequency.
+/// Number of steps that resolve this frequency.
 Eigen::Index samples_for(double omega, double t_end) {
   Eigen::Index samples = fewest_compared;
   while (static_cast<double>(samples) < t_end * omega / radians_a_sample) samples *= 2;
@@ -205,8 +205,8 @@ Trial trial(const Scene& scene, const Structure& structure, const Structure::Cut
   return result;
 }
 
-/// Greatest difference of displacements, from the instants that both have. What swings at twice the cutoff, as most of
-/// it does, is greater between two of them by 1 / cos(omega h), h apart.
+/// Largest difference of displacements at common instants. An oscillation at twice the cutoff, where most of the
+/// difference is, is larger between two instants h apart by 1 / cos(omega h).
 double apart(const Trial& a, const Trial& b, double t_end) {
   const Eigen::Index n = std::min(a.at.cols(), b.at.cols()) - 1;
   const Eigen::Index every_a = (a.at.cols() - 1) / n, every_b = (b.at.cols() - 1) / n;
@@ -217,12 +217,12 @@ double apart(const Trial& a, const Trial& b, double t_end) {
   return most / std::cos(std::min(half_a_step, most_radians));
 }
 
-/// By how much what is missed turned out to be too little. 1: it was not.
+/// Factor by which the missing part turned out to be underestimated; 1: it was not.
 double feedback(const Trial& trial) {
   return trial.missed > 0.0 ? std::max(1.0, trial.told.error / trial.missed) : 1.0;
 }
 
-/// What a trial is off by, beside one with more modes: error = moved + missed_finer max(1, error / missed), solved.
+/// Error of a trial, from one with more modes: error = moved + missed_finer max(1, error / missed), solved.
 void judge(Trial& trial, const Trial& finer, double t_end) {
   if (!(finer.greatest > 0.0)) return;
   const double moved = apart(trial, finer, t_end) / finer.greatest;
@@ -233,7 +233,7 @@ void judge(Trial& trial, const Trial& finer, double t_end) {
   trial.told.error = std::max(trial.told.error, left < 1.0 ? moved / (1.0 - left) : nothing_known);
 }
 
-/// Trials with more and more modes, and the first of them that is sharp enough.
+/// Runs trials with increasing numbers of modes, until the first one that is accurate enough.
 class Search {
  public:
   Search(Scene scene, const std::function<bool()>& go_on)
@@ -288,7 +288,7 @@ class Search {
     return failed;
   }
 
-  /// What the last trial is off by, as far as is known before the next one.
+  /// Error of the last trial, as estimated before the next one.
   [[nodiscard]] double estimated() const {
     const double before = trials_.size() > 1 ? feedback(trials_[trials_.size() - 2]) : 1.0;
     return trials_.back().missed * before;
@@ -309,7 +309,7 @@ class Search {
     return structure_.cutoff_above(growth * cutoff_.omega, cutoff_.kept + 1);
   }
 
-  /// The last one told is in force.
+  /// Records all trials, the i-th as the last: its cutoff is used.
   Scene found(std::size_t i) {
     ReductionSpec& spec = *scene_.reduction;
     for (std::size_t j = 0; j < trials_.size(); ++j)

@@ -20,7 +20,7 @@ Vector vector_of(const Combination& form, Eigen::Index n) {
 
 namespace {
 
-/// A tied node's motion follows from those of its body.
+/// A tied node's motion follows from that of its body.
 Vector form_of(const Column& column, const Model& full) {
   const Eigen::Index n = full.size();
   if (column.dof < n) return Vector::Unit(n, column.dof);
@@ -87,7 +87,7 @@ LeftOut::LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::
   }
 }
 
-/// From one sample to the next, with those beside them: F = a0 + a1 s + a2 s^2 + a3 s^3, slopes of parabolas.
+/// Advances from one sample to the next, with their neighbours: F = a0 + a1 s + a2 s^2 + a3 s^3, slopes by parabolas.
 void LeftOut::advance(const Array& before, const Array& from, const Array& to, const Array& after) {
   const double h = step_;
   const Array slope = 0.5 * (to - before) / h, end_slope = 0.5 * (after - from) / h, rise = (to - from) / h;
@@ -117,7 +117,7 @@ void LeftOut::sample(double t, const std::vector<double>& forces) {
   Array now = (loads_ * acting + inputs_ * contacts).array();
   if (forces_.empty()) {
     observe(now);
-    forces_.push_back(now);  // beside the first one: itself
+    forces_.push_back(now);  // the first sample is its own neighbour
   }
   forces_.push_back(std::move(now));
   if (forces_.size() < 4) return;

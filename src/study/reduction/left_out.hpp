@@ -1,17 +1,17 @@
-// left_out.hpp: what the inertia of the modes that a reduction leaves out would have added.
+// left_out.hpp: dynamic contribution of the modes that a reduction leaves out.
 //
 //   z'' + c z' + omega^2 z = phi . F(t),    missed(p) = sum over modes left out  phi(p) (z - phi . F / omega^2)
 //
-// F: the loads and contact forces that a reduced run computed, which holds the static part phi . F / omega^2
-// already. Between samples F is a cubic with the slopes that five samples have, for which z is exact. What is
-// missed at contacts would have changed their forces in turn; that is not followed.
+// F: loads and contact forces of a reduced run, which includes the static part phi . F / omega^2 already. Between
+// samples F is a cubic with slopes from five samples, for which z is exact. The effect of the missing motion at
+// contacts on their forces is neglected.
 #pragma once
 
 #include "signorini/model.hpp"
 
 namespace signorini {
 
-/// A place where displacements are asked for.
+/// A place at which displacements are evaluated.
 struct AskedPlace {
   std::string name;  ///< "normal of contact 'first'", "A.ux"
   Vector form;       ///< on displacements of the structure; the motion of supports is left aside
@@ -30,9 +30,9 @@ class LeftOut {
   [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
   /// Forces of contacts, in the order of the model's layout, at times 0, step, 2 step, ...
   void sample(double t, const std::vector<double>& forces);
-  /// After the last sample.
+  /// To be called after the last sample.
   void finish();
-  /// Greatest |missed(p)| of each place.
+  /// Largest |missed(p)| at each place.
   [[nodiscard]] const std::vector<double>& missed() const { return missed_; }
 
  private:
@@ -46,7 +46,7 @@ class LeftOut {
   Eigen::MatrixXd loads_;                                     // modes x loads
   Array square_, decay_, to_z_z_, to_z_v_, to_v_z_, to_v_v_;  // free motion over a step
   Array z_, v_;
-  std::vector<Array> forces_;  // modal, the last four samples
+  std::vector<Array> forces_;  // modal forces of the last four samples
   std::vector<double> missed_;
 };
 

@@ -1,4 +1,4 @@
-// read_sensitivities(): what the pictures need, read back.
+// read_sensitivities(): reads the data for pictures.
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
@@ -20,7 +20,7 @@ double rate_in(const CsvReader& reader, std::size_t column) {
   return reader.cell(column).empty() ? EventRates::none : reader.number(column);
 }
 
-/// Its number in s.contacts, where it is put when it comes for the first time; -1 for the run itself.
+/// Index of the contact in s.contacts, to which a new name is added; -1 for the run itself.
 int contact_numbered(Sensitivities& s, const std::string& name) {
   if (name.empty()) return -1;
   const auto found = std::find(s.contacts.begin(), s.contacts.end(), name);

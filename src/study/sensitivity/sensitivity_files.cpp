@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 std::optional<double> known(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
 Json json_number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-/// A figure's row for one key.
+/// Row of a figure for one key.
 template <class Figure>
 struct KeyRow {
   const Figure& figure;
@@ -32,7 +32,7 @@ std::vector<KeyRow<Figure>> rows_of(const std::vector<Figure>& figures, const Se
   return rows;
 }
 
-/// sensitivities.csv
+/// Text of sensitivities.csv.
 std::string event_text(const Sensitivities& s) {
   using R = KeyRow<Event>;
   CsvTable<R> table = {{"event_index", [](const R& r) { return std::to_string(r.index + 1); }},
@@ -49,7 +49,7 @@ std::string event_text(const Sensitivities& s) {
   return table.text(rows_of(s.events, s));
 }
 
-/// figures.csv
+/// Text of figures.csv.
 std::string figure_text(const Sensitivities& s) {
   using R = KeyRow<Response>;
   const CsvTable<R> table = {
@@ -66,10 +66,10 @@ std::string figure_text(const Sensitivities& s) {
   return table.text(rows_of(s.responses, s));
 }
 
-/// landings.csv
+/// Text of landings.csv.
 std::string landing_text(const Sensitivities& s) {
   using R = KeyRow<MovingLanding>;
-  std::vector<int> numbers;  // of a landing among those of its contact, from 1
+  std::vector<int> numbers;  // number of each landing at its contact, from 1
   for (std::size_t i = 0; i < s.landings.size(); ++i)
     numbers.push_back(i > 0 && s.landings[i - 1].contact == s.landings[i].contact ? numbers.back() + 1 : 1);
   const CsvTable<R> table = {
@@ -89,7 +89,7 @@ std::string landing_text(const Sensitivities& s) {
 
 const char* kind_of(const Swap& swap) { return swap.vanish ? "vanish" : "swap"; }
 
-/// sequence.csv
+/// Text of sequence.csv.
 std::string sequence_text(const Sensitivities& s) {
   const CsvTable<Swap> table = {{"parameter", [&s](const Swap& w) { return s.parameters[w.parameter].path; }},
                                 {"value", [&s](const Swap& w) { return s.parameters[w.parameter].value; }},
@@ -101,7 +101,7 @@ std::string sequence_text(const Sensitivities& s) {
   return table.text(least_swaps(s));
 }
 
-/// The derivatives of history's columns by the p-th key.
+/// Derivatives of history's columns by the p-th key.
 std::string column_text(const Sensitivities& s, std::size_t p) {
   CsvTable<std::size_t> table = {{"t", [&s](std::size_t i) { return s.times[i]; }}};
   for (std::size_t j = 0; j < s.columns.size(); ++j)
@@ -111,13 +111,13 @@ std::string column_text(const Sensitivities& s, std::size_t p) {
   return table.text(rows);
 }
 
-/// What is uncertain, and by how much.
+/// An uncertain quantity and its standard deviation.
 struct SpreadRow {
   std::string what, contact;
   double value, sigma;
 };
 
-/// spread.csv
+/// Text of spread.csv.
 std::string spread_text(const Sensitivities& s, const Spread& spread) {
   const CsvTable<SpreadRow> table = {{"what", &SpreadRow::what},
                                      {"contact", &SpreadRow::contact},

@@ -19,10 +19,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_figures = 6, most_bars = 16, most_time_pictures = 12;
-constexpr std::size_t first_events = 24;  // of a picture of event times; more are one grey
+constexpr std::size_t first_events = 24;  // limit for labelled events in a picture of event times; further
+                                          // ones are grey
 constexpr const char* contact_colours[] = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                            "#e7298a", "#666666", "#a6761d", "#17becf"};
-constexpr double widest = 0.1;  // of a parameter, that a picture of event times shows to each side
+constexpr double widest = 0.1;  // relative change of a parameter that a picture of event times shows on each
+                                // side
 constexpr const char* rising = "#2166ac";
 constexpr const char* falling = "#c0182b";
 
@@ -38,10 +40,10 @@ struct Bar {
   double length = 0.0;
 };
 
-/// Beside the longest one it has no length in a picture: a thousandth of a pixel of a thousand.
+/// Bars shorter than this relative to the longest are invisible: a thousandth of a pixel in a thousand pixels.
 constexpr double no_length = 1e-6;
 
-/// Longest on top; gnuplot's axis goes upwards. Those without length are left out.
+/// Sorts bars with the longest on top; gnuplot's axis points upwards. Invisible bars are dropped.
 void sort_bars(std::vector<Bar>& bars) {
   double longest = 0.0;
   for (const Bar& bar : bars) longest = std::max(longest, std::abs(bar.length));
@@ -54,13 +56,13 @@ void sort_bars(std::vector<Bar>& bars) {
   std::reverse(bars.begin(), bars.end());
 }
 
-/// A bar and its place from below, from 1.
+/// A bar and its position from the bottom, from 1.
 struct PlacedBar {
   std::size_t place;
   const Bar& bar;
 };
 
-/// `length`: the name of its column.
+/// `length`: name of the column of lengths.
 CsvTable<PlacedBar> bar_table(const char* length) {
   return {{"place", &PlacedBar::place},
           {length, [](const PlacedBar& b) { return b.bar.length; }},
@@ -80,12 +82,12 @@ std::string bar_tics(const std::vector<Bar>& bars) {
          fmt::format("\nset yrange [0.4:{:.1f}]\n", static_cast<double>(bars.size()) + 0.6);
 }
 
-/// What a parameter does to a figure: elasticity, or sigma dx/dp.
+/// Effect of a parameter on a figure: elasticity, or sigma dx/dp.
 double reach_of(const Sensitivities& s, const Sigmas& sigmas, const Response& r, std::size_t p) {
   return sigmas.empty() ? elasticity(s.parameters[p].value, r.value, r.rates[p]) : sigmas[p] * r.rates[p];
 }
 
-/// The figures that parameters move most, by their elasticities.
+/// The figures with the largest elasticities.
 std::vector<const Response*> moved_figures(const Sensitivities& s) {
   std::vector<std::pair<double, const Response*>> sizes;
   for (const Response& r : s.responses) {
@@ -98,7 +100,8 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   }
   std::stable_sort(sizes.begin(), sizes.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  constexpr double rounding_of_derivatives = 1e-9;  // chosen: their errors are 1e-10 and less of the greatest
+  constexpr double rounding_of_derivatives = 1e-9;  // chosen value: errors of derivatives are at most 1e-10
+                                                    // of the largest
   while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first)
     sizes.pop_back();
   std::vector<const Response*> list;
@@ -152,7 +155,7 @@ void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const PlottedRun&
   files.add(run, picture);
 }
 
-/// How far to each side a picture of event times goes: past the first changes of the sequence.
+/// Range on each side in a picture of event times: beyond the first changes of the sequence.
 double span_of(const Sensitivities& s, std::size_t p) {
   const double value = std::abs(s.parameters[p].value);
   double least = 0.0;
@@ -162,7 +165,7 @@ double span_of(const Sensitivities& s, std::size_t p) {
   return least > 0.0 ? std::min(3.0 * least, most) : most;
 }
 
-/// An event's time over a parameter: from (p, t) by (dp, dt).
+/// Tangent of an event's time over a parameter: from (p, t) by (dp, dt).
 struct Tangent {
   double p, t, dp, dt;
   int contact;  ///< from 1; 0: a load
@@ -233,7 +236,7 @@ void add_sequence(const Sensitivities& s, const PlottedRun& run, PictureFiles& f
   }
   if (bars.empty()) return;
   sort_bars(bars);
-  std::reverse(bars.begin(), bars.end());  // the least change on top
+  std::reverse(bars.begin(), bars.end());  // the smallest change on top
   const CsvTable<PlacedBar> table = bar_table("per_cent");
   files.add_table("sequence", table.text(placed(bars)));
   const auto points = [&](const char* sign, const char* colour, const char* title) -> Curve {

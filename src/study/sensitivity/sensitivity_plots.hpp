@@ -1,10 +1,10 @@
 // sensitivity_plots.hpp: gnuplot scripts that draw sensitivities.
 //
-//   DIR/plots/tornado.gp   what each parameter does to a figure, the greatest on top, a panel a figure:
-//                          elasticities, or with sigmas what each sigma makes of it
+//   DIR/plots/tornado.gp   effect of each parameter on a figure, the largest on top, one panel per figure:
+//                          elasticities, or with sigmas the effect of each sigma
 //   DIR/plots/times-1.gp   event times over the first parameter, ..., with their tangents
-//   DIR/plots/sequence.gp  the least change of each parameter at which, to first order, the sequence changes
-//   DIR/plots/*.csv        what they draw
+//   DIR/plots/sequence.gp  the smallest change of each parameter at which, to first order, the sequence changes
+//   DIR/plots/*.csv        data of the pictures
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@
 
 namespace signorini {
 
-/// None without events and figures.
+/// Empty without events and figures.
 [[nodiscard]] PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
                                                 const PictureLook& look = {});
 
-/// Removes what they and their scripts put into DIR/plots. Errors: FileError.
+/// Removes the files of these pictures and scripts from DIR/plots. Errors: FileError.
 void remove_sensitivity_plots(const std::filesystem::path& directory);
 
 }  // namespace signorini

@@ -47,7 +47,7 @@ std::vector<double> parse_decades(const std::string& option, const std::string& 
     const double factor = parts.size() == 3 ? positive(given, parts[2]) : 10.0;
     if (!(factor > 1.0))
       throw UsageError(fmt::format("{}: found the factor {}, expected more than 1", given, parts[2]));
-    // A stop that is hit but for roundoff is included.
+    // A stop that is reached up to rounding is included.
     const double count = std::floor(std::abs(std::log(stop / start)) / std::log(factor) + 1e-9) + 1.0;
     if (!(count <= most_values))
       throw UsageError(fmt::format("{}: makes {:.0f} values, expected at most 100", given, count));

@@ -9,7 +9,7 @@ namespace signorini {
 
 namespace {
 
-/// A gain in time by less than a tenth is the machine's, errors as close are the same.
+/// Ratio of equal times or errors: a gain in time of less than a tenth is the machine's variation.
 constexpr double noise = 0.9;
 
 double ranked(const WorkRow& row, const std::string& quantity, const ErrorRange& range) {
@@ -54,7 +54,7 @@ std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::strin
                                 : "no complete run has an error that means anything";
     return fmt::format("Of {}, none can be named cheapest: {}.", what, why);
   }
-  // The last of neighbours on one line stands for them: it is the most accurate.
+  // Of neighbours on one line the last one is kept: it is the most accurate.
   std::vector<std::size_t> last;
   for (const std::size_t i : best) {
     if (!last.empty() && rows[last.back()].point.line() == rows[i].point.line()) last.pop_back();

@@ -18,7 +18,7 @@ namespace signorini {
 
 namespace {
 
-/// The quantities of tables for people; files have all.
+/// Quantities in tables for readers; files have all quantities.
 constexpr const char* shown[] = {"event_time", "displacement", "force_away", "energy"};
 
 std::string unit_of(const WorkReport& report, const std::string& quantity) {
@@ -27,7 +27,7 @@ std::string unit_of(const WorkReport& report, const std::string& quantity) {
   return "";
 }
 
-/// "response:NAME" of the outputs that were compared, in the order of the scene.
+/// "response:NAME" of the compared outputs, in the order of the scene.
 std::vector<std::string> response_names(const WorkReport& report) {
   std::vector<std::string> list;
   for (const WorkRow& row : report.rows)
@@ -68,7 +68,7 @@ ErrorRange range_of(const WorkReport& report, const std::string& quantity) {
   return found == report.range.end() ? ErrorRange() : found->second;
 }
 
-/// study.csv
+/// Text of study.csv.
 std::string study_csv(const WorkReport& report) {
   using R = WorkRow;
   const auto error_of = [](const std::string& quantity, double WorkError::*value) {
@@ -139,7 +139,7 @@ Json row_json(const WorkRow& row) {
   return json;
 }
 
-/// What Markdown would take for markup.
+/// Escapes characters that are markup in Markdown.
 std::string plain_markdown(const std::string& text) {
   std::string result;
   for (const char c : text) {

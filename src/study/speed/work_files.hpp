@@ -1,8 +1,8 @@
-// work_files.hpp: a study as files (docs/command-line.md).
+// work_files.hpp: files of a study (docs/command-line.md).
 //
-//   study.csv    one row a run: engine, setting, outcome, errors, times, counters
+//   study.csv    one row per run: engine, setting, outcome, errors, times, counters
 //   study.json   the same, with machine, versions, notes and frontiers
-//   study.md     the table and the sentences, to be read
+//   study.md     the table and the sentences, for reading
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@
 
 namespace signorini {
 
-/// The table for people: cells as text.
+/// The table for readers: cells as text.
 struct WorkTable {
   std::vector<std::string> header;
-  std::vector<bool> right;  ///< columns of numbers
+  std::vector<bool> right;  ///< true for columns of numbers
   std::vector<std::vector<std::string>> rows;
 };
 [[nodiscard]] WorkTable work_table(const WorkReport& report);
 
-/// What the study found, one sentence each: the frontiers, then how rows fail.
+/// Results of the study, one sentence each: the fronts, then failures.
 [[nodiscard]] std::vector<std::string> work_conclusions(const WorkReport& report);
 [[nodiscard]] std::vector<std::string> work_failures(const WorkReport& report);
 
-/// "errors against exact", and up to where
+/// "errors against exact", and the time up to which runs are compared.
 [[nodiscard]] std::string work_reference(const WorkReport& report);
 
 /// "51 dofs, 2 contacts; AMD ..., 2 cores; ..."
@@ -33,7 +33,7 @@ struct WorkTable {
 
 [[nodiscard]] std::string work_json(const WorkReport& report);
 
-/// study.md shows the picture if it is there. Errors: FileError.
+/// Writes the files; study.md shows the picture if it exists. Errors: FileError.
 void write_work(const std::filesystem::path& directory, const WorkReport& report);
 
 }  // namespace signorini

@@ -1,6 +1,6 @@
-// work_plan.hpp: the runs of a study: every engine at every setting of its accuracy.
+// work_plan.hpp: the runs of a study: every engine with every setting of its accuracy.
 //
-//   run.rtol or run.dt, whichever limits the error of the engine (signorini/engine.hpp); none where only
+//   run.rtol or run.dt, whichever controls the error of the engine (signorini/engine.hpp); none if only
 //   rounding does
 #pragma once
 
@@ -12,37 +12,37 @@
 
 namespace signorini {
 
-/// The key that says how accurate an engine of that name is: "run.rtol", "run.dt", or "".
+/// The accuracy key of the engine with this name: "run.rtol", "run.dt", or "".
 [[nodiscard]] std::string accuracy_key(const std::string& engine);
 
-/// One engine with one setting.
+/// An engine with a setting.
 struct WorkPoint {
   std::string engine;
   std::optional<double> accuracy;  ///< value of accuracy_key()
   std::vector<Override> varied;    ///< other keys that differ from the reference
 
-  /// "1e-06", or what `varied` says; empty for `exact` with nothing varied.
+  /// "1e-06", or the keys in `varied`; empty for `exact` with nothing varied.
   [[nodiscard]] std::string setting() const;
   /// "ida rtol=1e-06 reduction.cutoff_omega=1e3"
   [[nodiscard]] std::string name() const;
-  /// The line in pictures that it belongs to: the engine, and what is varied.
+  /// The line in pictures that the point belongs to: engine and varied keys.
   [[nodiscard]] std::string line() const;
-  /// The same, short: "ida cutoff_omega=1e3"
+  /// The line's short name: "ida cutoff_omega=1e3"
   [[nodiscard]] std::string label() const;
-  /// Of the scene: engine, accuracy, varied keys.
+  /// Overrides of the scene: engine, accuracy, varied keys.
   [[nodiscard]] std::vector<Override> changes() const;
 };
 
 struct WorkRanges {
   std::vector<std::string> engines;
   std::vector<double> rtol, dt;
-  std::vector<std::vector<Override>> varied = {{}};  ///< at least one, maybe empty, point
+  std::vector<std::vector<Override>> varied = {{}};  ///< at least one point, which may be empty
 };
 
-/// Engine by engine, varied point by varied point, in the order of the ranges.
+/// All combinations: engine by engine, varied point by varied point, in the order of the ranges.
 [[nodiscard]] std::vector<WorkPoint> work_points(const WorkRanges& ranges);
 
-/// Five decades of steps from a fiftieth of the run on, on round numbers.
+/// Five decades of steps starting with a fiftieth of the run, at round numbers.
 [[nodiscard]] std::vector<double> usual_steps(double t_end);
 
 }  // namespace signorini

@@ -22,10 +22,11 @@ namespace {
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1a1a1a", "#1b9e77",
                                                 "#7b3294", "#e7298a", "#a6761d", "#666666"};
 constexpr std::array<const char*, 4> drawn = {"event_time", "displacement", "force_away", "energy"};
-constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};  // filled; the hollow one is the number before
+constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};  // filled; the number before each is the hollow
+                                                               // one
 constexpr double panel_height = 330.0;
 
-/// Runs of one engine, the accurate ones last.
+/// Runs of one engine, sorted by increasing accuracy.
 struct Line {
   std::string name, label;
   std::vector<const WorkRow*> rows;
@@ -43,7 +44,7 @@ std::vector<Line> lines_of(const WorkReport& report) {
   return lines;
 }
 
-/// line-N.csv.
+/// Columns of line-N.csv.
 const CsvTable<const WorkRow*>& line_table() {
   using R = const WorkRow*;
   static const CsvTable<R> table = [] {
@@ -63,10 +64,10 @@ const CsvTable<const WorkRow*>& line_table() {
 
 struct Axis {
   std::string label;
-  double floor = 0.0;  ///< where an error of exactly zero is drawn
+  double floor = 0.0;  ///< position of an error of exactly zero
 };
 
-/// Nothing where no run has such an error above zero.
+/// nullopt if no run has a positive error of this quantity.
 std::optional<Axis> axis_of(const std::vector<Line>& lines, const std::string& quantity) {
   double least = std::numeric_limits<double>::infinity();
   std::string unit;

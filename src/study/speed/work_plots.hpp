@@ -1,9 +1,9 @@
-// work_plots.hpp: work-precision pictures: time over error, both logarithmic, one line an engine.
+// work_plots.hpp: work-precision diagrams: time over error, both logarithmic, one line per engine.
 //
 //   DIR/plots/work-precision.gp, line-1.csv, line-2.csv, ...
 //
-// Filled points reached the end with the reference's events and are joined; hollow ones did not: their error
-// is that up to where the sequences part.
+// Filled points reached the end with the reference's events and are connected; hollow ones did not: their error covers
+// the time up to the first difference of the sequences.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@
 
 namespace signorini {
 
-/// The scripts to be drawn; none where no run has both an error and a time. Errors: FileError.
+/// The scripts; empty if no run has both an error and a time. Errors: FileError.
 [[nodiscard]] std::vector<std::filesystem::path> write_work_plots(const std::filesystem::path& directory,
                                                                   const WorkReport& report);
 
-/// Removes what write_work_plots() and its scripts have made. Errors: FileError.
+/// Removes the files of write_work_plots() and of its scripts. Errors: FileError.
 void remove_work_plots(const std::filesystem::path& directory);
 
 }  // namespace signorini

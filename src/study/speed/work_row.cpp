@@ -24,10 +24,10 @@ void take_comparison(WorkRow& row, const ComparedRun& reference, const ComparedR
   row.errors.clear();
   for (const Quantity& quantity : quantities(comparison, reference.figures.facts.units)) {
     const Deviation& deviation = *quantity.deviation;
-    const bool times = quantity.name == "event_time";  // of aligned events, which lie before the split
+    const bool times = quantity.name == "event_time";  // aligned events are before the split
     const bool part = split && !times;
     if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
-    if (part && comparison.alignment.pairs.empty()) continue;  // until the first event there is little to see
+    if (part && comparison.alignment.pairs.empty()) continue;  // before the first event: insignificant
     const Greatest& greatest = part ? deviation.until_split : deviation.whole;
     row.errors.push_back(
         {quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where, deviation.whole.value});

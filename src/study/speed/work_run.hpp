@@ -12,22 +12,22 @@
 namespace signorini {
 
 struct WorkLimits {
-  double seconds = 60.0;                              ///< of wall time, a run
+  double seconds = 60.0;                              ///< wall time per run
   std::function<bool()> go_on = [] { return true; };  ///< false: the user asks for a stop
   std::vector<std::string> command_line;              ///< for the summaries of runs
 };
 
-/// How a run ended, with what only a study knows.
+/// Outcome of a run, with details for the study.
 struct WorkOutcome {
   Report report;
   bool too_slow = false, interrupted = false;
 };
 
-/// Runs into a directory of its own. Errors: SceneError for what an engine refuses; FileError.
+/// Runs into a directory of its own. Errors: SceneError for scenes that the engine refuses; FileError.
 [[nodiscard]] WorkOutcome record_run(const PreparedRun& run, const std::filesystem::path& directory,
                                      const WorkLimits& limits);
 
-/// The same without output: there are rows at both ends only, and nothing is kept.
+/// Same without output: there are rows at both ends only, and nothing is stored.
 [[nodiscard]] WorkOutcome time_run(const PreparedRun& run, const WorkLimits& limits);
 
 }  // namespace signorini

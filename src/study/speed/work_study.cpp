@@ -25,21 +25,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of masses: more than one unit in the last place, less than anything that is known of a structure.
+/// Relative change of masses: more than one unit in the last place, less than the accuracy of any structural data.
 constexpr double last_digits = 1e-15;
 
-/// The reader takes no tolerance below.
+/// Smallest tolerance that the reader accepts.
 constexpr double tightest_rtol = 1e-14;
 
-/// What is expected to take so many time limits is not tried: expectations are right by order of magnitude.
+/// Runs expected to take more than this number of time limits are skipped: expectations are orders of magnitude.
 constexpr double hopeless = 30.0;
 
 constexpr const char* flow_key = "run.flow";
 
-/// A run counts as a reference for so many time limits.
+/// Number of time limits that a reference run may take.
 constexpr double patience = 10.0;
 
-/// Folders are numbered: names that differ in odd characters only stay apart.
+/// Folders are numbered, since names may differ in special characters only.
 std::string folder_name(std::size_t number, const std::string& name) {
   return fmt::format("{:03}-{}", number, file_name(name, 80, ".", '-'));
 }
@@ -53,7 +53,7 @@ std::vector<Override> capture_velocities(const Scene& scene, const Model& model)
   return list;
 }
 
-/// Of a column of displacements, from its least to its greatest value.
+/// Range of a displacement column, largest over all columns.
 double greatest_motion(const fs::path& directory) {
   CsvReader history(directory / "history.csv");
   struct Column {
@@ -77,9 +77,9 @@ double greatest_motion(const fs::path& directory) {
   return motion;
 }
 
-/// A time before t with no event of either run near it.
+/// A time before t without an event of either run nearby.
 double quiet_before(double t, const std::vector<LoggedEvent>& a, const std::vector<LoggedEvent>& b) {
-  constexpr double near = 1e-6;  // of t
+  constexpr double near = 1e-6;  // relative to t
   std::vector<double> times = {0.0};
   for (const auto* events : {&a, &b})
     for (const LoggedEvent& event : *events)
@@ -131,21 +131,21 @@ PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   return prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 
-/// Expected; nothing for what has run.
+/// Expected duration; nullopt for points that have run.
 double WorkStudy::seconds_of(const WorkPoint& point) const {
   if (recorded_.contains(point.name())) return 0.0;
   const PreparedRun run = prepare(point);
   return expected(run.model, run.scene.run).effort.seconds;
 }
 
-/// Each run is recorded once. Errors: SceneError, UsageError of a varied key, FileError.
+/// Records each run once. Errors: SceneError, UsageError for a varied key, FileError.
 const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkLimits& limits) {
   const auto found = recorded_.find(point.name());
   if (found != recorded_.end()) return found->second;
   const PreparedRun run = prepare(point);
   Recorded recorded;
   std::size_t number = recorded_.size();
-  do  // a folder that holds what is not ours has been left
+  do  // a folder with foreign files was kept
     recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
   while (fs::exists(recorded.directory));
   const WorkOutcome outcome = record_run(run, recorded.directory, limits);
@@ -177,7 +177,7 @@ bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
   }
 }
 
-/// How far `exact` itself can be trusted: the same run with all masses changed in their last digits.
+/// Measures the error of `exact` itself: the same run with all masses changed in their last digits.
 void WorkStudy::doubt_reference(const WorkPoint& point) {
   const fs::path folder = request_.directory / "runs" / "again";
   PreparedRun run = prepare(point);
@@ -205,8 +205,8 @@ void WorkStudy::doubt_reference(const WorkPoint& point) {
                     decided, until));
 }
 
-/// Nothing where `exact` follows the series anyhow, where a key of the command line says which flow, or where the
-/// series would take too long, which is noted.
+/// nullopt if `exact` uses the series already, if the command line sets the flow, or if the series would take too long;
+/// the latter is noted.
 std::optional<WorkPoint> WorkStudy::series_of_exact() {
   WorkPoint series;
   series.engine = to_string(references[0]);
@@ -225,7 +225,7 @@ std::optional<WorkPoint> WorkStudy::series_of_exact() {
     report_.notes.push_back(
         fmt::format("{} is left out: it would take {} s, more than the time limit of {:g} s", series.name(),
                     about_seconds(seconds), request_.limits.seconds));
-  } catch (const SceneError&) {  // told when `exact` itself is tried
+  } catch (const SceneError&) {  // reported when `exact` itself runs
   }
   return std::nullopt;
 }
@@ -247,7 +247,7 @@ bool WorkStudy::choose_reference() {
   tight.engine = to_string(references[1]);
   const auto& rtol = request_.ranges.rtol;
   const double least = rtol.empty() ? tightest_rtol : *std::min_element(rtol.begin(), rtol.end());
-  // A tolerance below the rounding of the scene's own forces cannot be met; the next decades can.
+  // A tolerance below the rounding of the scene's forces cannot be met; the next decades can.
   for (int tries = 0; tries < 3 && !report_.interrupted; ++tries) {
     tight.accuracy = tidy(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
     if (!try_reference(tight, why_not)) continue;
@@ -258,7 +258,7 @@ bool WorkStudy::choose_reference() {
   return false;
 }
 
-/// Errors of the reference itself, and errors that are as great as what they are errors of.
+/// Error ranges: from the error of the reference itself, up to errors as large as the quantities.
 void WorkStudy::take_ranges() {
   ComparisonSettings settings;
   settings.t_end = report_.compared_until;
@@ -267,7 +267,7 @@ void WorkStudy::take_ranges() {
     for (const Quantity& quantity : quantities(doubt, report_.units))
       if (quantity.deviation->count > 0) report_.range[quantity.name].floor = quantity.deviation->whole.value;
   }
-  // Roundoff of the time itself.
+  // Rounding of the time itself.
   double& floor = report_.range["event_time"].floor;
   floor = std::max(floor, rounding::eps * report_.compared_until);
   const auto events = static_cast<double>(changes_until(reference_.events, report_.compared_until));
@@ -301,7 +301,7 @@ void WorkStudy::compare(WorkRow& row, const ComparedRun& run) const {
   row.events_of_reference = changes_until(reference_.events, report_.compared_until);
   row.reference = row.point.name() == report_.reference;
   row.whole = run.figures.t >= std::min(report_.compared_until, reference_.figures.t);
-  if (row.reference && !doubted_) return;  // against itself it has no error
+  if (row.reference && !doubted_) return;  // no error relative to itself
   ComparisonSettings settings;
   settings.t_end = report_.compared_until;
   const ComparedRun& other = row.reference ? again_ : run;
@@ -344,7 +344,7 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
 
 void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t round)>& before) {
   constexpr double enough = 10.0;  // seconds
-  constexpr double brief = 0.05;   // a round of shorter runs holds several of them
+  constexpr double brief = 0.05;   // a round of shorter runs contains several of them
   constexpr int most = 10;
   for (std::size_t round = 1; round <= request_.repeats; ++round) {
     for (WorkRow& row : report_.rows) {
@@ -357,7 +357,7 @@ void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t ro
       for (int i = 0; i < most && sum < brief; ++i) {
         const WorkOutcome outcome = time_run(run, request_.limits);
         report_.interrupted = outcome.interrupted;
-        if (outcome.interrupted || outcome.too_slow) break;  // the machine was busy: no time of this run
+        if (outcome.interrupted || outcome.too_slow) break;  // the machine was busy: no time for this run
         least = std::min(least, outcome.report.wall_time);
         sum += outcome.report.wall_time;
       }

@@ -1,15 +1,15 @@
-// work_study.hpp: speed against error on one scene.
+// work_study.hpp: speed against error for one scene.
 //
 //   WorkStudy study(request);  study.find_reference();
 //   for (const WorkPoint& point : work_points(request.ranges)) study.add(point);
-//   study.time_all(...);       // round by round, so that a slow minute of the machine meets all alike
+//   study.time_all(...);       // round by round, so that temporary load of the machine affects all runs alike
 //
-// The reference is `exact`; where that follows modes, and its Taylor series is expected within the time limit, the
-// series, which shares no flow with them; where `exact` refuses the scene or stops early, the tightest setting of
-// `ida`, one decade on. What `exact` itself is known to is measured: the same run with all masses changed in their last
-// digits. From where such a change decides the sequence of events on, nothing is compared. Rigid contacts
-// without a capture_velocity get that of the scene's own tolerance in all runs: else every run would solve a
-// problem of its own.
+// The reference is `exact`. If that uses modes, and its Taylor series is expected to finish within the time limit, the
+// reference is the series, which is computed independently of them. If `exact` refuses the scene or stops early, it is
+// `ida` with a tolerance one decade below the smallest. The error of `exact` itself is measured: the same run with all
+// masses changed in their last digits. Once such a change affects the sequence of events, nothing later is compared.
+// Rigid contacts without a capture_velocity get that of the scene's own tolerance in all runs; otherwise every run
+// would solve a different problem.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@
 namespace signorini {
 
 struct WorkRequest {
-  std::string scene;  ///< file
-  /// Settings of the user for an engine, "" for what holds for all.
+  std::string scene;  ///< file name
+  /// The user's settings for an engine; "" for settings of all engines.
   std::function<std::vector<Override>(const std::string& engine)> settings;
   WorkRanges ranges;
   std::size_t repeats = 3;
@@ -37,7 +37,7 @@ struct WorkRequest {
   WorkLimits limits;
 };
 
-/// What a study says (work_files.hpp).
+/// Results of a study (work_files.hpp).
 struct WorkReport {
   std::string scene, title;
   Units units;
@@ -45,8 +45,8 @@ struct WorkReport {
   double t_end = 0.0;
   std::size_t repeats = 0, unknowns = 0, contacts = 0;
   std::string reference;                    ///< name of the reference's run; empty if there is none
-  double compared_until = 0.0;              ///< time up to which errors are taken
-  std::map<std::string, ErrorRange> range;  ///< of quantities
+  double compared_until = 0.0;              ///< time up to which errors are evaluated
+  std::map<std::string, ErrorRange> range;  ///< by quantity
   std::vector<std::string> notes;           ///< one sentence each
   std::vector<WorkRow> rows;
   bool interrupted = false;
@@ -60,20 +60,20 @@ class WorkStudy {
   /// Reads the scene and builds its model. Errors: SceneError, UsageError, FileError.
   explicit WorkStudy(WorkRequest request);
 
-  /// Where no engine computes the scene in ten times the time limit, runs have times and no errors. Errors:
-  /// SceneError where none computes it at all; FileError.
+  /// If no engine computes the scene within ten times the time limit, runs have times but no errors. Errors: SceneError
+  /// if no engine computes it at all; FileError.
   void find_reference();
-  /// Records a run and compares it. A refusal is a row. Errors: FileError.
+  /// Records a run and compares it. A refused run is a row as well. Errors: FileError.
   const WorkRow& add(const WorkPoint& point);
-  /// `before` is told each run's name. A row is repeated until it took ten seconds, at least once.
+  /// `before` is called with each run. A run is repeated until it has taken ten seconds, at least once.
   void time_all(const std::function<void(const WorkRow&, std::size_t round)>& before);
-  /// The series of `exact`, where they are the reference: a run beside those that were asked for.
+  /// The series of `exact`, if it is the reference: an additional run.
   [[nodiscard]] const std::optional<WorkPoint>& series() const { return series_; }
 
   [[nodiscard]] const WorkReport& report() const { return report_; }
 
  private:
-  /// A run that is on disk.
+  /// A run on disk.
   struct Recorded {
     std::filesystem::path directory;
     bool too_slow = false;
@@ -90,9 +90,9 @@ class WorkStudy {
 
   WorkRequest request_;
   WorkReport report_;
-  std::string fingerprint_;                 // of the scene as it was first read
+  std::string fingerprint_;                 // fingerprint of the scene as first read
   std::vector<Override> held_;              // capture velocities, the same in all runs
-  std::optional<ReductionSpec> reduction_;  // with the cutoff of all runs
+  std::optional<ReductionSpec> reduction_;  // contains the cutoff of all runs
   std::map<std::string, Recorded> recorded_;
   ComparedRun reference_, again_;  // again_: `exact` with masses changed in their last digits
   bool doubted_ = false;

@@ -1,4 +1,4 @@
-// event_query.hpp: events of a type, of all contacts or of one, as options name them: EVENT, EVENT@CONTACT.
+// event_query.hpp: events of one type, at all contacts or one, in options: EVENT, EVENT@CONTACT.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,11 @@ struct EventQuery {
 };
 
 [[nodiscard]] std::vector<std::string> event_names();
-/// Nothing where EVENT is none. option: what errors begin with. Errors: UsageError for a contact that is not there.
+/// nullopt if EVENT is not an event type. option: begins error messages. Errors: UsageError for an unknown contact.
 [[nodiscard]] std::optional<EventQuery> parse_event_query(const std::string& option, const std::string& text,
                                                           const Model& model);
 
-/// Errors: UsageError "OPTION: unknown WHAT "NAME"", and what is near.
+/// Errors: UsageError "OPTION: unknown WHAT "NAME"", with similar names.
 void check_known(const std::string& option, const char* what, const std::string& name,
                  const std::vector<std::string>& known);
 

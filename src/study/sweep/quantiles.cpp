@@ -15,12 +15,12 @@ namespace {
 constexpr double tail = 0.5 * (1.0 - confidence);
 constexpr std::size_t most_steps = 200, even_steps = 100;
 
-/// P(B <= k) of n draws.
+/// P(B <= k) for n draws.
 double below_or_at(std::size_t k, double p, std::size_t n) {
   return gsl_cdf_binomial_P(static_cast<unsigned>(k), p, static_cast<unsigned>(n));
 }
 
-/// The least k with P(B <= k) >= q; n where there is none.
+/// The smallest k with P(B <= k) >= q; n if there is none.
 std::size_t least_count(double q, double p, std::size_t n) {
   std::size_t low = 0, high = n;
   while (low < high) {
@@ -33,8 +33,8 @@ std::size_t least_count(double q, double p, std::size_t n) {
   return low;
 }
 
-/// Places among n values in order: all of few; of many some at equal distances, and towards both ends more, each
-/// a third farther out than the one before, since the rare ones are what is asked for.
+/// Indices of the printed values among n sorted ones: all if n is small; otherwise some at equal distances, and
+/// additional ones towards both ends, each a third farther out than the one before, because rare values matter most.
 std::set<std::size_t> shown_of(std::size_t n) {
   std::set<std::size_t> places;
   const std::size_t even = n <= most_steps ? n : even_steps;
@@ -47,8 +47,8 @@ std::set<std::size_t> shown_of(std::size_t n) {
   return places;
 }
 
-/// The p at which P(B >= m) of n draws is a/2, or P(B <= m) is: by bisection, since GSL's inverse of the beta
-/// distribution fails for many n.
+/// The p at which P(B >= m), or P(B <= m), of n draws is a/2, by bisection: GSL's inverse of the beta distribution
+/// fails for large n.
 double clopper_pearson(std::size_t m, std::size_t n, bool lower) {
   double low = 0.0, high = 1.0;
   while (true) {
@@ -61,14 +61,14 @@ double clopper_pearson(std::size_t m, std::size_t n, bool lower) {
   }
 }
 
-/// A row that says of which answer it is.
+/// A row with the name of its query.
 template <class Figures>
 struct AnswerRow {
   const Sampled& of;
   Figures figures;
 };
 
-/// Quantity, its unit and the keys that are not sampled.
+/// Columns: quantity, unit and the keys that are not sampled.
 template <class Figures>
 CsvTable<AnswerRow<Figures>> answer_table(const SweepSpec& spec) {
   using R = AnswerRow<Figures>;
@@ -93,7 +93,7 @@ Quantile quantile(const std::vector<double>& sorted, double probability, bool is
   const std::size_t k = std::min(n, static_cast<std::size_t>(std::max(place, 1.0)));
   Quantile q{probability, sorted[k - 1], {}, {}};
   if (!is_independent) return q;
-  // l: the greatest with P(B <= l - 1) <= a/2; u: the least with P(B <= u - 1) >= 1 - a/2.
+  // l: the largest with P(B <= l - 1) <= a/2; u: the smallest with P(B <= u - 1) >= 1 - a/2.
   std::size_t l = least_count(tail, probability, n);
   if (below_or_at(l, probability, n) <= tail) ++l;
   if (l >= 1) q.low = sorted[l - 1];

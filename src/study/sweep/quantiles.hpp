@@ -1,12 +1,12 @@
-// quantiles.hpp: what samples say about a distribution, with confidence.
+// quantiles.hpp: quantiles and exceedance probabilities of samples, with confidence intervals.
 //
-//   x_(1) <= ... <= x_(n)            the answers of the rows that have one
+//   x_(1) <= ... <= x_(n)            the results of all rows that have one
 //   quantile of p      x_(k), k = ceil(n p), at least 1
 //   its interval       [x_(l), x_(u)]:  P(B < l) <= a/2,  P(B >= u) <= a/2,  B binomial(n, p), a = 0.05
 //   exceedance of x    m/n, m the number of x_i > x;  its interval is that of Clopper and Pearson
 //
-// No distribution is assumed. An end that n samples cannot bound is absent. The intervals are those of
-// independent draws: with Sobol's points, which are none, there are no intervals.
+// No distribution is assumed. A limit that n samples cannot determine is absent. The intervals are valid for
+// independent draws; Sobol points are not independent, so they have no intervals.
 // Sources: David and Nagaraja, Order Statistics (2003), section 7.1; Clopper and Pearson, Biometrika 26 (1934)
 // 404.
 #pragma once
@@ -31,29 +31,29 @@ struct Quantile {
 [[nodiscard]] Quantile quantile(const std::vector<double>& sorted, double probability, bool independent);
 
 struct Exceedance {
-  double value = 0.0, probability = 0.0;  ///< of being greater
+  double value = 0.0, probability = 0.0;  ///< probability of a larger value
   std::optional<double> low, high;
 };
-/// Its columns in tables.
+/// Columns of exceedance tables.
 [[nodiscard]] const CsvTable<Exceedance>& exceedance_columns();
-/// At no more than 200 of the values.
+/// At most 200 of the values.
 [[nodiscard]] std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool independent);
 
-/// The answers of one query under one combination of the keys that are not sampled.
+/// The results of one query for one combination of the keys that are not sampled.
 struct Sampled {
   std::size_t query = 0;
-  std::vector<std::string> values;  ///< of those keys
+  std::vector<std::string> values;  ///< values of those keys
   std::vector<double> sorted;
-  std::size_t missing = 0;  ///< rows without an answer
+  std::size_t missing = 0;  ///< rows without a result
 };
-/// Query by query; empty where nothing is sampled.
+/// Results query by query; empty if no key is sampled.
 [[nodiscard]] std::vector<Sampled> sampled_answers(const SweepSpec& spec, const SweepRows& rows);
 
 /// quantiles.csv: quantity,unit,PATH,...,n,missing,probability,value,low,high
 [[nodiscard]] std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& answers);
 /// exceedance.csv: quantity,unit,PATH,...,value,probability,low,high
 [[nodiscard]] std::string exceedance_table(const SweepSpec& spec, const std::vector<Sampled>& answers);
-/// Whether the samples of a sweep are independent draws.
+/// True if the samples of a sweep are independent draws.
 [[nodiscard]] bool independent(const SweepSpec& spec);
 
 }  // namespace signorini

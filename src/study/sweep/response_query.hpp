@@ -1,12 +1,12 @@
-// response_query.hpp: what a sweep asks of every run: one column each.
+// response_query.hpp: results that a sweep extracts from every run: one column each.
 //
-//   max:NAME  min:NAME  abs:NAME      greatest, least, greatest magnitude of an [[output]]
-//   tmax:NAME  tmin:NAME  end:NAME    when, and its value at the end
-//   residual:CONTACT                  slip at the end less that at the start
-//   count:EVENT  count:EVENT@CONTACT  how many events of a type, of all contacts or one
-//   impulse:CONTACT  impulse:CONTACT@2     the greatest impulse of its landings, or that of the second one
+//   max:NAME  min:NAME  abs:NAME      largest, smallest value, largest magnitude of an [[output]]
+//   tmax:NAME  tmin:NAME  end:NAME    times of these, and the final value
+//   residual:CONTACT                  slip at the end minus slip at the start
+//   count:EVENT  count:EVENT@CONTACT  number of events of a type, at all contacts or one
+//   impulse:CONTACT  impulse:CONTACT@2     the largest impulse of its landings, or that of the second one
 //
-// What a run has not come to, as the end of one that stopped, is no number: an empty cell.
+// A result that a run has not reached, such as the end of a stopped run, is NaN: an empty cell.
 #pragma once
 
 #include <cstdint>
@@ -21,28 +21,28 @@ namespace signorini {
 struct ResponseQuery {
   enum class Kind { max, min, abs, tmax, tmin, end, residual, count, impulse } kind = Kind::max;
   std::string text;        ///< as given: the name of the column
-  std::string name;        ///< of an output or a contact; count: empty for all
+  std::string name;        ///< name of an output or a contact; count: empty for all
   EventQuery event;        ///< count
-  std::size_t number = 0;  ///< impulse: of the landing, from 1; 0: the greatest
+  std::size_t number = 0;  ///< impulse: number of the landing, from 1; 0: the largest
 
   [[nodiscard]] bool of_output() const { return kind <= Kind::end; }
 };
 
-/// Errors: UsageError, naming what the model has instead.
+/// Errors: UsageError that lists the model's names.
 [[nodiscard]] ResponseQuery parse_query(const std::string& text, const Model& model);
 
-/// Hears a run for the queries.
+/// Records a run's results for the queries.
 class Answers : public Recorder {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive the object.
   Answers(const std::vector<ResponseQuery>& queries, const Model& model);
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
 
-  /// One a query; NaN where there is none.
+  /// One per query; NaN if there is none.
   [[nodiscard]] std::vector<double> values(const Report& report) const;
-  /// Of contacts, types and new states of all events in their order: equal for equal sequences.
+  /// Hash of contacts, types and new states of all events in their order: equal for equal sequences.
   [[nodiscard]] std::string sequence() const;
 
  private:
@@ -50,12 +50,12 @@ class Answers : public Recorder {
 
   const std::vector<ResponseQuery>& queries_;
   const Model& model_;
-  std::vector<double> counts_;                      // a query
+  std::vector<double> counts_;                      // per query
   std::uint64_t sequence_ = 14695981039346656037U;  // FNV-1a
-  std::vector<double> first_slip_, last_slip_;      // a contact
+  std::vector<double> first_slip_, last_slip_;      // per contact
 };
 
-/// The unit of the answer, "" where it has none.
+/// The unit of the result, "" if it has none.
 [[nodiscard]] std::string unit_of(const ResponseQuery& query, const Model& model);
 
 }  // namespace signorini

@@ -25,7 +25,7 @@ void check_kind(const fs::path& file) {
   if (!why.empty()) throw FileError(file.string(), why + ", expected the rows of a sweep");
 }
 
-/// Calls take(line, number) for each whole line; returns their bytes.
+/// Calls take(line, number) for each complete line; returns their total size.
 template <class Take>
 std::uintmax_t whole_lines(const fs::path& file, const Take& take) {
   check_kind(file);
@@ -88,7 +88,7 @@ void RowFile::append(const std::string& lines) {
     return;
   }
   const int error = errno;
-  // Where it cannot be cut either, the next sweep cuts it.
+  // If truncation fails, too, the next sweep truncates.
   [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(good_));
   throw FileError(path_.string(), "cannot be written" + because(error));
 }

@@ -1,9 +1,9 @@
-// row_file.hpp: the finished rows of a sweep on disk, a line of JSON each, in the order in which they came.
+// row_file.hpp: the finished rows of a sweep on disk, one JSON line each, in the order of completion.
 //
 //   {"row":3,"values":["1.5"],"outcome":"done",...,"checksum":"9d0c5f1e2a7b4c38"}
 //
-// A line is there whole or not at all: half a line at the end, which a kill has left, is no row. A line that somebody has
-// altered is told by its checksum. Where a row stands twice, the later one is right: a row that crashed is tried again.
+// A line is complete or absent: a partial line at the end, left by a kill, is not a row. The checksum detects altered
+// lines. If a row occurs twice, the later one is valid: a row that crashed is tried again.
 #pragma once
 
 #include <cstdint>
@@ -21,25 +21,25 @@ struct NumberedRow {
   std::size_t line = 0;
 };
 
-/// The rows of a file by index; none if the file does not exist. Errors: FileError, with the number of the line.
+/// The rows of a file by index; empty if the file does not exist. Errors: FileError, with the line number.
 [[nodiscard]] std::map<std::size_t, NumberedRow> read_rows(const std::filesystem::path& file);
 
 /// Appends lines. Errors of all members: FileError.
 class RowFile {
  public:
-  /// Cuts off half a line at the end. Refuses a link: it would lead to somebody else's file.
+  /// Truncates a partial line at the end. Refuses a symbolic link, which could lead to a foreign file.
   explicit RowFile(std::filesystem::path path);
   ~RowFile();
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
 
-  /// lines: one or more of row_line(). Lines that cannot be written whole are cut off again.
+  /// lines: one or more of row_line(). A failed write is truncated to complete lines.
   void append(const std::string& lines);
 
  private:
   std::filesystem::path path_;
   int file_ = -1;
-  std::uintmax_t good_ = 0;  // bytes of whole lines
+  std::uintmax_t good_ = 0;  // size of the complete lines
 };
 
 }  // namespace signorini

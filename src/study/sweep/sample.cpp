@@ -16,16 +16,16 @@
 namespace signorini {
 namespace {
 
-constexpr int sample_group = 1'000'000;  // of all sampled keys: no --together makes as many
+constexpr int sample_group = 1'000'000;  // group of all sampled keys: larger than any number of --together
 constexpr std::size_t most_samples = 1'000'000, most_sobol_keys = 40;
 
-/// The value at a part u of the probability, 0 < u < 1.
+/// The value at the probability u, 0 < u < 1.
 using Inverse = std::function<double(double u)>;
 
 struct Distribution {
   const char *name, *parameters;
   std::size_t count;
-  /// Empty where the parameters are no such distribution.
+  /// Null function if the parameters are invalid.
   Inverse (*make)(const std::vector<double>& p);
 };
 
@@ -90,7 +90,7 @@ Inverse parse_distribution(const std::string& text, const std::string& option) {
   throw UsageError(fmt::format("{}: unknown distribution \"{}\", expected one of {}", option, name, known));
 }
 
-/// "a,b" as two keys; the text of the second says that its draw is the first's.
+/// Adds "a,b" as two keys; the second one's text marks it as sharing the draw of the first.
 void add_keys(const std::string& paths, const std::string& distribution, const std::string& option,
               std::vector<Vary>& varied) {
   std::string first;
@@ -107,7 +107,7 @@ void add_keys(const std::string& paths, const std::string& distribution, const s
 using Generator = std::unique_ptr<gsl_rng, void (*)(gsl_rng*)>;
 using Sobol = std::unique_ptr<gsl_qrng, void (*)(gsl_qrng*)>;
 
-/// Never 0 and never 1, where a normal variable would be infinite.
+/// Excludes 0 and 1, where a normal variable would be infinite.
 double inner(double u) { return std::min(std::max(u, 0x1p-54), 1.0 - 0x1p-53); }
 
 }  // namespace
@@ -115,7 +115,7 @@ double inner(double u) { return std::min(std::max(u, 0x1p-54), 1.0 - 0x1p-53); }
 std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec) {
   std::vector<Vary> varied;
   std::vector<Inverse> inverses;
-  std::vector<std::size_t> draw_of;  // of a key: keys of one text share their draw
+  std::vector<std::size_t> draw_of;  // per key: keys of one text share their draw
   for (const std::string& text : texts) {
     const std::string option = "--sample " + text;
     if (!is_plain_text(text))

@@ -53,7 +53,7 @@ std::optional<Place> array(const Environment& environment) {
   const long long first = integer(environment, "SLURM_ARRAY_TASK_MIN").value_or(0);
   const long long last = integer(environment, "SLURM_ARRAY_TASK_MAX").value_or(first + *count - 1);
   const long long step = *count > 1 ? (last - first) / (*count - 1) : 1;
-  // A list such as --array=1,5,6 leaves no rule by which its tasks could be counted.
+  // The tasks of an irregular list such as --array=1,5,6 cannot be numbered by a rule.
   const bool even = *count >= 1 && step >= 1 && first + step * (*count - 1) == last && *id >= first &&
                     *id <= last && (*id - first) % step == 0;
   if (!even)

@@ -1,9 +1,9 @@
-// share.hpp: which rows of a sweep one of several processes computes.
+// share.hpp: the rows of a sweep that one of several processes computes.
 //
-//   3/16     every 16th row, from the third on
+//   3/16     every 16th row, starting with the third
 //   auto     from the environment of Open MPI, of other launchers with PMI, and of Slurm arrays
 //
-// A launcher inside of an array multiplies: task 2 of 4, rank 1 of 8 is share 10/32.
+// A launcher inside an array multiplies: task 2 of 4, rank 1 of 8 is share 10/32.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ using Environment = std::function<std::optional<std::string>(const char* name)>;
 /// Errors: UsageError for anything but K/N with 1 <= K <= N or "auto", and for auto without such variables.
 [[nodiscard]] Share parse_share(const std::string& text, const Environment& environment);
 
-/// How many processes of this sweep a launcher (not an array) has started; 1 without one.
+/// Number of processes of this sweep that a launcher (not an array) has started; 1 without a launcher.
 [[nodiscard]] std::size_t ranks(const Environment& environment);
 
 }  // namespace signorini

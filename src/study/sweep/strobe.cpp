@@ -17,9 +17,10 @@ namespace signorini {
 
 namespace {
 
-constexpr double same_period = 1e-9;  // of periods in a ratio of integers, as in orbit/load_period.cpp
+constexpr double same_period = 1e-9;  // relative, for periods in a ratio of integers, as in
+                                      // orbit/load_period.cpp
 
-/// How many times `period` the time t is, from below.
+/// Number of complete periods in the time t.
 double whole_periods(double t, double period) { return std::floor(t / period * (1.0 + same_period)); }
 
 Strobe strobe_of_loads(const std::string& option, const Scene& scene) {
@@ -92,7 +93,7 @@ void StrobeRecorder::sample(const Sample& sample) {
   ForwardingRecorder::sample(sample);
   if (strobe_.period == 0.0) return;
   const double turns = std::round(sample.t / strobe_.period);
-  // Rows are at k times the period as numbers go; the end of the run is a row, too.
+  // Rows are at k times the period up to rounding; the end of the run is a row, too.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(sample.t);
   if (turns < 1.0 || std::abs(sample.t - turns * strobe_.period) > rounding) return;
   if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();  // its other side

@@ -1,13 +1,13 @@
-// strobe.hpp: states of a run at the same instant of every period, or after every event of a kind: the points of a
+// strobe.hpp: states of a run at the same phase of every period, or after every event of a type: the points of a
 // bifurcation diagram.
 //
 //   0.5             t_k = k 0.5 after the start, k = 1, 2, ...
-//   loads           the same, the period being that of the run's loads; the run ends with a whole period
-//   slip@block      after every event `slip` of the contact `block`; without @block after those of all contacts
+//   loads           the same with the period of the run's loads; the run ends with a complete period
+//   slip@block      after every event `slip` of the contact `block`; without @block at all contacts
 //
 //   point = (t, columns of history.csv, outputs),  t >= settle
 //
-// Where an instant has two sides a point is after it. Units: those of the scene.
+// If an instant has two sides, the point is after it. Units: those of the scene.
 #pragma once
 
 #include <optional>
@@ -21,13 +21,13 @@ namespace signorini {
 
 struct Strobe {
   std::string text;       ///< as given
-  double period = 0.0;    ///< time; 0: of events
+  double period = 0.0;    ///< time; 0: after events
   bool of_loads = false;  ///< the period is that of the scene's loads
   EventQuery event;
 };
-/// Errors: UsageError, naming what the model has instead; SceneError of loads without a common period.
+/// Errors: UsageError that lists the model's names; SceneError for loads without a common period.
 [[nodiscard]] Strobe parse_strobe(const std::string& text, const Scene& scene, const Model& model);
-/// Why the points are states at ever other phases of the loads; empty: they are not, or the loads have no period.
+/// Warning if the points are at varying phases of the loads; empty if not, or if the loads have no period.
 [[nodiscard]] std::string strobe_doubt(const Strobe& strobe, const Scene& scene);
 
 /// Names and units of the values of a point.
@@ -39,13 +39,13 @@ struct StrobeColumn {
 
 struct StrobePoint {
   double t = 0.0;
-  std::vector<double> values;  ///< one a column
+  std::vector<double> values;  ///< one per column
 };
 
 /// Takes the points of a run, and passes all on.
 class StrobeRecorder : public ForwardingRecorder {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive the object.
   StrobeRecorder(const Strobe& strobe, double settle, const Model& model, Recorder& next)
       : ForwardingRecorder(&next), strobe_(strobe), settle_(settle), model_(model) {}
 
@@ -65,12 +65,12 @@ class StrobeRecorder : public ForwardingRecorder {
   double settle_;
   const Model& model_;
   std::vector<StrobePoint> points_;
-  std::optional<double> event_;  // time of one that has no point yet
+  std::optional<double> event_;  // time of an event without a point yet
   std::optional<double> t_outputs_;
   std::vector<double> outputs_;
 };
 
-/// The same run with rows of output where the points are; of loads' periods a whole number.
+/// The same run with output rows at the points, and an integer number of load periods.
 [[nodiscard]] RunSpec strobed(RunSpec run, const Strobe& strobe);
 
 }  // namespace signorini

@@ -22,7 +22,7 @@ struct RowPoint {
   const StrobePoint* point;
 };
 
-/// Which part of the last range a row is of: the values as given, or once more in the opposite order.
+/// True if the row belongs to the repetition of the last range in the opposite order.
 bool goes_back(const SweepSpec& spec, const SweepRow& row) {
   if (!spec.carry.back) return false;
   const std::size_t count = spec.vary.back().values.size();
@@ -36,7 +36,7 @@ std::vector<RowPoint> points_of(const std::vector<const SweepRow*>& rows) {
   return list;
 }
 
-/// The values that are drawn.
+/// Indices of the drawn values.
 std::vector<std::size_t> drawn(const std::vector<StrobeColumn>& columns) {
   std::vector<std::size_t> list;
   const bool outputs = std::any_of(columns.begin(), columns.end(), [](const auto& c) { return c.output; });

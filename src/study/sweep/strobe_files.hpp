@@ -1,7 +1,7 @@
 // strobe_files.hpp: the points of a stroboscopic sweep as a table, and as bifurcation diagrams.
 //
-//   strobe.csv       row,PATH,...,way,t,COLUMN,...     way: there, or back where the sweep goes back
-//   plots/strobe.gp  a panel a value, points over the last swept key
+//   strobe.csv       row,PATH,...,way,t,COLUMN,...     way: there, or back for rows in the opposite order
+//   plots/strobe.gp  one panel per value, points over the last swept key
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace signorini {
 
 [[nodiscard]] std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows);
-/// Outputs, or displacements where the scene has none; six panels at most.
+/// Outputs, or displacements if the scene has no outputs; at most six panels.
 void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
                         PictureFiles& files);
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int format = 2;  // of the directory; in the first one each row had a file
+constexpr int format = 2;  // version of the directory format; in the first version each row had a file
 constexpr const char* rows_name = "rows.jsonl";
 
 Json spec_json(const SweepSpec& spec) {
@@ -77,13 +77,13 @@ void check_directory(const fs::path& path) {
     throw FileError(path.string(), "is not empty and holds no sweep (no sweep.json) to go on with");
 }
 
-/// As run_directory() numbers them: six digits, more only where they are needed.
+/// True for numbers as run_directory() writes them: six digits, more only if needed.
 bool is_row_number(const std::string& text) {
   return text.size() >= 6 && text.find_first_not_of("0123456789") == std::string::npos &&
          (text.size() == 6 || text[0] != '0');
 }
 
-/// A folder of the sweep's own; what a link leads to is somebody else's.
+/// True for a real folder; the target of a link is foreign.
 bool is_own_folder(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
@@ -92,7 +92,7 @@ bool is_own_folder(const fs::path& path) {
   throw FileError(path.string(), "is no folder of a sweep; --force removes nothing there");
 }
 
-/// Folders with other files than those of a run stay with them.
+/// Folders that contain other files than those of a run are kept, with these files.
 std::vector<fs::path> old_runs(const fs::path& runs) {
   std::vector<fs::path> folders;
   if (!is_own_folder(runs)) return folders;
@@ -103,7 +103,7 @@ std::vector<fs::path> old_runs(const fs::path& runs) {
   return folders;
 }
 
-/// Only what a sweep writes. Looks at everything before it removes anything.
+/// Removes only files that a sweep writes. Checks everything before it removes anything.
 void remove_old(const fs::path& path) {
   std::error_code error;
   std::vector<fs::path> ours;
@@ -162,7 +162,7 @@ std::map<std::size_t, NumberedRow> SweepDirectory::rows_in(const fs::path& file)
     for (std::size_t i = 0; ours && i < point.size(); ++i) ours = found.row.values[i] == point[i].value;
     if (!ours) throw wrong("not the row of this sweep with that number");
   }
-  // Another try may fare better.
+  // A crashed row is tried again.
   std::erase_if(rows, [](const auto& entry) { return entry.second.row.outcome == "crashed"; });
   return rows;
 }

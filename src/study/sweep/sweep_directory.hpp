@@ -1,8 +1,8 @@
-// sweep_directory.hpp: a sweep on disk, that can be stopped, resumed, shared out and merged.
+// sweep_directory.hpp: a sweep on disk; it can be stopped, resumed, shared out and merged.
 //
-//   DIR/sweep.json        what is swept; a directory is continued only with the same
-//   DIR/rows.jsonl        the finished rows as they came (row_file.hpp)
-//   DIR/sweep.csv         the table of the finished rows, renewed as they come
+//   DIR/sweep.json        specification of the sweep; a directory is continued only with the same one
+//   DIR/rows.jsonl        the finished rows in the order of completion (row_file.hpp)
+//   DIR/sweep.csv         the table of the finished rows, updated during the sweep
 //   DIR/results.json      the same as JSON, at the end
 //   DIR/strobe.csv        the points of a stroboscopic sweep, at the end (strobe_files.hpp)
 //   DIR/runs/000001/      the runs, with --keep
@@ -22,7 +22,7 @@
 
 namespace signorini {
 
-/// What a stroboscopic sweep takes of every run; text empty: nothing.
+/// Points that a stroboscopic sweep takes of every run; text empty: none.
 struct StrobeSpec {
   std::string text;              ///< --strobe
   double period = 0.0;           ///< 0: after events
@@ -30,24 +30,25 @@ struct StrobeSpec {
   std::vector<StrobeColumn> columns = {};
 };
 
-/// Runs along the last range that begin where the run before has ended.
+/// Runs along the last range, each of which begins with the final state of the previous one.
 struct CarrySpec {
   bool on = false;
-  bool back = false;  ///< the values of the last range once more, in the opposite order: its second half
+  bool back = false;  ///< the last range is followed by its values in the opposite order: its second half
   friend bool operator==(const CarrySpec&, const CarrySpec&) = default;
 };
 
-/// What is swept. Two sweeps are the same if all but scene and share are equal.
+/// Specification of a sweep. Two sweeps are the same if everything but scene and share is equal.
 struct SweepSpec {
   std::string scene;                  ///< file, as given
-  std::string fingerprint;            ///< of the scene's content with settings and the first values that fit
+  std::string fingerprint;            ///< fingerprint of the scene's content with settings and the first
+                                      ///< valid values
   std::vector<std::string> settings;  ///< --set, in order
   std::vector<Vary> vary;             ///< the sampled keys last
-  /// What is asked of every run (response_query.hpp), and the unit of each answer.
+  /// Queries for every run (response_query.hpp), and the unit of each result.
   std::vector<std::string> responses, response_units;
   StrobeSpec strobe;
   CarrySpec carry;
-  std::string sampling;  ///< "1000 random, seed 1"; empty where nothing is sampled
+  std::string sampling;  ///< "1000 random, seed 1"; empty if nothing is sampled
   Share share;
   std::string title;
   Units units;
@@ -56,8 +57,8 @@ struct SweepSpec {
 /// Errors of all members: FileError.
 class SweepDirectory {
  public:
-  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is
-  /// removed first. Nobody else can open it before the object, and processes it was handed to, are gone.
+  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is removed
+  /// first. No other process can open it until the object, and processes that inherited it, are gone.
   SweepDirectory(std::filesystem::path path, SweepSpec spec, bool force);
   ~SweepDirectory() = default;
   SweepDirectory(const SweepDirectory&) = delete;
@@ -65,19 +66,19 @@ class SweepDirectory {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const SweepSpec& spec() const { return spec_; }
-  /// Values of the varied keys, one entry a row of the whole sweep.
+  /// Values of the varied keys, one entry per row of the whole sweep.
   [[nodiscard]] const std::vector<std::vector<Override>>& points() const { return points_; }
   /// Finished rows by index.
   [[nodiscard]] const std::map<std::size_t, SweepRow>& rows() const { return rows_; }
   [[nodiscard]] std::filesystem::path run_directory(std::size_t index) const;
 
-  /// The rows of another directory of this sweep, or of a share of it; those that crashed are left out. Errors: also where
-  /// one is altered or is no row of this sweep.
+  /// The rows of another directory of this sweep, or of a share of it, without crashed ones. Errors: also if a row is
+  /// altered or does not belong to this sweep.
   [[nodiscard]] std::map<std::size_t, NumberedRow> rows_in(const std::filesystem::path& file) const;
-  /// Writes a row, or lines of row_line(), and takes them.
+  /// Writes a row, or lines of row_line(), and stores them.
   void add(const SweepRow& row);
   void add(const std::string& lines);
-  /// sweep.csv and, at the end, results.json.
+  /// Writes sweep.csv and, at the end, results.json.
   void write_table() const;
   void write_results() const;
 
@@ -90,13 +91,13 @@ class SweepDirectory {
   std::optional<RowFile> file_;
 };
 
-/// DIR/sweep.json. Errors: FileError where there is no sweep.
+/// Reads DIR/sweep.json. Errors: FileError if there is no sweep.
 [[nodiscard]] SweepSpec read_sweep_spec(const std::filesystem::path& directory);
-/// "--vary was a=0:1:0.1, is a=0:1:0.2"; empty when they are the same but for scene and share.
+/// "--vary was a=0:1:0.1, is a=0:1:0.2"; empty if they only differ in scene and share.
 [[nodiscard]] std::string difference(const SweepSpec& was, const SweepSpec& is);
 
-/// Copies the rows of several shares into one directory; returns rows that none of them has (index from 0).
-/// Errors: FileError; also where the sweeps are not the same, or two shares contradict each other.
+/// Copies the rows of several shares into one directory; returns rows that none of them has (index from 0). Errors:
+/// FileError; also if the sweeps are not the same, or if two shares contradict each other.
 std::vector<std::size_t> merge_sweeps(const std::vector<std::filesystem::path>& from, SweepDirectory& to);
 
 }  // namespace signorini

@@ -23,14 +23,15 @@ std::vector<double> values_of(const Vary& vary) {
   return values;
 }
 
-constexpr double decades = 50.0;       // greatest over least value: an axis of logarithms
-constexpr std::size_t most_ticks = 8;  // more values than that do not each have theirs
+constexpr double decades = 50.0;       // ratio of the largest to the smallest value from which an axis is
+                                       // logarithmic
+constexpr std::size_t most_ticks = 8;  // with more values, not every value has its own tick
 
 bool logarithmic(const std::vector<double>& values) {
   return values.front() > 0.0 && values.back() >= decades * values.front();
 }
 
-/// From halfway to the value before to halfway to the one after; as wide at the ends.
+/// Cell limits: half-way to both neighbours; of equal width at the ends.
 std::pair<double, double> cell(const std::vector<double>& values, double at) {
   const bool log = logarithmic(values);
   const auto scale = [&](double x) { return log ? std::log(x) : x; };
@@ -43,7 +44,7 @@ std::pair<double, double> cell(const std::vector<double>& values, double at) {
   return {back(0.5 * (before + x)), back(0.5 * (x + after))};
 }
 
-/// Range, kind and ticks of axis "x" or "y".
+/// Range, scale and ticks of axis "x" or "y".
 std::string axis(const char* name, const std::vector<double>& values) {
   std::string s =
       fmt::format("set {}range [{}:{}]\n{} logscale {}\n", name, shortest(cell(values, values.front()).first),

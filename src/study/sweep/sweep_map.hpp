@@ -1,10 +1,10 @@
-// sweep_map.hpp: a sweep over two keys as maps: the colour of a cell is the figure of its run.
+// sweep_map.hpp: maps of a sweep over two keys: a cell's colour is the result of its run.
 //
 //   map.csv      x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work,QUERY,...
-//   borders.csv  x0,y0,x1,y1: sides between cells whose events come in another sequence
+//   borders.csv  x0,y0,x1,y1: sides between cells with different sequences of events
 //
-// Greatest of all contacts; a cell reaches halfway to its neighbours: on an axis of positive values that span a factor of
-// 50 or more, which is logarithmic, to the geometric mean.
+// Figures are the largest of all contacts. A cell reaches half-way to its neighbours; on an axis of positive values
+// that span a factor of 50 or more, which is logarithmic, to the geometric mean.
 #pragma once
 
 #include <array>
@@ -18,33 +18,33 @@
 
 namespace signorini {
 
-/// The two keys that have several values.
+/// The two keys with several values.
 struct MapAxes {
   std::size_t x = 0, y = 0;
 };
 
-/// Nothing unless two keys, and no more, have several values, three or more each, and all of them numbers.
+/// nullopt unless exactly two keys have several values, at least three each, and all of them are numbers.
 [[nodiscard]] std::optional<MapAxes> map_axes(const SweepSpec& spec);
 
-/// map.csv: a cell and what its run gave; cells without a run have no row.
+/// Row of map.csv: a cell and the results of its run; cells without a run have no row.
 struct MapCell {
   double x0, x1, y0, y1;
   const SweepRow& row;
-  SweepRow::Contact greatest;  ///< of all contacts
+  SweepRow::Contact greatest;  ///< largest figures of all contacts
 };
 [[nodiscard]] CsvTable<MapCell> map_table(const SweepSpec& spec);
 [[nodiscard]] std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes,
                                              const SweepRows& rows);
 
-/// The sides that part regions of equal sequences of events; of cells without a run none.
+/// Sides that separate regions with equal sequences of events; cells without a run have none.
 struct Border {
   double x0, y0, x1, y1;
 };
 struct Borders {
   std::vector<Border> sides;
-  std::size_t neighbours = 0;  ///< sides between cells that ran
+  std::size_t neighbours = 0;  ///< number of sides between cells with runs
 };
-/// borders.csv.
+/// Columns of borders.csv.
 [[nodiscard]] const CsvTable<Border>& border_table();
 [[nodiscard]] Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 

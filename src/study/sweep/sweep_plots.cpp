@@ -26,9 +26,9 @@ constexpr std::array<const char*, 12> colours = {"#1f77b4", "#d95f02", "#1b9e77"
                                                  "#e7298a", "#666666", "#a6761d", "#17becf",
                                                  "#c0182b", "#7f7f00", "#5e4fa2", "#1a1a1a"};
 constexpr std::size_t most_panels = 6;
-constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name
+constexpr std::size_t most_curves = 24;  // limit of names in a legend beside the panel
 
-/// curve-N.csv: a row of the sweep, its x, and figures of contacts.
+/// Columns of curve-N.csv: a row of the sweep, its x, and figures of contacts.
 CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweptAxis& axis,
                                       const std::vector<std::string>& contacts) {
   CsvTable<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
@@ -44,7 +44,7 @@ CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweptAxis& ax
   return table;
 }
 
-/// A range may fall, a list has any order; lines run from left to right.
+/// Sorts rows by x: ranges may decrease, lists may have any order; lines are drawn from left to right.
 std::vector<const SweepRow*> from_left(const SweptCurve& curve, const SweptAxis& axis) {
   std::vector<const SweepRow*> rows = curve.rows;
   std::stable_sort(rows.begin(), rows.end(), [&](const SweepRow* a, const SweepRow* b) {
@@ -58,7 +58,7 @@ struct Shown {
   enum class Kind { events, contacts, answer };
   std::string label;
   Kind kind;
-  std::string column = "events";  ///< of curve-N.csv; of contacts: what follows their names
+  std::string column = "events";  ///< column of curve-N.csv; for contacts: suffix of their names
 };
 
 class SweptCurves {
@@ -89,7 +89,7 @@ class SweptCurves {
     return picture;
   }
 
-  /// The tables that it draws.
+  /// Adds the tables of the pictures.
   void add_tables(PictureFiles& files) const {
     for (std::size_t i = 0; i < std::min(combinations_.size(), most_curves); ++i)
       files.add_table(fmt::format("curve-{}", i + 1), table_.text(from_left(combinations_[i], axis_)));
@@ -113,9 +113,9 @@ class SweptCurves {
                             : alone                           ? ""
                                                               : contacts_[k];
         if (!combinations_[c].name.empty()) title += (title.empty() ? "" : ", ") + combinations_[c].name;
-        // Colour says which contact, or which values of the other keys where there are several.
+        // The colour distinguishes contacts or, if there are several combinations of the other keys, those.
         const std::size_t colour = combinations_.size() > 1 ? c : k;
-        // Curves that coincide show through: later ones are thinner and dashed, on top.
+        // Coinciding curves stay visible: later ones are thinner and dashed, on top.
         const std::size_t i = list.size();
         list.push_back(
             {fmt::format("'curve-{}.csv' skip 1", c + 1), fmt::format("{}:{}", table_.number("x"), column),
@@ -150,7 +150,7 @@ std::string labelled(const SweepSpec& spec, std::size_t query) {
   return spec.responses[query] + (unit.empty() ? "" : " [" + unit + "]");
 }
 
-/// Probability that an answer is greater, over it, with its interval; a panel a query.
+/// Probability that a result is exceeded, over its value, with confidence interval; one panel per query.
 void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
                      PictureFiles& files) {
   const std::vector<Sampled> answers = sampled_answers(spec, rows);
@@ -217,14 +217,15 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
   return list;
 }
 
-/// Two keys as axes of maps.
+/// Maps with two keys as axes.
 void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
               const std::vector<std::string>& contacts, const PlottedRun& run, PictureFiles& files) {
   files.add_table("map", map_table(spec).text(map_cells(spec, axes, rows)));
   const Borders found = borders_of(spec, axes, rows);
   const bool differ = !found.sides.empty();
   const bool borders =
-      differ && 2 * found.sides.size() <= found.neighbours;  // around most cells they would say nothing
+      differ && 2 * found.sides.size() <= found.neighbours;  // borders around most cells would not be
+                                                             // informative
   if (borders) files.add_table("borders", border_table().text(found.sides));
   const char* parts = !differ   ? ""
                       : borders ? "; lines part sequences of events"
@@ -249,7 +250,7 @@ PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows, const 
     return files;
   }
   if (!spec.strobe.text.empty()) add_strobe_picture(spec, rows, run, files);
-  if (spec.carry.back) return files;  // two runs a value: no curve over it
+  if (spec.carry.back) return files;  // two runs per value: no curve over it
   const SweptAxis axis = axis_of(spec);
   const std::vector<SweptCurve> list = swept_curves(spec, rows, axis);
   const std::vector<std::string> contacts = contact_names(rows);

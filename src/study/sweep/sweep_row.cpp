@@ -48,7 +48,7 @@ class LastRow : public ForwardingRecorder {
     last_.rows.clear();
     last_.sample(sample);
   }
-  /// Without what belongs to the run's own numbers: tolerances and damping are those of the run that goes on.
+  /// The state without tolerances and damping, which the continuing run sets itself.
   [[nodiscard]] SavedState state(const Model& model) const {
     SavedState state = last_state(model, last_);
     state.scales.reset();
@@ -60,11 +60,11 @@ class LastRow : public ForwardingRecorder {
   Result last_;
 };
 
-/// The row's own run has rows of output at both ends only, and where it has points, kept or not: so it is the same, and
-/// quicker.
+/// The row's own run has output rows only at both ends and at points, whether it is kept or not: so the result is the
+/// same, and the run is quicker.
 Report run(const RowTask& task, const PreparedRun& prepared, Recorder& heard, const RunSpec& spec) {
   if (!task.keep.empty()) {
-    remove_run(task.keep);  // what an interrupted sweep left
+    remove_run(task.keep);  // remains of an interrupted sweep
     RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
     ForwardingRecorder all(&directory);
     prepared.keep(directory, all);
@@ -72,7 +72,7 @@ Report run(const RowTask& task, const PreparedRun& prepared, Recorder& heard, co
   return simulate(prepared.model, spec, heard);
 }
 
-/// Outputs that no query asks for cost and tell nothing; a kept run has them all the same.
+/// Drops outputs that no query needs, because they cost time; a kept run still has all of them.
 void drop_outputs(const RowTask& task, const std::vector<ResponseQuery>& queries, Model& model) {
   if (!task.keep.empty() || !task.strobe.empty() ||
       std::any_of(queries.begin(), queries.end(), [](const ResponseQuery& q) { return q.of_output(); }))
@@ -81,7 +81,7 @@ void drop_outputs(const RowTask& task, const std::vector<ResponseQuery>& queries
   model.reaction_sums.clear();
 }
 
-double number_or_none(const Json& value) {  // what is no number was written as null
+double number_or_none(const Json& value) {  // NaN was written as null
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
@@ -98,7 +98,7 @@ std::optional<double> SweepRow::response(std::size_t i) const {
 
 namespace {
 
-/// A file that cannot be read refuses this run; one that cannot be written ends the sweep.
+/// A file that cannot be read makes this run refused; a file that cannot be written ends the sweep.
 PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) try {
   Scene scene = parse_scene(task.text, task.scene, task.changes);
   if (carried != nullptr && *carried) scene.initial = {.saved = **carried};
@@ -211,7 +211,7 @@ std::string row_json(const SweepRow& row) { return json_text(json_of(row)); }
 
 namespace {
 
-// Before the end of a line; quotes within texts are escaped, so it stands once.
+// Placed at the end of a line; quotes within texts are escaped, so it is unique.
 constexpr const char* checksum_key = ",\"checksum\":\"";
 
 }  // namespace

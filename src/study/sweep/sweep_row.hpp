@@ -3,7 +3,7 @@
 //   SweepRow row = compute_row(
 //       {.scene = "belt.toml", .changes = {{"run.rtol", "1e-9"}}, .index = 0, .values = {"1e-9"}});
 //
-// A run that cannot start, or stops early, is a row as well: its outcome and reason say so.
+// A run that cannot start, or stops early, is a row as well, with its outcome and reason.
 #pragma once
 
 #include <array>
@@ -20,33 +20,33 @@ namespace signorini {
 
 struct SweepRow {
   std::size_t index = 0;            ///< from 0, in the whole sweep
-  std::vector<std::string> values;  ///< of the varied keys
+  std::vector<std::string> values;  ///< values of the varied keys
   std::string outcome;              ///< done, stopped, refused (no run began), crashed
   std::string reason;               ///< empty when done
-  double t = 0.0;                   ///< reached
+  double t = 0.0;                   ///< time reached
   std::map<std::string, long> events;
-  /// Peaks from the start over all steps, along tangent and normal; friction: work lost.
+  /// Peaks relative to the start over all steps, along tangent and normal; friction: dissipated work.
   struct Contact {
     std::string name;
     double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
   };
   std::vector<Contact> contacts;
-  std::vector<double> responses;    ///< one a query of the sweep; NaN: none. Empty where no run began
-  std::vector<StrobePoint> points;  ///< of a stroboscopic sweep
-  std::string sequence;             ///< of its events: equal for equal ones (response_query.hpp)
+  std::vector<double> responses;    ///< one per query of the sweep; NaN: none. Empty if no run began
+  std::vector<StrobePoint> points;  ///< points of a stroboscopic sweep
+  std::string sequence;             ///< hash of its events: equal for equal sequences (response_query.hpp)
   double wall_time = 0.0;           ///< s
   long steps = 0;
   double balance = 0.0;  ///< relative error of the energy balance
   std::size_t warnings = 0;
 
   [[nodiscard]] bool ran() const { return outcome == "done" || outcome == "stopped"; }
-  /// Without `time` rows, which mark jumps of the loads.
+  /// Number of events without `time` rows, which mark jumps of the loads.
   [[nodiscard]] long changes() const;
-  /// To the i-th query; nothing where there is none.
+  /// Result of the i-th query; nullopt if there is none.
   [[nodiscard]] std::optional<double> response(std::size_t i) const;
 };
 
-/// A figure of a contact, by its name in tables.
+/// A figure of a contact, with its name in tables.
 struct SweepFigure {
   const char* name;
   double SweepRow::Contact::*value;
@@ -60,8 +60,8 @@ inline constexpr std::array sweep_figures = {
 };
 
 struct RowTask {
-  std::string scene;              ///< its file, for messages and to find data files beside it
-  std::string text;               ///< of the file when the sweep began: all rows are of one scene
+  std::string scene;              ///< file name, for messages and to find data files beside it
+  std::string text;               ///< content of the file when the sweep began: all rows use the same scene
   std::vector<Override> changes;  ///< the sweep's settings, then the varied keys
   std::size_t index = 0;
   std::vector<std::string> values;
@@ -69,23 +69,23 @@ struct RowTask {
   std::vector<std::string> command_line;
   std::vector<std::string> responses = {};  ///< queries, as given
   std::string strobe = {};                  ///< as given; empty: no points
-  std::optional<double> settle = {};  ///< time of the first point at the earliest; absent: half of t_end
+  std::optional<double> settle = {};        ///< earliest time of the first point; absent: half of t_end
 };
 
-/// Errors: FileError where files cannot be written.
+/// Errors: FileError if files cannot be written.
 [[nodiscard]] SweepRow compute_row(const RowTask& task);
-/// The same from the state in which the row before ended, where there is one. `carried` becomes the state at the end of
-/// this run; it stays where no run began.
+/// Same, starting from the final state of the previous row if there is one. `carried` becomes the final state of this
+/// run; it is unchanged if no run began.
 [[nodiscard]] SweepRow compute_row(const RowTask& task, std::optional<SavedState>& carried);
 
 [[nodiscard]] std::string row_json(const SweepRow& row);
-/// The same as a line of a file, with its end: with a checksum, so that what somebody has altered is not taken for a result.
+/// The row as a line of a file, with its line end and a checksum, so that an altered line is not taken for a result.
 [[nodiscard]] std::string row_line(const SweepRow& row);
-/// A line, without its end, as row_line() made it.
+/// True if the line (without its end) is exactly as row_line() made it.
 [[nodiscard]] bool is_unaltered(const std::string& line);
-/// From such a line. Errors: Json::exception.
+/// Parses such a line. Errors: Json::exception.
 [[nodiscard]] SweepRow parse_row(const std::string& line);
-/// Alike but for the time that they took.
+/// True if the rows are equal except for their wall time.
 [[nodiscard]] bool same_result(const SweepRow& a, const SweepRow& b);
 
 }  // namespace signorini

@@ -12,7 +12,7 @@ namespace signorini {
 
 namespace {
 
-/// sweep.csv; figures of a row without a run are empty.
+/// Columns of sweep.csv; figures of a row without a run are empty.
 CsvTable<SweepRow> sweep_table(const SweepSpec& spec, const std::vector<std::string>& contacts) {
   using R = SweepRow;
   const auto if_ran = [](auto figure) {
@@ -79,7 +79,7 @@ std::string sweep_json(const SweepSpec& spec, const SweepRows& rows) {
   json["vary"] = Json::array();
   for (const Vary& vary : spec.vary) {
     json["vary"].push_back({{"path", vary.path}});
-    if (vary.sampled)  // the values stand in the rows
+    if (vary.sampled)  // the values are in the rows
       json["vary"].back()["distribution"] = vary.text;
     else
       json["vary"].back()["values"] = vary.values;

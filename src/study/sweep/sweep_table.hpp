@@ -4,7 +4,7 @@
 //              QUERY,...,NAME.peak_t,NAME.peak_n,NAME.peak_N,NAME.peak_T,NAME.friction_work,...,
 //              wall_time,steps,energy_balance,warnings
 //
-// One group of columns a contact, in the order of the scene; empty where no run began.
+// One group of columns per contact, in model order; empty if no run began.
 #pragma once
 
 #include <map>
@@ -17,9 +17,9 @@ namespace signorini {
 
 using SweepRows = std::map<std::size_t, SweepRow>;
 
-/// Names of the contacts over all rows, in the order in which they come.
+/// Names of the contacts in all rows, in the order of their first occurrence.
 [[nodiscard]] std::vector<std::string> contact_names(const SweepRows& rows);
-/// A row's contact of that name, if it has one.
+/// The contact with this name in a row, if it has one.
 [[nodiscard]] const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name);
 
 [[nodiscard]] std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows);

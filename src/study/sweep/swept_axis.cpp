@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-/// The key of the axis, or one in step with it.
+/// True for the key of the axis, or one in step with it.
 bool moves_with(const SweepSpec& spec, const SweptAxis& axis, std::size_t key) {
   return key == axis.key || (axis.vary->group != 0 && spec.vary[key].group == axis.vary->group);
 }

@@ -1,6 +1,6 @@
-// swept_axis.hpp: which key of a sweep is the axis of its pictures, and which rows are one curve over it.
+// swept_axis.hpp: the key of a sweep that is the axis of its pictures, and the rows of each curve over it.
 //
-//   x of a row = value of the key on the axis, or its number where values are no numbers
+//   x of a row = value of the key on the axis, or its number if values are not numbers
 #pragma once
 
 #include <string>
@@ -11,26 +11,26 @@
 namespace signorini {
 
 struct SweptAxis {
-  std::size_t key = 0;  ///< of SweepSpec::vary
-  bool numbers = true;  ///< all of its values
+  std::size_t key = 0;  ///< index into SweepSpec::vary
+  bool numbers = true;  ///< all of its values are numbers
   const Vary* vary = nullptr;
 
   [[nodiscard]] std::string x(const SweepRow& row) const;
 };
-/// The first key, or the `last`, with more than one value. `spec` must outlive it.
+/// The first key, or with `last` the last one, with more than one value. `spec` must outlive the result.
 [[nodiscard]] SweptAxis axis_of(const SweepSpec& spec, bool last = false);
 
-/// Rows that have all values in common but that on the axis.
+/// Rows with equal values of all keys except the axis.
 struct SweptCurve {
-  std::string name;  ///< their values in common
+  std::string name;  ///< the common values
   std::vector<const SweepRow*> rows;
 };
-/// Of the rows that ran, in their order.
+/// Curves of the rows that ran, in their order.
 [[nodiscard]] std::vector<SweptCurve> swept_curves(const SweepSpec& spec, const SweepRows& rows,
                                                    const SweptAxis& axis);
-/// What the values in names of curves are: "; curves: PATH, PATH".
+/// Explanation of the values in names of curves: "; curves: PATH, PATH".
 [[nodiscard]] std::string other_keys(const SweepSpec& spec, const SweptAxis& axis);
-/// "set xrange [a:b]" around all values, also where no run began: a hole at an end is seen.
+/// "set xrange [a:b]" around all values, including those without a run, so that a gap at an end is visible.
 [[nodiscard]] std::string x_range(const SweptAxis& axis);
 
 }  // namespace signorini

@@ -38,7 +38,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Digits after the point that write the number out: 0.1 has one, 1e-3 three, 20 none.
+/// Number of decimals that write the number exactly: 0.1 has one, 1e-3 three, 20 none.
 int decimals(const std::string& number) {
   const std::size_t e = number.find_first_of("eE"), point = number.find('.');
   const std::string mantissa = number.substr(0, e);
@@ -47,13 +47,13 @@ int decimals(const std::string& number) {
   return static_cast<int>(std::clamp<long long>(after - exponent, 0, 99));
 }
 
-/// start + k step in decimals, as it would be written by hand.
+/// start + k step in decimals, as written by hand.
 double stepped(double start, double step, double k, int digits) {
   const double value = start + k * step;
   constexpr int most_digits = 15;
   if (digits > most_digits) return value;
   const double scale = std::pow(10.0, digits);
-  constexpr double most_exact = 9e15;  // integers beyond are not all numbers
+  constexpr double most_exact = 9e15;  // larger integers are not all exact in double precision
   const double scaled = std::round(value * scale);
   return std::abs(scaled) < most_exact ? scaled / scale : value;
 }
@@ -71,7 +71,7 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   if (step == 0.0 || (stop - start) / step < 0.0)
     throw UsageError(fmt::format("{}: steps of {} from {} never reach {}; check the sign of the step", option,
                                  parts[2], parts[0], parts[1]));
-  // A stop that is a step but for roundoff is included.
+  // A stop that is a multiple of the step up to rounding is included.
   const double steps = std::floor((stop - start) / step * (1.0 + 1e-12) + 1e-9);
   if (!(steps < most_points)) throw UsageError(option + ": expected at most 1e6 values");
   const int digits = std::max(decimals(parts[0]), decimals(parts[2]));
@@ -85,7 +85,7 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   return values;
 }
 
-/// A round step that leads from one number to the other in about four: 1, 2 or 5 times a power of ten.
+/// A round step that divides the interval in about four: 1, 2 or 5 times a power of ten.
 double round_step(double from, double to) {
   const double quarter = 0.25 * std::abs(to - from);
   if (!(quarter > 0.0)) return 1.0;
@@ -95,12 +95,12 @@ double round_step(double from, double to) {
   return to < from ? -step : step;
 }
 
-/// "0.1:0.5:0.1" of the ends 0.1 and 0.5.
+/// "0.1:0.5:0.1" from the ends 0.1 and 0.5.
 std::string example_of(const std::string& from, const std::string& to) {
   return fmt::format("{}:{}:{:.3g}", from, to, round_step(*parse_number(from), *parse_number(to)));
 }
 
-/// Refuses 0.1-0.5 and 0.1..0.5: in no key is that a value, and it is how ranges are often written.
+/// Refuses 0.1-0.5 and 0.1..0.5, which are common notations of ranges, but never values of a key.
 void refuse_other_ranges(const std::string& option, const std::string& value) {
   for (const char* between : {"..", "-", " to "}) {
     for (std::size_t at = value.find(between, 1); at != std::string::npos; at = value.find(between, at + 1)) {
@@ -142,7 +142,7 @@ Vary parse_vary(const std::string& text) {
 
 namespace {
 
-/// Indices of the keys that vary in step with key i, itself first; empty where an earlier key has its group.
+/// Indices of the keys that vary in step with key i, itself first; empty if an earlier key has the same group.
 std::vector<std::size_t> in_step(const std::vector<Vary>& varied, std::size_t i) {
   std::vector<std::size_t> members{i};
   if (varied[i].group == 0) return members;

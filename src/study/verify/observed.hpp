@@ -1,4 +1,4 @@
-// observed.hpp: what a run shows: its events, and at output times the columns of history.csv, N, T and outputs.
+// observed.hpp: observations of a run: its events, and at output times the columns of history.csv, N, T and outputs.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ struct ObservedColumn {
 };
 [[nodiscard]] std::vector<ObservedColumn> observed_columns(const Model& model);
 
-/// Asks now and then whether to go on, and keeps nothing.
+/// Periodically checks whether to continue, and stores nothing.
 class Patient : public Recorder {
  public:
   explicit Patient(const std::function<bool()>& go_on) : go_on_(go_on) {}
@@ -41,10 +41,10 @@ class Patient : public Recorder {
   const std::function<bool()>& go_on_;
 };
 
-/// Errors: SceneError for what the engine refuses.
+/// Errors: SceneError for scenes that the engine refuses.
 [[nodiscard]] Observed observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on);
 
-/// What was seen, once the run has ended.
+/// Observations of a run that has ended.
 [[nodiscard]] Observed observed(Tracker&& tracker, Report report);
 
 }  // namespace signorini

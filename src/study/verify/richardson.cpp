@@ -10,14 +10,14 @@ namespace {
 
 constexpr double second_order = 3.0;  // 2^2 - 1
 constexpr std::size_t ahead = 5;
-/// Of the last difference: errors of third order that differ from step to step.
+/// Relative to the last difference: errors of third order that vary from step to step.
 constexpr double by_chance = 0.02;
-/// Of the order, which is two: what a verdict asks for, and what still tells errors by differences.
+/// Deviations from order two: for a verdict, and for error estimates from differences.
 constexpr double settled_within = 0.1, usable_within = 0.6;
 
 double square(double x) { return x * x; }
 
-/// The greatest up to i + ahead.
+/// Largest value up to index i + ahead.
 std::vector<double> greatest_so_far(const std::vector<double>& values) {
   std::vector<double> result(values.size());
   double greatest = 0.0;

@@ -1,18 +1,17 @@
-// richardson.hpp: three computations at h, h/2, h/4 and what they tend to.
+// richardson.hpp: Richardson extrapolation of three computations at h, h/2, h/4.
 //
 //   x_h = x + C h^2 + O(h^3)
 //   order p = log2( rms(x_h - x_h/2) / rms(x_h/2 - x_h/4) )
 //
-//   R  = x_h/4 + (x_h/4 - x_h/2) / 3      the second order is gone
+//   R  = x_h/4 + (x_h/4 - x_h/2) / 3      without the error of second order
 //   R' = x_h/2 + (x_h/2 - x_h) / 3
-//   bar = greatest of 2 |R - R'| + |x_h/2 - x_h/4| / 50, so far and soon after
+//   bar = 2 |R - R'| + |x_h/2 - x_h/4| / 50, the largest so far and soon after
 //
-// What is left of R is of third order, a h^3 / 8; R' has a h^3, so |R - R'| is seven times what is left,
-// where a is smooth. It is not at events, whose place within a step is chance: R and R' may then be off
-// alike, for which the fiftieth of the last difference stands (measured: a thousandth, case 02b), and what
-// they leave stays, so the bar forgets nothing. Where the order that is seen is not yet two, it is the whole
-// difference |x_h/2 - x_h/4|. Soon after: five values, since a difference may vanish by chance. Rounding
-// grows with the square root of the steps.
+// The remaining error of R is of third order, a h^3 / 8; that of R' is a h^3, so |R - R'| is seven times the error of R
+// if a is smooth. It is not at events, whose position within a step is random: R and R' may then have equal errors,
+// which the fiftieth of the last difference covers (measured: a thousandth, case 02b); these errors persist, so the bar
+// never decreases. If the observed order is not yet two, the bar is the whole difference |x_h/2 - x_h/4|. Soon after:
+// five values, since a difference may vanish by chance. Rounding grows with the square root of the number of steps.
 #pragma once
 
 #include <array>
@@ -21,39 +20,39 @@
 
 namespace signorini {
 
-/// A quantity at one instant, by the three steps: h, h/2, h/4.
+/// A quantity at one instant, computed with the steps h, h/2, h/4.
 using Thrice = std::array<double, 3>;
 
-/// What the values tend to, and how far off that may be.
+/// The limit of the values, and its error bound.
 struct Extrapolated {
   std::vector<double> value, bar;
 };
 
-/// Sums of squares of what the steps differ by, over series of one unit.
+/// Sums of squares of the differences between steps, over series of one unit.
 class ObservedOrder {
  public:
-  /// negligible: differences below need no order, as where IDA's own error is far greater.
+  /// negligible: smaller differences are ignored, for instance if IDA's own error is far larger.
   void add(const std::vector<Thrice>& series, double negligible = 0.0);
-  /// Nothing where the differences are rounding or negligible, as where the method is exact.
+  /// nullopt if the differences are rounding or negligible, for instance if the method is exact.
   [[nodiscard]] std::optional<double> value() const;
 
  private:
   double coarse_ = 0.0, fine_ = 0.0, rounding_ = 0.0;
 };
 
-/// Is the order that of the method, within a tenth?
+/// True if the order is that of the method, within a tenth.
 [[nodiscard]] bool settled(const std::optional<double>& order);
-/// Is it near enough to two for differences to bound errors?
+/// True if the order is near enough to two for differences to bound errors.
 [[nodiscard]] bool usable(const std::optional<double>& order);
 
-/// Of a kind of quantities, which share a unit.
+/// Properties of a kind of quantities, which share a unit.
 struct KindOfSeries {
   std::optional<double> order;
-  double scale = 0.0;  ///< the greatest magnitude
-  double steps = 1.0;  ///< of the finest run
+  double scale = 0.0;  ///< largest magnitude
+  double steps = 1.0;  ///< number of steps of the finest run
 };
 
-/// `series` in the order of time.
+/// `series` must be in the order of time.
 [[nodiscard]] Extrapolated extrapolate(const std::vector<Thrice>& series, const KindOfSeries& kind);
 
 }  // namespace signorini

@@ -17,8 +17,8 @@
 namespace signorini {
 namespace {
 
-constexpr double least_seconds_of_step = 1e-6;  // where nothing vibrates, and nobody knows
-constexpr double steps_at_first = 64.0;         // of the whole run, where no dt is given
+constexpr double least_seconds_of_step = 1e-6;  // if nothing vibrates and the cost is unknown
+constexpr double steps_at_first = 64.0;         // number for the whole run, if no dt is given
 
 class Study {
  public:
@@ -60,9 +60,9 @@ class Study {
     return run;
   }
 
-  /// Peaks lie between steps of newmark, whose values stand at the ends of steps: between them, up to |r''| h^2 / 8 of a
-  /// peak is missed by all steps alike, for halved steps share their ends. So newmark tells its values where
-  /// ida has its peaks, too; a peak's own shift by O(h^2) costs no more than O(h^4).
+  /// Peaks are between the steps of newmark, whose values are at the ends of steps: all step sizes miss up to |r''| h^2
+  /// / 8 of a peak alike, since halved steps share their ends. So newmark also reports its values at the times of ida's
+  /// peaks; the shift of a peak by O(h^2) changes its value by O(h^4) only.
   void find_peaks() {
     std::vector<double> rows = *run_.output_times;
     for (const OutputExtremes& extremes : result_.ida.report.response)
@@ -74,7 +74,7 @@ class Study {
     std::sort(peaks_.begin(), peaks_.end());
   }
 
-  /// newmark at a step, with the rows of the other runs.
+  /// Runs newmark with a step, with the rows of the other runs.
   [[nodiscard]] Observed watch_newmark(double dt) const {
     Observed run = observe(model_, newmark(dt), request_.go_on);
     const auto width = static_cast<std::ptrdiff_t>(run.rows.width);
@@ -88,7 +88,7 @@ class Study {
     return run;
   }
 
-  /// Before anything is computed.
+  /// Refusals, before anything is computed.
   void check_newmark() const {
     try {
       engine_row(engine_for(EngineRole::fixed_steps)).refuse(model_, newmark(run_.t_end));
@@ -122,7 +122,7 @@ class Study {
     note(witnesses.exact->report);
   }
 
-  /// newmark at a step and its halves, until all has settled or the next would cost too much.
+  /// Runs newmark with successively halved steps, until everything has settled or the next run would cost too much.
   void refine(Witnesses& witnesses) {
     double dt = request_.dt.value_or(run_.t_end / steps_at_first);
     while (!result_.interrupted) {
@@ -141,7 +141,7 @@ class Study {
     return std::max(expected(model_, newmark(dt)).effort.seconds, least_seconds_of_step * run_.t_end / dt);
   }
 
-  /// What doubling the step to the last one changes.
+  /// Effect of doubling the step on the last step size.
   void test_step(const Witnesses& witnesses) {
     if (witnesses.newmark.size() < 2) return;
     const Observed& fine = witnesses.newmark.back();
@@ -160,7 +160,7 @@ class Study {
         {witnesses.dt.back(), whole ? relative : std::numeric_limits<double>::infinity()});
   }
 
-  /// The paper's own test, of the finest step.
+  /// The paper's own criterion, for the finest step.
   [[nodiscard]] bool changes_little() const { return result_.step_tests.back().change < paper_change; }
 
   void find_paper_dt() {
@@ -177,7 +177,7 @@ class Study {
   Model model_, own_;
   const VerifyRequest& request_;
   RunSpec run_;
-  std::vector<double> peaks_;  // times of ida's extremes of outputs, which no row has
+  std::vector<double> peaks_;  // times of ida's extremes of outputs, which are not output times
   Verification result_;
 };
 

@@ -44,10 +44,10 @@ const std::string& contact_of(const Model& model, const VerifiedEvent& event) {
   return model.contacts[static_cast<std::size_t>(event.contact)].name;
 }
 
-/// Differences may be zero, which a logarithm does not show.
+/// Zero differences cannot be shown on a logarithmic axis.
 double shown(double difference) { return std::max(difference, 1e-18); }
 
-/// What the picture shows of an event's time.
+/// Columns of the picture's table of event times.
 const CsvTable<VerifiedEvent>& plot_table() {
   using E = VerifiedEvent;
   static const CsvTable<E> table = {
@@ -61,7 +61,7 @@ const CsvTable<VerifiedEvent>& plot_table() {
   return table;
 }
 
-/// events.csv.
+/// Columns of events.csv.
 CsvTable<VerifiedEvent> verified_table(const Model& model) {
   using E = VerifiedEvent;
   return {{"contact", [&model](const E& e) { return std::string_view(contact_of(model, e)); }},

@@ -1,8 +1,8 @@
-// verify_files.hpp: what `verify` writes (docs/command-line.md).
+// verify_files.hpp: files of `verify` (docs/command-line.md).
 //
 //   verify.json   verdict, orders, richardson, bars, step tests
-//   events.csv    one row an event: its time with IDA, at the three steps' limit, both errors
-//   plots/verify  differences beside what is allowed
+//   events.csv    one row per event: its time with IDA, at the limit of the three steps, both errors
+//   plots/verify  differences relative to the allowed ones
 #pragma once
 
 #include <filesystem>
@@ -15,15 +15,15 @@ namespace signorini {
 
 [[nodiscard]] std::string verify_json(const Model& model, const Verification& result);
 
-/// verify.json and events.csv. Errors: FileError.
+/// Writes verify.json and events.csv. Errors: FileError.
 void write_verification(const std::filesystem::path& directory, const Model& model,
                         const Verification& result);
 
-/// The picture's script. Errors: FileError.
+/// Writes the picture's script. Errors: FileError.
 [[nodiscard]] std::vector<std::filesystem::path> write_verify_plot(const std::filesystem::path& directory,
                                                                    const Model& model,
                                                                    const Verification& result);
-/// Removes an earlier one.
+/// Removes the picture of an earlier verification.
 void begin_verify_plot(const std::filesystem::path& directory);
 
 }  // namespace signorini

@@ -11,14 +11,14 @@ namespace signorini {
 namespace {
 
 const char* const event_time = "event_time";
-/// Of what is to be settled: where either sequence ends to be certain, the other does about then.
+/// Relative time tolerance for "settled": the certain parts of both sequences end at about the same time.
 constexpr double nearly = 0.99;
-/// Extremes lie between rows, whose greatest error is taken twice.
+/// Extremes are between rows, whose largest error is doubled.
 constexpr double between_rows = 2.0;
-/// Of IDA's own error: what newmark differs by less than that does not decide.
+/// Relative to IDA's own error: smaller differences of newmark do not matter.
 constexpr double negligible = 0.1;
 
-/// Greatest difference beside what is allowed; no number where nothing is allowed and nothing is off.
+/// Largest difference relative to the allowed one; NaN if both are zero.
 double excess(const Observation& o) {
   return o.difference() > 0.0 ? o.difference() / std::max(o.allowed(), std::numeric_limits<double>::min())
                               : 0.0;
@@ -59,7 +59,7 @@ Witnesses::Sequence Witnesses::sequence() const {
   return result;
 }
 
-/// The times of IDA's events in another run: the same contact's event of the same number.
+/// The times of IDA's events in another run: the event with the same number at the same contact.
 std::vector<std::optional<double>> Witnesses::times_in(const Track& track) const {
   std::vector<std::vector<double>> times(names_.size());
   for (const TimedEvent& event : track.events)
@@ -93,7 +93,7 @@ Witnesses::Kind Witnesses::event_times(double until) const {
   return kind;
 }
 
-/// Output times that an event may have passed in one run and not in another.
+/// Output times that may be before an event in one run and after it in another.
 std::vector<bool> Witnesses::rows_at_events(double until) const {
   std::vector<bool> at(ida.rows.t.size(), false);
   std::vector<std::vector<std::optional<double>>> times;
@@ -155,7 +155,7 @@ bool Witnesses::settled() {
                      [](const Kind& k) { return signorini::settled(k.order.value()); });
 }
 
-/// One more that was compared.
+/// Adds one comparison.
 void Witnesses::count(const Observation& o, const std::string& where, VerifiedKind& kind) {
   ++kind.compared;
   kind.disagreeing += o.agrees() || o.witnessed() ? 0 : 1;
@@ -215,8 +215,8 @@ VerifiedKind Witnesses::verified(const Kind& kind, Verification& result) const {
   return summary;
 }
 
-/// Which step sees an extreme best may be chance, so that extremes have no order: the bar is the greater of what
-/// newmark's steps differ by, each of which knows its own values where ida has its extremes.
+/// The step that meets an extreme best is random, so extremes have no order: the bar is the largest difference between
+/// newmark's steps, each of which also reports its values at ida's extremes.
 void Witnesses::add_extremes(Verification& result) const {
   if (!certificate->complete || result.until < t_end_) return;
   const std::size_t first = columns_.size() - model_.outputs.size();

@@ -1,4 +1,4 @@
-// witnesses.hpp: what IDA, three runs of newmark and exact say, side by side (verify.hpp).
+// witnesses.hpp: results of IDA, three runs of newmark and exact, for comparison (verify.hpp).
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ class Witnesses {
  public:
   static constexpr std::size_t runs = 3;
 
-  /// The model must outlive it.
+  /// The model must outlive the object.
   Witnesses(const Model& model, double t_end);
 
-  /// One more run of newmark; the last three count.
+  /// Adds a run of newmark; the last three count.
   void add(double dt_of_run, Observed run);
-  /// Have sequence and orders of the last three settled, as far as IDA's is certain?
+  /// True if the sequence and the orders of the last three runs have settled, as far as IDA's sequence is certain.
   [[nodiscard]] bool settled();
   /// Fills in verdict, sentence, kinds, events.
   void judge(Verification& result);
@@ -34,7 +34,7 @@ class Witnesses {
   std::vector<double> dt;
 
  private:
-  /// A series of one quantity, with the rows of events or of output times that it was taken at.
+  /// A series of one quantity, with the rows of events or of output times at which it was taken.
   struct Series {
     std::string name;
     std::vector<Thrice> values;
@@ -46,12 +46,12 @@ class Witnesses {
     ObservedOrder order;
     double scale = 0.0;
   };
-  /// Up to where three sequences are one, and it is IDA's.
+  /// Time up to which three sequences are equal, and equal to IDA's.
   struct Sequence {
     double until = 0.0;
     std::string reason;        ///< empty: to the end
-    bool differs = false;      ///< IDA's is certain to be another one
-    double exact_until = 0.0;  ///< up to where exact's is IDA's
+    bool differs = false;      ///< IDA's sequence is certain to be a different one
+    double exact_until = 0.0;  ///< time up to which exact's sequence equals IDA's
   };
 
   [[nodiscard]] Sequence sequence() const;

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_violations = 100;  // that are kept; all are counted
+constexpr std::size_t most_violations = 100;  // limit of stored violations; all are counted
 
 PreparedRun prepared_of(const fs::path& directory) {
   const fs::path path = directory / "run.toml";
@@ -96,7 +96,8 @@ class DirectoryWitness {
     refuse_if_cut(reader.rows());
   }
 
-  /// A run that came to its end has an instant there; every event is at an instant; every change has its event.
+  /// A completed run must have an instant at its end; every event must be at an instant, and every change must have its
+  /// event.
   void refuse_if_cut(const CsvReader& reader) const {
     const auto refuse = [](const std::string& file, const std::string& why) { throw FileError(file, why); };
     const double end = told_.ended && !told_.stopped ? told_.t : last_event_;
@@ -111,7 +112,7 @@ class DirectoryWitness {
                          last_change_));
   }
 
-  /// `run --no-plots` leaves out tables for pictures; else they are written together.
+  /// False for `run --no-plots`, which omits tables for pictures; otherwise they are written together.
   [[nodiscard]] bool has_motion() const {
     std::error_code none;
     if (fs::exists(directory_ / "motion.csv", none)) return true;
@@ -120,7 +121,7 @@ class DirectoryWitness {
     return false;
   }
 
-  /// A row of events.csv at a time that is no instant.
+  /// A row of events.csv at a time without an instant.
   void unmatched() {
     add({events_.front().t, "events.csv", events_.front().contact, "record", 1.0, 0.0, {}, true});
     events_.pop_front();
@@ -146,7 +147,7 @@ class DirectoryWitness {
         add({told_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
   }
 
-  /// Rows of events.csv that belong to the instant: in the order of contacts, from the states before it.
+  /// Rows of events.csv that belong to the instant: in the order of contacts, starting from the states before it.
   std::vector<Event> events_of(const InstantRow& row) {
     while (!events_.empty() && events_.front().t < row.t) unmatched();
     std::vector<Event> events;
@@ -160,7 +161,7 @@ class DirectoryWitness {
     }
     return events;
   }
-  /// An own state counts as its kind.
+  /// A user-law state counts as its kind.
   [[nodiscard]] static bool begins_with(const Event& event, const InstantRow& row) {
     const State state = row.before.states[static_cast<std::size_t>(event.contact)].state;
     return std::string(to_string(state)) == to_string(event.from);
@@ -199,8 +200,8 @@ class DirectoryWitness {
         last_change_ = row.t;
   }
 
-  /// What a run's own witness need not ask: how an instant follows from the one before, from the start of the scene, and
-  /// from the forces on the structure.
+  /// Checks that a run's own witness does not need: continuity with the previous instant, the start of the scene, and
+  /// the forces on the structure.
   void beside_others(const InstantRow& row, const InstantRecord& record) {
     if (row.start) given_start(row);
     if (last_ && engine_.located) {
@@ -269,11 +270,11 @@ class DirectoryWitness {
   WitnessedMotion motion_;
   TableRows rows_;
   std::deque<Event> events_;
-  std::optional<InstantRow> last_;               // instant
+  std::optional<InstantRow> last_;               // the last instant
   std::vector<Driven> left_driven_;              // after it
-  double t_ = 0.0;                               // of the last instant
+  double t_ = 0.0;                               // time of the last instant
   double last_event_ = 0.0, last_change_ = 0.0;  // of a state
-  long lacking_ = 0;                             // events that events.csv has not
+  long lacking_ = 0;                             // number of events missing in events.csv
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
-// directory_witness.hpp: the witness of a run by its files alone (docs/theory-checks.md, "The witness").
+// directory_witness.hpp: the witness of a run from its files alone (docs/theory-checks.md, "The witness").
 //
 //   run.toml -> model;   summary.json -> engine;   instants.csv, events.csv -> src/witness, instant by instant
-//   contacts.csv: a row a time and contact, its state that of the last instant, its guards, its forces those of its state
-//   summary.json: as many events of each type as events.csv has; peaks no less than rows
+//   contacts.csv: rows per time and contact: state of the last instant, its guards, forces of that state
+//   summary.json: as many events of each type as in events.csv; peaks not below any row
 //
 //   DirectoryTestimony found = witness_directory("pipeline-run");
 //
-// What the run itself found is not read. Errors: FileError for files that are missing, cut or no tables of a run,
+// The run's own witness result is not read. Errors: FileError for files that are missing, cut or not tables of a run,
 // SceneError for run.toml.
 #pragma once
 
@@ -18,10 +18,12 @@
 
 namespace signorini {
 
-/// Violations by their first hundred, in the units of the scene; Violation::event of what tables say is their name.
+/// The first hundred violations, in the units of the scene; for violations of tables Violation::event is the table's
+/// name.
 struct DirectoryTestimony {
   Model model;
-  long instants = 0, events = 0, rows = 0;  ///< checked; rows: of contacts.csv and motion.csv
+  long instants = 0, events = 0, rows = 0;  ///< numbers of checked items; rows: of contacts.csv and
+                                            ///< motion.csv
   bool complete = true;                     ///< the run had ended
   Testimony testimony;
 };

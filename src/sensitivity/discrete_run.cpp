@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t few_terms = 3;  // of the forcing's derivatives: value, rate, second
+constexpr std::size_t few_terms = 3;  // terms of the forcing's series: value, first and second derivative
 
 std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.refine != Refine::root) return "events are interpolated, not roots of their guards";
@@ -100,7 +100,7 @@ DiscreteRun::Node DiscreteRun::redone(const Forcing& forcing, double t) {
   return end;
 }
 
-/// The motion of a contact at a node, along it.
+/// Derivative of a contact's motion at a node, along the moving node.
 ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const Forcing& forcing, const Node& at,
                                  const Moved& moved, const ForcingRatesSeries& series) const {
   const Contact& contact = model_.contacts[c];
@@ -115,7 +115,7 @@ ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const Forcing& fo
   return m;
 }
 
-/// The contacts' right sides; `known`: without what the new accelerations and forces add.
+/// The contacts' right-hand sides; `known`: without contributions of the new accelerations and forces.
 void DiscreteRun::add_rows(std::size_t p, const Forcing& forcing, const Ends& ends, const Moved& known) {
   const ModelDerivative& d = states_[p].derivative;
   const Point& end = ends.to.point;
@@ -326,7 +326,7 @@ void DiscreteRun::rows_at(const RunInstant& instant) {
     TangentSample sample{grid_[next_], instant.forcing_after, mode_, point_of(node_.point), {}, {}, {}, {}};
     for (std::size_t p = 0; p < states_.size(); ++p) {
       const Moved& m = moved_[p];
-      const bool known = states_[p].alive && m.t == 0.0;  // at an instant that moves a row has two sides
+      const bool known = states_[p].alive && m.t == 0.0;  // at a moving instant a row has two sides
       sample.tangents.push_back(known ? SeriesPoint{m.u, m.v, m.a, m.forces, Vector::Zero(m.forces.size())}
                                       : SeriesPoint{});
       sample.driven.emplace_back();

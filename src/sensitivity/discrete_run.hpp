@@ -1,4 +1,4 @@
-// discrete_run.hpp: derivatives of what engine `newmark` computes, not of the motion that it approximates.
+// discrete_run.hpp: derivatives of the discrete solution of engine `newmark`, not of the exact motion.
 //
 //   u1 = u0 + h v0 + h^2/4 (a0 + a1),   v1 = v0 + h/2 (a0 + a1)           engine/newmark/newmark_step.hpp
 //   Du1 = Du0 + h Dv0 + h^2/4 (Da0 + Da1) + Dh (v0 + h/2 (a0 + a1))
@@ -6,12 +6,14 @@
 //   M Da1 + C Dv1 + K Du1 + sum ( n DN1 + t DT1 )
 //     = DP(t1) - M_p a1 - C_p v1 - K_p u1 - sum ( n_p N1 + t_p T1 ),   rows of the contacts likewise
 //
-// D: along the nodes, which move. A regular step keeps its length, Dt1 = Dt0; one that ends at a load's instant
-// or at the end of the run ends there; one redone to an event ends where DG = 0, a linear equation in Dt1. After an
-// event a0 is that of equilibrium: the same with h = 0. The steps are made once more, from the engine's states.
+// D: along the nodes, which move. A regular step keeps its length, Dt1 = Dt0; a step that ends at a load's instant or
+// at the end of the run has a fixed end; a step redone to an event ends where DG = 0, a linear equation in Dt1. After
+// an event a0 follows from equilibrium: the same equations with h = 0. The steps are repeated, from the engine's
+// states.
 //
-// For steps of one length and events at roots of guards, and models without massless parts or friction by slip
-// rate; `reason` says where it is another. A check of the derivatives of the motion: both agree to O(h^2).
+// Restricted to steps of constant length with events at roots of guards, and to models without massless parts and
+// without rate-dependent friction; `reason` explains a violation. Serves as a check of the derivatives of the motion:
+// both agree to O(h^2).
 #pragma once
 
 #include "engine/newmark/newmark_step.hpp"
@@ -21,7 +23,7 @@ namespace signorini {
 
 class DiscreteRun final : public RunListener {
  public:
-  /// As TangentRun.
+  /// Arguments as in TangentRun.
   DiscreteRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
               const std::vector<double>& sizes, TangentListener& listener);
 
@@ -34,7 +36,7 @@ class DiscreteRun final : public RunListener {
   [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
 
  private:
-  /// A node and its derivative.
+  /// A node of the time grid and its derivative.
   struct Node {
     double t = 0.0;
     Point point;
@@ -44,11 +46,11 @@ class DiscreteRun final : public RunListener {
     Vector u, v, a, forces;
     std::vector<double> anchors;
   };
-  /// A step with known ends; of one parameter.
+  /// A step with known ends, for one parameter.
   struct Ends {
     const Node &from, &to;
     const Moved& moved;
-    const ForcingRatesSeries& forcing;  ///< at the end, of scale 1
+    const ForcingRatesSeries& forcing;  ///< at the end of the step, with scale 1
   };
   struct Rest;
 
@@ -79,10 +81,10 @@ class DiscreteRun final : public RunListener {
   double t_end_;
   NewmarkStep step_;
   SystemMatrix matrix_;
-  double factored_ = -1.0;  // the length of steps of matrix_; -1: it holds nothing
+  double factored_ = -1.0;  // step length of matrix_; -1: not factored
   Mode mode_;
   Node node_;
-  std::vector<Moved> moved_;  // of node_, one a parameter
+  std::vector<Moved> moved_;  // derivatives of node_, one per parameter
   std::vector<std::vector<double>> impulse_n_, impulse_t_;
   Vector x_, work_;
 };

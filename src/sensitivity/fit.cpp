@@ -18,20 +18,22 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_iterations = 50;
-constexpr int most_restarts = 8;  // from the other side of a kink; chosen
-// Relative changes of the keys, and of the sum of squares, below which it ends: above what rounding leaves of the
-// derivatives, far below what measurements tell.
+constexpr int most_restarts = 8;  // limit of restarts from the other side of a kink; chosen value
+// Convergence limits for relative changes of the keys and of the sum of squares: above the rounding of the derivatives,
+// far below the resolution of measurements.
 constexpr double key_tolerance = 1e-9, gradient_tolerance = 1e-12, sum_tolerance = 0.0;
-// Of a key's sigma: a step that is shorter says nothing that the measurements know. Chosen.
+// Relative to a key's sigma: a shorter step is insignificant. Chosen value.
 constexpr double of_sigma = 0.1;
-// Of the longer of two slopes: what their shortest mean may have left where they are opposite. Chosen.
+// Relative to the longer of two slopes: size of their shortest convex combination below which they count as opposite.
+// Chosen value.
 constexpr double opposite = 1e-3;
-// That chance makes chi squared as great: one fit of a million is told so wrongly.
+// Probability of such a chi squared below which the fit is rejected; one correct fit in a million is rejected.
 constexpr double least_probability = 1e-6;
-// Without sigmas: what may be left of the measured numbers, norm by norm. Chosen: a wrong unit leaves all of them.
+// Without sigmas: largest norm of the residuals relative to the measured numbers. Chosen value: a wrong unit leaves
+// about 1.
 constexpr double most_left = 0.5;
 
-/// GSL's errors are values while this lives, not the end of the program.
+/// During its lifetime GSL returns errors instead of aborting.
 class GslErrorsReturned {
  public:
   GslErrorsReturned() : before_(gsl_set_error_handler_off()) {}
@@ -57,7 +59,7 @@ int gsl_derivatives(const gsl_vector* x, void* problem, gsl_matrix* J) {
 
 using Workspace = std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)>;
 
-/// Where a descent has come to.
+/// State at the end of a descent.
 struct FitPlace {
   std::vector<double> keys;
   double chi_squared = 0.0;
@@ -81,7 +83,7 @@ FitPlace descend(FitProblem& problem, const std::vector<double>& from) {
   if (place.status == GSL_SUCCESS) {
     place.status = gsl_multifit_nlinear_driver(most_iterations, key_tolerance, gradient_tolerance,
                                                sum_tolerance, nullptr, nullptr, &info, w.get());
-    if (info == GSL_ENOPROG) place.status = GSL_ENOPROG;  // at the first step it says EMAXITER
+    if (info == GSL_ENOPROG) place.status = GSL_ENOPROG;  // at the first step GSL reports EMAXITER instead
     place.keys = keys_of(gsl_multifit_nlinear_position(w.get()));
     place.iterations = static_cast<int>(gsl_multifit_nlinear_niter(w.get()));
   }
@@ -90,7 +92,7 @@ FitPlace descend(FitProblem& problem, const std::vector<double>& from) {
   return place;
 }
 
-/// The shortest of all means of two vectors is none.
+/// True if a convex combination of the two vectors is nearly zero.
 bool are_opposite(const std::vector<double>& a, const std::vector<double>& b) {
   double aa = 0.0, bb = 0.0, ab = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -141,7 +143,7 @@ class Fitter {
   static constexpr const char* beyond =
       "; the sum of squares falls beyond it, where the scene allows no value or the run has not the measured "
       "events";
-  /// What the run at these keys says to first order, there or on the side from which they came.
+  /// Linearises the run at these keys, or at the side from which they came.
   bool linear_at(const std::vector<double>& keys) {
     if (!problem_.residuals(keys, *f_)) return false;
     if (!problem_.derivatives(keys, *J_)) return false;
@@ -154,7 +156,7 @@ class Fitter {
                ? 1.0
                : place_.chi_squared / static_cast<double>(rows - here_.rank);
   }
-  /// The step from these keys ends where the descent did.
+  /// True if the linearised step from these keys ends at the result of the descent.
   [[nodiscard]] bool leads_to_place(const std::vector<double>& keys) const {
     for (std::size_t p = 0; p < keys.size(); ++p) {
       if (!here_.determined[p]) continue;
@@ -164,8 +166,8 @@ class Fitter {
     }
     return true;
   }
-  /// Both sides of every key: where the sum of squares falls away from the place, on from there. True: it has found a
-  /// place that is lower.
+  /// Checks both sides of every key, and descends where the sum of squares decreases away from the result. True: it has
+  /// found a lower place.
   bool look_beside() {
     level_ = linear_at(place_.keys) && leads_to_place(place_.keys);
     falls_ = kink_ = false;
@@ -185,7 +187,7 @@ class Fitter {
         slopes_.push_back(slope);
         if (leads_to_place(keys)) continue;
         kink_ = true;
-        if (side * slope[p] >= 0.0) continue;  // it rises
+        if (side * slope[p] >= 0.0) continue;  // it increases
         const FitPlace other = descend(problem_, keys);
         iterations_ += other.iterations;
         if (other.chi_squared < place_.chi_squared) {
@@ -241,7 +243,7 @@ class Fitter {
                       loose, loose.find(',') == std::string::npos ? "it" : "they"));
   }
 
-  /// Whether the measurements are what the run has.
+  /// Checks whether the run explains the measurements.
   void explain(Fit& result) const {
     if (result.freedom <= 0) return;
     const char* advice = "check units, the numbers of events, and what the scene leaves out";
@@ -267,13 +269,14 @@ class Fitter {
   GslMatrix J_;
   LinearFit here_;
   FitPlace place_;
-  std::vector<std::vector<double>> slopes_;  // beside the place, in sizes of keys
+  std::vector<std::vector<double>> slopes_;  // beside the result, in units of key sizes
   int iterations_ = 0;
-  std::vector<std::pair<std::size_t, double>> walls_;  // keys, and their sides on which there is no such run
-  std::vector<bool> at_bound_;                         // keys beyond whose wall the sum of squares falls
-  bool level_ = false;                                 // the slope is zero at the place
-  bool kink_ = false;                                  // the sides say something else
-  bool falls_ = false;  // away from the place, and nothing lower was found there
+  std::vector<std::pair<std::size_t, double>> walls_;  // keys, and their sides without such a run
+  std::vector<bool> at_bound_;                         // keys at whose wall the sum of squares still
+                                                       // decreases
+  bool level_ = false;                                 // the slope is zero at the result
+  bool kink_ = false;                                  // both sides disagree
+  bool falls_ = false;                                 // the sum decreases, but nothing lower was found there
 };
 
 }  // namespace

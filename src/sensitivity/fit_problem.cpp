@@ -51,14 +51,15 @@ void FitProblem::start(std::vector<double>& keys) {
   if (!run(keys)) return;
   size_.resize(keys.size());
   for (std::size_t p = 0; p < keys.size(); ++p) {
-    constexpr double steps_of_size = 512.0;  // what Parameter::step is a part of
+    constexpr double steps_of_size = 512.0;  // Parameter::step is this fraction of the key's size
     size_[p] = keys[p] != 0.0 ? std::abs(keys[p]) : steps_of_size * std::abs(last_.parameters[p].step);
   }
   std::size_t row = 0;
   if (const std::string why = not_there(row); !why.empty()) refuse(row, "at the start " + why);
   const std::string why = missing_rate();
   if (why.empty()) return;
-  // Two events may meet at the very start: alike contacts that begin with the same friction. Beside it they do not.
+  // Two events may coincide at the very start, as for equal contacts that begin with the same friction; beside it they
+  // do not.
   for (std::size_t p = 0; p < keys.size(); ++p)
     for (const double side : {1.0, -1.0}) {
       std::vector<double> near = keys;
@@ -169,7 +170,7 @@ double FitProblem::rate_of(std::size_t i, std::size_t p) const {
   return row < last_.value_rates[p].size() ? last_.value_rates[p][row][column] : EventRates::none;
 }
 
-/// Of these keys, unless it was the last.
+/// Runs with these keys, unless the last run had them.
 bool FitProblem::run(const std::vector<double>& keys) {
   if (failure_) return false;
   if (keys == keys_) return true;
@@ -181,7 +182,7 @@ bool FitProblem::run(const std::vector<double>& keys) {
     for (const Measurement& m : measured_.rows)
       if (m.event == 0) static_cast<void>(place_of(m));
     impossible_ = false;
-  } catch (const Error&) {  // not through GSL's frames
+  } catch (const Error&) {  // no exception may pass through GSL's frames
     if (runs_ == 0) failure_ = std::current_exception();
     impossible_ = true;
   }

@@ -9,7 +9,8 @@
 namespace signorini {
 namespace {
 
-constexpr int most_corrections = 8;  // of a time; three are enough but where a guard nearly grazes
+constexpr int most_corrections = 8;  // Newton iterations for an event time; three suffice unless a guard
+                                     // nearly grazes
 
 bool same_states(const Mode& a, const Mode& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -47,7 +48,7 @@ Stepper& FollowedMotion::engine(bool in_modes) {
 }
 
 SeriesPoint FollowedMotion::at(double t) {
-  // An engine of its own: where the other one goes later, nothing may be known of extremes on the way.
+  // A separate engine, because the main one may go beyond the extremes on the way.
   if (!ahead_) ahead_ = std::make_unique<ExactEngine>(model_, structure_, systems_, t_end_);
   Stepper& engine = *ahead_;
   engine.start({t, &stretch_, &*forcing_});
@@ -61,7 +62,8 @@ SeriesPoint FollowedMotion::at(double t) {
 
 std::optional<double> FollowedMotion::time_of(const RunInstant& instant, const MotionAt& at) const {
   if (instant.breakpoint) return instant.t;
-  if (instant.fired.empty()) {  // the end, or states that the engine found itself
+  if (instant.fired.empty()) {  // the end of the run, or a change of states found by the engine at the end of
+                                // a step
     if (same_states(instant.mode_before, instant.after.mode)) return instant.t;
     return std::nullopt;
   }
@@ -80,7 +82,7 @@ std::optional<double> FollowedMotion::time_of(const RunInstant& instant, const M
     if (!(rate < 0.0)) return std::nullopt;
     const double off = -guard->value(m) / rate;
     if (!(t + off > now_.jet.t)) return std::nullopt;
-    // sharper than instants are told apart, or than the guard's rounding
+    // below the time resolution of instants, or below the rounding of the guard
     if (std::abs(off) <= std::max(instant.resolution, -4.0 * noise / rate)) return t + off;
     if (!(std::abs(off) < std::abs(last))) return std::nullopt;
     t += off;

@@ -1,12 +1,12 @@
-// followed_motion.hpp: the motion of an engine whose steps are no series, computed once more.
+// followed_motion.hpp: recomputes the motion of an engine whose steps are not series.
 //
-//   from the start on, u, v and states are its own, to rounding; of the engine it takes which guards fell
-//   t_k:   g(t_k) = 0 of the first guard that the engine saw fall, by Newton's method from the engine's own time
-//   then   the decision at t_k, made once more
+//   u, v and states are computed independently, to rounding; the engine provides the guards that reached zero
+//   t_k:   g(t_k) = 0 for the first such guard, by Newton's method starting from the engine's time
+//   then   the decision at t_k is repeated
 //
-// Where the guard has no zero near, or the states decided are not the engine's, it goes on from the engine's own
-// state (taken). So the sequence is always the engine's, and an error of its integration does not add up
-// in what is derived: a chain of events would amplify it as it amplifies a change of the parameter.
+// If the guard has no zero nearby, or the decided states differ from the engine's, the motion continues from the
+// engine's state (`taken`). So the sequence always is the engine's, and integration errors of the engine do not
+// accumulate in the derivatives; a chain of events would amplify such errors like changes of the parameter.
 #pragma once
 
 #include <functional>
@@ -23,23 +23,23 @@ namespace signorini {
 
 class FollowedMotion {
  public:
-  /// The motion at a time after now(), in its mode.
+  /// The motion at a time after now(), in its current mode.
   using MotionAt = std::function<SeriesPoint(double t)>;
 
-  /// All but run must outlive it.
+  /// All arguments except run must outlive the object.
   FollowedMotion(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run);
 
   void begin(const Decision& start);
-  /// The stretch that begins now, under the engine's forcing.
+  /// Begins a stretch now, with the engine's forcing.
   void start(const Forcing& forcing);
-  /// Of that stretch: without guards, since nothing ends it but the engine.
+  /// Decision of that stretch: without guards, since only the engine ends it.
   [[nodiscard]] const Decision& stretch() const { return stretch_; }
   [[nodiscard]] const Forcing& forcing() const { return *forcing_; }
   [[nodiscard]] double t() const { return now_.jet.t; }
-  /// Modes of the model; null: none can follow it.
+  /// Modes of the model; null: modes cannot follow it.
   [[nodiscard]] ModalSystem* modes();
   [[nodiscard]] Stepper& engine(bool in_modes);
-  /// The motion at t from a series of its own.
+  /// The motion at t, from a series of its own.
   [[nodiscard]] SeriesPoint at(double t);
 
   /// When the instant is; nothing: its guard does not fall there.
@@ -50,7 +50,7 @@ class FollowedMotion {
   [[nodiscard]] RunInstant take(const RunInstant& instant);
 
   [[nodiscard]] long taken() const { return taken_; }
-  /// Greatest |t_k - the engine's time|.
+  /// Largest |t_k - the engine's time|.
   [[nodiscard]] double correction() const { return correction_; }
 
  private:
@@ -61,7 +61,7 @@ class FollowedMotion {
   Decider decider_;
   std::unique_ptr<ModalEngine> modal_;
   std::unique_ptr<ExactEngine> series_;
-  std::unique_ptr<ExactEngine> ahead_;  // looks for the time of an event
+  std::unique_ptr<ExactEngine> ahead_;  // searches for the time of an event
   LastTouch touches_;
   Decision now_, stretch_;
   Mode mode_before_;

@@ -1,4 +1,4 @@
-// history_rates.hpp: the derivative of a piece of a history by a parameter, as a series in time.
+// history_rates.hpp: derivative of a history's piece by a parameter, as a series in time.
 //
 //   f = sum c_j s^j + a sin(w s + phi),   s = t - t0
 //   f_p = sum c_j,p s^j - t0,p f' + a_p sin(w s + phi) + a cos(w s + phi) (w_p s + phi_p)

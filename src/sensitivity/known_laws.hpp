@@ -1,11 +1,11 @@
-// known_laws.hpp: which laws of contact have tangents.
+// known_laws.hpp: contact laws for which tangents are implemented.
 #pragma once
 
 #include "signorini/model.hpp"
 
 namespace signorini {
 
-/// Errors: SceneError at a law that has none.
+/// Errors: SceneError at a law without tangents.
 void check_tangent_laws(const Scene& scene, const Model& model);
 
 }  // namespace signorini

@@ -1,7 +1,7 @@
-// landing_rates.hpp: how each stay of a contact on its ground moves with the parameters: run/landings.hpp.
+// landing_rates.hpp: derivatives of contact phases (run/landings.hpp) by the parameters.
 //
-//   impulse_p = sum of DPn at hits + W_p(end) - W_p(start)       W: integral of -N, along the moving instants
-//   peak_p    = -N_p where N turns, or -DN at an instant
+//   impulse_p = sum of DPn at impacts + W_p(end) - W_p(start)       W: integral of -N, along the moving instants
+//   peak_p    = -N_p at an extreme of N, or -DN at an instant
 #pragma once
 
 #include "sensitivity/tangent_run.hpp"
@@ -16,13 +16,13 @@ class LandingRecord {
 
   void turn(const TangentSample& sample);
   void instant(const InstantMotion& motion, const std::vector<TangentState>& states);
-  /// One list a contact, machine's units; those that last end at t. Their values: of the peak force only.
+  /// One list per contact, in machine units; open phases end at t. The only values are those of the peak force.
   [[nodiscard]] std::vector<std::vector<MovingLanding>> finish(const std::vector<TangentState>& states) const;
 
  private:
   struct Stay {
     MovingLanding landing;
-    std::vector<double> from;  ///< W_p where it began, one a parameter
+    std::vector<double> from;  ///< W_p at its beginning, one per parameter
   };
   void begin(std::size_t contact, const std::vector<double>& start, const std::vector<TangentState>& states);
   void offer(std::size_t contact, double force, const std::vector<double>& rates);

@@ -1,9 +1,9 @@
-// law_rates.hpp: the forces of a contact in its state, and how they move with a parameter.
+// law_rates.hpp: forces of a contact in its state, and their derivatives by a parameter.
 //
 //   N = N_g g + N_c,   N_p = N_g g_p + N_g,p g + N_c,p
 //   T = T_g g + T_u ut + T_c,   T_p = T_g g_p + T_g,p g + T_u ut_p + T_u,p ut + T_c,p
 //
-// Constant forces and surfaces: what a stretch in modes has.
+// Valid for constant forces and surfaces, as in a modal stretch.
 #pragma once
 
 #include "decide/decision.hpp"
@@ -12,20 +12,20 @@
 
 namespace signorini {
 
-/// One parameter on a stretch.
+/// Data of one parameter for a stretch.
 struct TangentSource {
-  const Tangent* start = nullptr;  ///< null: it is not followed
-  ForcingRatesSeries forcing;      ///< of scale 1
+  const Tangent* start = nullptr;  ///< null: not followed
+  ForcingRatesSeries forcing;      ///< with scale 1
 };
 
-/// Of one contact and one parameter.
+/// Derivatives for one contact and one parameter.
 struct LawRates {
   ForceLaw law;
-  ForceLaw rates;                    ///< of its numbers
+  ForceLaw rates;                    ///< derivatives of the law's numbers
   double gap = 0.0, gap_rate = 0.0;  ///< g0 and g0_p
   double surface = 0.0, surface_rate = 0.0;
 
-  /// From g, ut and their derivatives by the parameter; of rates g' and ut' likewise.
+  /// From g, ut and their derivatives by the parameter; likewise for rates from g' and ut'.
   [[nodiscard]] double N_by(double g, double g_by) const { return law.N_gap * g_by + rates.N(g); }
   [[nodiscard]] double T_by(double g, double g_by, double ut, double ut_by) const {
     return law.T_rate(g_by, ut_by) + rates.T(g, ut);

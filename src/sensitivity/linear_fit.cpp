@@ -9,13 +9,13 @@
 namespace signorini {
 namespace {
 
-// Derivatives are right to 1e-9 or better: the model's data are differenced so (stencils.hpp). What a key moves less than
-// that part of the measured numbers, by as much as its own size, is rounding.
+// Derivatives are accurate to 1e-9 or better, since the model's data are differenced with that accuracy (stencils.hpp).
+// A change of the measured numbers below this fraction, for a change of a key by its own size, is rounding.
 constexpr double rounding_of_rates = 1e-9;
-// Of the greatest singular value of J with columns of norm 1. Of two keys that do the same thing rounding leaves about
-// 1e-9; chosen, in the middle between that and 1e-3, where measurements may still tell two keys apart.
+// Relative to the largest singular value of J with columns of norm 1. For two keys with the same effect rounding leaves
+// about 1e-9; chosen in the middle between that and 1e-3, where measurements may still distinguish two keys.
 constexpr double dependent = 1e-6;
-// A key's part in a combination that is not determined, of 1. Chosen: far above rounding / dependent.
+// Component of a key, relative to 1, in an undetermined combination. Chosen value: far above rounding / dependent.
 constexpr double takes_part = 1e-2;
 
 }  // namespace

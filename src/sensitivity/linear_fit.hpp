@@ -1,10 +1,10 @@
-// linear_fit.hpp: what a least-squares problem says at one point, to first order.
+// linear_fit.hpp: linearised least-squares problem at one point.
 //
 //   J = U S V^T D      D: norms of J's columns
-//   step = - D^-1 V S^+ U^T f                    to where |f + J step| is least
+//   step = - D^-1 V S^+ U^T f                    minimises |f + J step|
 //   covariance = D^-1 V (S^+)^2 V^T D^-1
 //
-// S^+: without what is zero to rounding. Keys that take part in it are not determined.
+// S^+: without singular values that are zero to rounding. Keys with a component there are undetermined.
 #pragma once
 
 #include <gsl/gsl_matrix.h>
@@ -29,8 +29,8 @@ struct LinearFit {
   std::size_t rank = 0;
 };
 
-/// f: residuals over their sigmas; J: their derivatives; size: of each key; measured: the norm of what was measured over
-/// its sigmas, to which rounding is relative. rows >= keys.
+/// f: residuals over their sigmas; J: their derivatives; size: size of each key; measured: norm of the measured numbers
+/// over their sigmas, to which rounding is relative. rows >= keys.
 [[nodiscard]] LinearFit linear_fit(const gsl_vector& f, const gsl_matrix& J, const std::vector<double>& size,
                                    double measured);
 

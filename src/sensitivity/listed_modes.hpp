@@ -1,6 +1,6 @@
-// listed_modes.hpp: all modes of a state one after the other, and square tables of them.
+// listed_modes.hpp: lists all modes of a state, and square tables of them.
 //
-//   S double: real modes alone;   S Complex: real ones, those of pairs, and their conjugates
+//   S double: real modes only;   S Complex: real modes, modes of pairs, and their conjugates
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline Vector flat_modes(const Amplitudes& a) {
 
 inline Complex conjugate(Complex a) { return {a.re, -a.im}; }
 
-/// A number as the kind that it is known to be.
+/// Converts a number to the given type.
 template <class T>
 T of_kind(double a) {
   return T(a);
@@ -38,7 +38,7 @@ T of_kind(Complex a) {
     return a;
 }
 
-/// All modes one after the other: real ones, pairs, and their conjugates.
+/// Lists all modes: real ones, pairs, and their conjugates.
 inline void list_modes(const Amplitudes& a, std::vector<double>& out) { out = a.real; }
 inline void list_modes(const Amplitudes& a, std::vector<Complex>& out) {
   out.assign(a.real.begin(), a.real.end());
@@ -72,7 +72,7 @@ void add_outer(const std::vector<S>& a, const std::vector<S>& b, double factor, 
   }
 }
 
-/// sum_l x_l y_l, in four sums that do not wait for each other.
+/// sum_l x_l y_l, in four independent sums.
 template <class S>
 S inner(const S* x, const S* y, std::size_t n) {
   S sum[4] = {S(0.0), S(0.0), S(0.0), S(0.0)};

@@ -6,7 +6,7 @@
 
 namespace signorini {
 
-/// Of both sides of an instant, along it.
+/// Values on both sides of an instant, along it.
 struct LossRates::Sides {
   const InstantMotion& motion;
   const TangentBefore& before;
@@ -33,7 +33,7 @@ void LossRates::add_impact(const Sides& s, WorkRates& works) const {
       energy.kinetic(s.motion.before.v, s.Dv_before) - energy.kinetic(s.motion.after.v, s.Dv_after) + driven;
 }
 
-/// Of the energy that the shear of a contact loses as its force drops, as the audit has it; nothing: it does not.
+/// Derivative of the energy that a contact's shear loses as its force drops, as in the audit; nullopt: no loss.
 std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &b = s.motion.motion_before[c], &a = s.motion.motion_after[c];
@@ -46,7 +46,7 @@ std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
          (b.T * b.T - a.T * a.T) * derivative_.contacts[c].tangential_stiffness / (2.0 * kt * kt);
 }
 
-/// Of P . (u+ - u-) on parts without mass, which jump under loads that stay.
+/// Derivative of P . (u+ - u-) on parts without mass, which jump under continuous loads.
 double LossRates::driven_by(const Sides& s) const {
   const RunInstant& now = s.motion.instant;
   ForcingRatesSeries rates;
@@ -118,7 +118,7 @@ WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, c
   Sides s{m, before, after, {}, {}, {}, {}, {}, {}};
   s.Du_before = before.point.u + after.dt * m.before.v;
   s.Dv_before = before.point.v + after.dt * m.before.a;
-  s.Du_after = after.point.u + after.dt * m.after.v;  // with parts without mass, which have moved
+  s.Du_after = after.point.u + after.dt * m.after.v;  // includes parts without mass, which have moved
   s.Dv_after = after.point.v + after.dt * m.after.a;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];

@@ -1,13 +1,14 @@
-// loss_rates.hpp: what an instant takes out of the motion at once, and how that moves with a parameter.
+// loss_rates.hpp: energy lost at an instant, and its derivative by a parameter.
 //
 //   impact     L = v-^T M v-/2 - v+^T M v+/2 + sum Pt s'
-//   friction   L = (T-^2 - T+^2)/2kt                where a force drops
-//   parts without mass, which move at once (run/audit.hpp):
-//   friction   L = T+ (slip+ - slip-)               where a load jumps, L = what is released where friction drops;
-//                                                   of several their own and an equal part of the rest
-//   loads      W += sum of L - what is released     where a load jumps, else W += P . (u+ - u-), which is released, too
+//   friction   L = (T-^2 - T+^2)/2kt                at a drop of a force
+//   parts without mass, which respond immediately (run/audit.hpp):
+//   friction   L = T+ (slip+ - slip-)               at a jump of a load; L = released energy at a drop of friction;
+//                                                   several contacts: each its own and an equal part of the rest
+//   loads      W += sum of L - released energy      at a jump of a load, else W += P . (u+ - u-), which is released,
+// too
 //
-// DL: along the moving instant, as all that happens at it.
+// DL: along the moving instant, like everything at it.
 #pragma once
 
 #include <optional>
@@ -19,12 +20,12 @@ namespace signorini {
 
 class LossRates {
  public:
-  /// All must outlive it. massless: moves_at_once(model).
+  /// All arguments must outlive the object. massless: moves_at_once(model).
   LossRates(const Model& model, const ModelDerivative& derivative, bool massless)
       : model_(model), derivative_(derivative), massless_(massless) {}
 
-  /// Across an instant; `works` from what they are at fixed time before it to what they are after it.
-  /// Returned: what they are along it, everything lost.
+  /// Crosses an instant; `works` changes from the derivatives at fixed time before it to those after it. Returns the
+  /// derivatives along the instant, all losses included.
   WorkRates pass(const InstantMotion& motion, const TangentBefore& before, const TangentAfter& after,
                  WorkTangent& works) const;
 

@@ -1,4 +1,4 @@
-// read_measurements(): a table of what was measured.
+// read_measurements(): reads a table of measurements.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class MeasuredTable {
     throw Error(ExitCode::scene, fmt::format("{}:{}:{}: {}: {}", path_, line_, column + 1,
                                              excerpt(reader_.header()[column]), message));
   }
-  /// A number that stands twice would count twice.
+  /// A repeated measurement would count twice.
   void refuse_twice(const std::vector<Measurement>& rows) const {
     std::map<std::tuple<std::size_t, std::string, double>, long> lines;
     for (const Measurement& m : rows) {

@@ -1,6 +1,6 @@
-// modal_store.hpp: what modal_tangents.hpp keeps of states of contacts that come again.
+// modal_store.hpp: data that modal_tangents.hpp keeps for recurring contact states.
 //
-//   of a state: B and G of every parameter (state_rates.hpp), what is shown of its modes, the numbers of the usual step
+//   per state: B and G of every parameter (state_rates.hpp), displayed rows of its modes, data of the usual step
 #pragma once
 
 #include <map>
@@ -10,17 +10,17 @@
 
 namespace signorini {
 
-/// Chosen: states beyond it are forgotten, all at once.
+/// Limit of the storage; when it is exceeded, all states are dropped. Chosen value.
 inline constexpr std::size_t most_bytes_of_states = std::size_t{1} << 28;
 
 template <class S>
 struct StateStore {
   std::vector<ParameterModes<S>> parameters;
-  RowMatrix shown;           // of amplitudes in a row (flat): the degrees of freedom that are shown
-  OscillatorPairs<S> usual;  // of the usual time; empty: not asked for yet
+  RowMatrix shown;           // displayed degrees of freedom by flat amplitudes
+  OscillatorPairs<S> usual;  // for the usual step; empty: not computed yet
 };
 
-/// Room for the numbers of one step.
+/// Work arrays of one step.
 template <class S>
 struct Workshop {
   OscillatorPairs<S> pairs;

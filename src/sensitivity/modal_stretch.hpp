@@ -1,6 +1,6 @@
 // modal_stretch.hpp: one stretch of modal_tangents.hpp, in the modes of its state.
 //
-//   S double: all modes are real;   S Complex: some come in conjugate pairs
+//   S double: all modes are real;   S Complex: some modes come in conjugate pairs
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace signorini {
 
-/// alpha t of a part at most: as engine/exact/modal/oscillators.hpp asks.
+/// Limit of alpha t for one part, as in engine/exact/modal/oscillators.hpp.
 inline constexpr double longest_decay_of_part = 4.0;
-/// Of a mode's place, its p/l that is taken out of the motion: three digits.
+/// Limit of the constant part p/l relative to a mode's amplitude: costs three digits.
 inline constexpr double most_still = 4096.0;
 class ModalStretch {
  public:
@@ -92,7 +92,7 @@ class ModalStretchOf final : public ModalStretch {
  private:
   struct Followed {
     ModalPoint now, moved;
-    Amplitudes force;  // constant
+    Amplitudes force;  // constant force
     const ParameterModes<S>* modes = nullptr;
   };
 
@@ -107,7 +107,7 @@ class ModalStretchOf final : public ModalStretch {
       laws_.push_back(force_law(model_.contacts[c], mode_[c], forcing_.pressing(c, begin_, 0)));
   }
 
-  /// p/l of a mode is a part of its motion that stands still, unless it is far away.
+  /// The constant part p/l of each mode, unless it is far larger than the motion.
   void choose_still() {
     const std::vector<S> z = modes_of<S>(now_.z);
     still_.assign(l_.size(), S(0.0));
@@ -139,11 +139,11 @@ class ModalStretchOf final : public ModalStretch {
       store_.pairs.clear();
       store_.bytes = 0;
     }
-    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // of the usual time
+    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // for the usual step
     return store_.keep(key, std::move(made));
   }
 
-  /// f: what does not depend on the motion.
+  /// f: terms that do not depend on the motion.
   void set_constant(std::size_t p, Followed& f) const {
     const TangentSource& source = sources_[p];
     Vector q = Vector::Zero(model_.size());
@@ -181,7 +181,7 @@ class ModalStretchOf final : public ModalStretch {
     t_ += time;
   }
 
-  /// y_l[k, l] of the motion without what stands still, and the same of its rate; with their own rates.
+  /// y_l[k, l] of the motion without its constant part, and its rate; with their own rates.
   void fill_driven(OscillatorPairs<S>& pairs) {
     const std::size_t n = l_.size();
     std::vector<S> z = modes_of<S>(now_.z), r = modes_of<S>(now_.rate), a(n, S(0.0));
@@ -219,7 +219,7 @@ class ModalStretchOf final : public ModalStretch {
     if (dragged_) drive(r, a, work_.dragging, work_.dragging_rate);
   }
 
-  /// Of one point, without what drives it besides constant forces.
+  /// Free motion from one point with constant forces only.
   void turn(const ModalPoint& from, const Amplitudes& force, const OscillatorPairs<S>& pairs,
             ModalPoint& to) const {
     const std::size_t reals = from.z.real.size(), count = from.z.pair.size();
@@ -280,7 +280,7 @@ class ModalStretchOf final : public ModalStretch {
     modes_.basis().motions(modal, in);
   }
 
-  /// Of the degrees of freedom that are shown.
+  /// Values of the displayed degrees of freedom.
   void show(const ModalPoint& at, const Amplitudes* second, SeriesPoint& out) const {
     const auto one = [&](const Amplitudes& from, Vector& to) {
       const Vector values = known_->shown * flat_modes(from);
@@ -381,7 +381,7 @@ class ModalStretchOf final : public ModalStretch {
   std::vector<TangentSource> sources_;
   Oscillators oscillators_;
   std::vector<S> l_, p_, still_, soft_;
-  std::size_t rows_;  // of modes but the conjugate ones, which follow from the others
+  std::size_t rows_;  // number of modes without conjugates, which follow from the others
   std::vector<ForceLaw> laws_;
   Amplitudes force_;
   ModalPoint now_, moved_;

@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-constexpr double nothing_left = 1e-13;  // of C_p, what is the rounding of C_p - alpha M_p
+constexpr double nothing_left = 1e-13;  // relative to C_p: rounding of C_p - alpha M_p
 
 bool stands_still(const ForcingRatesSeries& f) {
   const auto still = [&](const std::vector<double>& rows) {
@@ -21,7 +21,7 @@ bool stands_still(const ForcingRatesSeries& f) {
          still(f.surface);
 }
 
-/// Degrees of freedom that columns and contacts show; all where they are amplitudes of shapes.
+/// Degrees of freedom of columns and contacts; all of them in a reduced model.
 std::vector<Eigen::Index> shown_dofs(const Model& model, const std::vector<const ModelDerivative*>& rates) {
   const std::vector<Eigen::Index> felt = contact_dofs(model, rates);
   std::set<Eigen::Index> dofs(felt.begin(), felt.end());

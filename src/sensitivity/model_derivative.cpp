@@ -17,15 +17,15 @@
 namespace signorini {
 namespace {
 
-constexpr double first_step = 1.0 / 512.0;  // of the size of the value
+constexpr double first_step = 1.0 / 512.0;  // relative to the size of the value
 constexpr double shorter = 1.0 / 16.0;
 constexpr int most_attempts = 3;
-// Of a derivative, that both stencils must agree in; chosen: fourth order leaves 1e-10 at the first step
-// where the data go as 1/p or sqrt(p), and a kink inside the stencil leaves a tenth.
+// Relative agreement of both stencils; chosen value: fourth order leaves 1e-10 at the first step for data like 1/p or
+// sqrt(p), and a kink inside the stencil leaves a tenth.
 constexpr double agreement = 1e-6;
 constexpr double rounding_of_data = 4096.0 * rounding::eps;
-// Of the greatest of what went through solves: equilibria, and matrices with the lowest frequency in them.
-// Chosen; the pipeline's own equilibrium is known to 1e-11.
+// Relative to the largest of the data that come from solves: equilibria, and matrices with the lowest frequency in
+// them. Chosen value; the pipeline's own equilibrium is accurate to 1e-11.
 constexpr double rounding_of_solves = 1e-8;
 
 class Differences {
@@ -40,7 +40,7 @@ class Differences {
         base_(data_of(model)),
         shape_(shape_of(model)) {}
 
-  /// Nothing where the data are not smooth, or not there.
+  /// nullopt if the data are not smooth, or do not exist.
   std::optional<ModelDerivative> at(double h) {
     step_ = h;
     moved_.clear();
@@ -70,7 +70,7 @@ class Differences {
     return std::nullopt;
   }
 
-  /// Why the scene is refused beside the value, if it is.
+  /// Reason why the scene is refused beside the value, if it is.
   [[nodiscard]] const std::optional<std::string>& refusal() const { return refusal_; }
 
  private:
@@ -98,7 +98,8 @@ class Differences {
     for (Moved& m : moved_) m.values = values_of(m.data);
   }
 
-  /// What follows from a body's motion by another rule has a derivative of its own, which is not computed.
+  /// Motions that follow a body's motion by a different rule would have derivatives of their own, which are not
+  /// implemented.
   void check_ties(const Model& model) const {
     if (!model_.ties || !model.ties) return;
     if (!model_.ties->given.empty())
@@ -110,7 +111,7 @@ class Differences {
           "moves nodes of a rigid body against its centre: there are no derivatives by it of their motions");
   }
 
-  /// Amplitudes of shapes that move with the parameter are other unknowns.
+  /// True if the unknowns are the same: amplitudes of shapes that depend on the parameter are different ones.
   [[nodiscard]] bool same_coordinates(const Model& model) const {
     if (model_.reduction) return model.reduction && model.reduction->shapes == model_.reduction->shapes;
     if (model_.basis) return model.basis && SparseMatrix(*model.basis - *model_.basis).norm() == 0.0;
@@ -121,7 +122,7 @@ class Differences {
     return *std::find_if(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; });
   }
 
-  /// Of all numbers, those before u0 and v0 where these follow from the others.
+  /// Number of values to compare: those before u0 and v0 if these follow from the others.
   [[nodiscard]] std::size_t judged(std::size_t count) const {
     return start_follows_ ? count - 2 * static_cast<std::size_t>(model_.size()) : count;
   }
@@ -146,11 +147,11 @@ class Differences {
            is_straight(up.data.stiffness, base_.stiffness, down.data.stiffness);
   }
 
-  /// Both stencils say the same of every number, to what rounding makes of it.
+  /// True if both stencils agree for every number, within rounding.
   [[nodiscard]] bool agree(const Stencil& stencil) const {
     const std::size_t count = moved_.front().values.size();
     const std::vector<double> least = sizes_of(base_);
-    const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 come last
+    const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 are last
     const double motion = std::max(base_.u0.cwiseAbs().maxCoeff(), base_.v0.cwiseAbs().maxCoeff());
     for (std::size_t i = 0; i < judged(count); ++i) {
       double better = 0.0, check = 0.0, size = least[i];
@@ -179,7 +180,7 @@ class Differences {
     return true;
   }
 
-  /// What does not change is zero, not its rounding.
+  /// Sets entries that do not change to zero instead of their rounding.
   static SparseMatrix without_rounding(SparseMatrix a, const SparseMatrix& size, double step) {
     a.prune([&](Eigen::Index row, Eigen::Index column, double value) {
       return std::abs(value) > 4.0 * rounding::eps / std::abs(step) * std::abs(size.coeff(row, column));
@@ -202,7 +203,7 @@ class Differences {
     }
     std::size_t i = 0;
     visit_all(d, [&](double& x) {
-      // sums of the stencil's weights are zero: what stays when nothing changes is their rounding
+      // the weights have zero sums: for constant data only rounding remains
       const double size = std::abs(x), sum = sums[i++];
       x = std::abs(sum) > 16.0 * rounding::eps / std::abs(step_) * size ? sum : 0.0;
     });

@@ -1,12 +1,12 @@
-// model_derivative.hpp: the derivative of all data of a model by a key of its scene.
+// model_derivative.hpp: derivative of all model data by a key of the scene.
 //
 //   x_p = ( 3/4 (x1 - x-1) - 3/20 (x2 - x-2) + 1/60 (x3 - x-3) ) / h      x_j: the data at p + j h
-//   linear data: (x1 - x-1) / 2h;   at the edge of what a key may be: five points to one side
+//   linear data: (x1 - x-1) / 2h;   at the limit of a key's range: five points on one side
 //
-// Data are smooth functions of the keys, mostly linear ones: what is left out is of the order h^6 (h^5 at an
-// edge), and rounding eps/h. h = 2^-9 of the value: both below 1e-12. A stencil of fourth order through the
-// same points tells whether the data are smooth there; if not h is cut by 16, twice at most.
-// Rows and guards of contacts are differenced too, so that a law is known in one place (contact/law.hpp).
+// Data are smooth functions of the keys, mostly linear ones: the truncation error is of order h^6 (h^5 at a limit),
+// rounding eps/h. With h = 2^-9 of the value both are below 1e-12. A fourth-order stencil through the same points
+// checks whether the data are smooth; if not, h is divided by 16, twice at most. Rows and guards of contacts are
+// differenced too, so that a law is implemented in one place (contact/law.hpp).
 #pragma once
 
 #include "contact/law.hpp"
@@ -14,10 +14,10 @@
 
 namespace signorini {
 
-/// Derivatives of a history's numbers, piece by piece. Empty: it does not change.
+/// Derivatives of a history's numbers, piece by piece. Empty: no change.
 struct HistoryRates {
   std::vector<double> starts;
-  std::vector<Piece> pieces;  ///< numbers are derivatives
+  std::vector<Piece> pieces;  ///< the numbers are derivatives
   [[nodiscard]] bool none() const { return pieces.empty(); }
 };
 
@@ -26,11 +26,11 @@ inline constexpr std::array all_states = {State::open,      State::inside,    St
                                           State::held_plus, State::held_minus};
 [[nodiscard]] constexpr std::size_t index_of(State state) { return static_cast<std::size_t>(state); }
 
-/// Of one contact, with anchors at zero.
+/// Derivatives of one contact's data, with anchors at zero.
 struct ContactRates {
   Combination normal, tangent, body_tangent;
   double gap = 0.0, tangential_stiffness = 0.0, initial_shear = 0.0, restitution = 0.0, shear_stiffness = 0.0;
-  Friction friction;  ///< of the constants that the contact has
+  Friction friction;  ///< derivatives of the contact's constants of friction
   HistoryRates normal_force, surface_motion;
   std::array<Rows, all_states.size()> rows;
   std::array<std::array<Form, guards_per_contact>, all_states.size()> guards;
@@ -41,9 +41,9 @@ struct LoadRates {
   HistoryRates history;
 };
 
-/// In the units of `model`, over that of the key.
+/// Derivatives in the units of `model`, over the unit of the key.
 struct ModelDerivative {
-  SparseMatrix mass, damping, stiffness;  ///< without entries where nothing changes
+  SparseMatrix mass, damping, stiffness;  ///< without entries for constants
   std::vector<LoadRates> loads;
   std::vector<ContactRates> contacts;
   Vector u0, v0;
@@ -51,11 +51,11 @@ struct ModelDerivative {
   bool one_sided = false;
 };
 
-/// A model without gravity gets the load of one with it, along nothing: a place for what gravity does.
+/// Gives a model without gravity a zero weight load, copied from one with gravity, as a place for its derivative.
 void take_weight(const Model& from, Model& model);
 
-/// model: build_model(read({})), in the machine's units. Errors: SceneError and UsageError where the key
-/// cannot be varied, or the data do not depend smoothly on it.
+/// model: build_model(read({})), in the machine's units. Errors: SceneError and UsageError if the key cannot be varied,
+/// or if the data do not depend smoothly on it.
 [[nodiscard]] ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path,
                                          double value, double size);
 

@@ -9,7 +9,8 @@
 namespace signorini {
 namespace {
 
-// Coefficients of a piece at least, so that what is zero at the value has a place beside it: a cubic's integral.
+// Least number of coefficients of a piece, so that a zero coefficient has a place for its derivative: a cubic's
+// integral.
 constexpr std::size_t fewest_coefficients = 5;
 
 HistoryRates numbers_of(const History& history) {

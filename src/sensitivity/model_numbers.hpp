@@ -1,4 +1,4 @@
-// model_numbers.hpp: all numbers of a model that a parameter may move, in one order.
+// model_numbers.hpp: all numbers of a model that a parameter may change, in a fixed order.
 //
 //   data_of(model): the numbers themselves, in the place of their derivatives;   visit(d, f): f(x) of each
 //
@@ -61,15 +61,15 @@ void visit_all(ModelDerivative& d, const Visit& visit) {
   for (double& v : d.v0) visit(v);
 }
 
-/// What is zero here and not there has no term: all get those of each.
+/// Zero entries may have no terms in some models: adds the terms of each model to all.
 void align(const std::vector<ModelDerivative*>& all);
-/// The data themselves in the place of their derivatives.
+/// The data themselves, in a ModelDerivative.
 [[nodiscard]] ModelDerivative data_of(const Model& model);
-/// What must be the same for differences to mean something.
+/// Sizes and structure that must be equal for differences to be meaningful.
 [[nodiscard]] std::vector<long> shape_of(const Model& model);
-/// All but the matrices; those of u0 and v0 come last.
+/// All numbers except the matrices; those of u0 and v0 are last.
 [[nodiscard]] std::vector<double> values_of(ModelDerivative& data);
-/// What the rounding of each number is relative to: itself, in a form its greatest factor.
+/// Magnitudes to which the rounding of each number is relative: itself, in a form its largest factor.
 [[nodiscard]] std::vector<double> sizes_of(ModelDerivative data);
 
 }  // namespace signorini

@@ -7,12 +7,13 @@
 namespace signorini {
 namespace {
 
-// m t^2 up to which a pair is a series in it, and from which on a mode turns. Two modes one of which does not
-// turn and one of which is not slow differ by a quarter of the greater one at least: l t^2 <= 4.1 and > 6.
+// Limit of m t^2 up to which a pair is a series in it, and limit from which a mode oscillates. If one of two modes does
+// not oscillate and one is not slow, they differ by at least a quarter of the larger one: l t^2 <= 4.1 and > 6.
 constexpr double slow_square = 6.0, turning_square = 0.09;
-constexpr int most_time_terms = 64;    // l t^2 <= 1 and alpha t <= 4: 40 are enough
+constexpr int most_time_terms = 64;    // l t^2 <= 1 and alpha t <= 4: 40 are sufficient
 constexpr int most_series_terms = 24;  // 6^24 / 48! = 4e-43
-constexpr double small_angle = 0.25;   // up to which sin(x)/x is a series of seven terms: 0.36^14/15! = 5e-19
+constexpr double small_angle = 0.25;   // limit for the series of sin(x)/x with seven terms: 0.36^14/15! =
+                                       // 5e-19
 
 double sine_of(double a) { return std::sin(a); }
 double cosine_of(double a) { return std::cos(a); }
@@ -52,7 +53,7 @@ void OscillatorPairs<S>::fill_turning(std::size_t k) {
 }
 
 /// cos(sqrt(m) t) = sum (-m t^2)^j / (2j)!,  sin(sqrt(m) t)/sqrt(m) = t sum (-m t^2)^j / (2j + 1)!
-/// and of powers x^j[k, l] = x_k x^(j-1)[k, l] + x_l^(j-1).
+/// and powers x^j[k, l] = x_k x^(j-1)[k, l] + x_l^(j-1).
 template <class S>
 typename OscillatorPairs<S>::Both OscillatorPairs<S>::near_zero(std::size_t k, std::size_t l) const {
   const S x = m_[k] * (-t_ * t_), y = m_[l] * (-t_ * t_);
@@ -140,7 +141,7 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
     }
 }
 
-/// l h = 1 - c; where l is small a series in time.
+/// l h = 1 - c; a series in time if l is small.
 template <class S>
 S OscillatorPairs<S>::h_of(std::size_t k) const {
   const double square = t_ * t_;
@@ -158,7 +159,7 @@ S OscillatorPairs<S>::h_of(std::size_t k) const {
   return sum;
 }
 
-/// l_k H = -(C + h(l)) of the greater of both; where both are small a series in time.
+/// l_k H = -(C + h(l)) for the larger of both; a series in time if both are small.
 template <class S>
 S OscillatorPairs<S>::h_pair(std::size_t k, std::size_t l) const {
   const double square = t_ * t_;

@@ -1,13 +1,12 @@
-// oscillator_pairs.hpp: how the motion of one mode drives another of a neighbouring frequency.
+// oscillator_pairs.hpp: response of one mode to the motion of another mode of a nearby frequency.
 //
 //   y_l'' + alpha y_l' + l y_l = p:   y_l(t) = z c(l) + r s(l) + p h(l)       z, r: y_l and y_l' at 0
 //   w'' + alpha w' + k w = -y_l,  w(0) = w'(0) = 0:   w(t) = z C + r S + p H
 //   C = c[k, l] = (c(k) - c(l)) / (k - l),   S and H likewise
 //
-// c, s and h are entire functions of l, so that C, S and H have no poles where k comes near to l: with
-// m = l - alpha^2/4, w^2 = m, they are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2; where m t^2 is
-// small of both, series in m t^2. Rates follow from c' = -l s, s' = c - alpha s, h' = s by
-// (l s)[k, l] = k S + s(l).
+// c, s and h are entire functions of l, so C, S and H have no poles where k approaches l: with m = l - alpha^2/4, w^2 =
+// m, they are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2, or series in m t^2 if it is small for both.
+// Rates follow from c' = -l s, s' = c - alpha s, h' = s by (l s)[k, l] = k S + s(l).
 // alpha t <= 4. S: double or Complex. Unit: that of t and l.
 #pragma once
 
@@ -22,7 +21,7 @@ namespace signorini {
 template <class S>
 class OscillatorPairs {
  public:
-  /// Of the frequencies squared l, at this time.
+  /// Computes all pairs of the squared frequencies l, at this time.
   void fill(const std::vector<S>& l, double alpha, double t);
 
   [[nodiscard]] std::size_t size() const { return l_.size(); }
@@ -32,7 +31,7 @@ class OscillatorPairs {
   /// Rows of size() numbers, symmetric.
   [[nodiscard]] const S* C_row(std::size_t k) const { return big_c_.data() + k * l_.size(); }
   [[nodiscard]] const S* S_row(std::size_t k) const { return big_s_.data() + k * l_.size(); }
-  /// H[k, l] of all k.
+  /// H[k, l] for all k.
   [[nodiscard]] const std::vector<S>& H_column(std::size_t l);
 
  private:
@@ -50,7 +49,7 @@ class OscillatorPairs {
   std::vector<S> l_, m_, w_, inverse_w_, sine_, cosine_, half_sine_, half_cosine_, c_, s_;
   std::vector<unsigned char> turns_, slow_;
   std::vector<S> big_c_, big_s_, h_;
-  std::map<std::size_t, std::vector<S>> columns_;  // of H, as they were asked for
+  std::map<std::size_t, std::vector<S>> columns_;  // columns of H, computed on request
 };
 
 extern template class OscillatorPairs<double>;

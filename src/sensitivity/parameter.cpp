@@ -18,7 +18,7 @@ namespace {
   throw UsageError(fmt::format("--parameter {}: {}", path, message));
 }
 
-/// run.initial.NODE.ux: zero where it is left out.
+/// True for run.initial.NODE.ux, which is zero if omitted.
 bool is_initial_value(const std::vector<std::string>& parts) {
   return parts.size() == 4 && parts[0] == "run" && parts[1] == "initial" &&
          find_key("run.initial.*", parts[3]) != nullptr;
@@ -67,7 +67,7 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
     }
     if (!any) fail_at(path, fmt::format("there is no \"{}\" in the scene", name));
   } else if (const auto number = node.value<double>(); number && rest[next - 1] == "friction") {
-    found.insert(*number);  // friction = 0.3 stands for both
+    found.insert(*number);  // friction = 0.3 sets both coefficients
   } else {
     fail_at(path, fmt::format("\"{}\" is no table", rest[next - 1]));
   }
@@ -109,7 +109,7 @@ double value_of(const Scene& scene, const std::string& path) {
 
 double typical_size(const SceneReader& read, const Scene& scene, const Model& model,
                     const std::string& path) {
-  constexpr double probe = 1.0 / 1024.0;  // any number that is not zero
+  constexpr double probe = 1.0 / 1024.0;  // any nonzero number
   std::vector<double> before;
   Scene copy = scene;
   visit_quantities(copy, [&](double& x, const Unit&) { before.push_back(x); });
@@ -125,7 +125,7 @@ double typical_size(const SceneReader& read, const Scene& scene, const Model& mo
         ++i;
       });
       return size;
-    } catch (const Error&) {  // it may be of one sign only
+    } catch (const Error&) {  // the key may only have one sign
     }
   }
   return 1.0;

@@ -2,17 +2,17 @@
 //
 //   value = the number at PATH in the scene with all defaults filled in;   scene(x) = read(PATH=x)
 //
-// Tables of an array are chosen as `--set` does: by name, by number from 1, or all by *, which must agree.
+// Tables of an array are selected as in `--set`: by name, by number from 1, or all by *, whose values must agree.
 #pragma once
 
 #include "signorini/sensitivity.hpp"
 
 namespace signorini {
 
-/// Errors: UsageError where the path leads to no number, or to several that differ.
+/// Errors: UsageError if the path leads to no number, or to several different ones.
 [[nodiscard]] double value_of(const Scene& scene, const std::string& path);
 
-/// A size for steps of a key that is zero: what quantities of its unit typically are in the model.
+/// Size for steps of a key that is zero: typical size of quantities with its unit in the model.
 [[nodiscard]] double typical_size(const SceneReader& read, const Scene& scene, const Model& model,
                                   const std::string& path);
 

@@ -12,7 +12,7 @@ struct PeakKind {
   const char* name;
   Unit of;
 };
-/// As in summary.json: forces, and displacements of the body from where it was at the start.
+/// Same kinds as in summary.json: forces, and displacements of the body since the start.
 constexpr std::array<PeakKind, 4> peak_kinds = {
     PeakKind{"peak N", unit::force}, PeakKind{"peak T", unit::force}, PeakKind{"peak normal", unit::length},
     PeakKind{"peak tangential", unit::length}};
@@ -110,7 +110,7 @@ void RateRecord::add_row(const TangentSample& s) {
   }
 }
 
-/// The last columns of a row.
+/// Adds the energies as the last columns of a row.
 void RateRecord::add_energies(const TangentSample& s, std::size_t p, std::vector<double>& row) const {
   const SeriesPoint& w = s.tangents[p];
   std::vector<ContactMotion> motions, rates;
@@ -138,8 +138,8 @@ void RateRecord::see(std::size_t c, std::size_t which, double t, Seen seen) {
   peak = {std::abs(seen.value), seen.value, t, seen.turn, std::move(seen.rates), std::move(seen.t_rates)};
 }
 
-/// At a turn the rate is zero, so a peak's value moves as the quantity does at fixed time. A turn that lies at an instant is
-/// a kink: its rates are the instant's.
+/// At an extreme the rate is zero, so the derivative of a peak's value is that at fixed time. An extreme that coincides
+/// with an instant is a kink; its derivatives are the instant's.
 void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
   if (std::abs(s.t - instant_) <= resolution_) return;
   const Contact& contact = model_.contacts[c];
@@ -172,13 +172,13 @@ void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
   }
 }
 
-/// Forces may jump at an instant, so that both of its sides count.
+/// Forces may jump at an instant, so both of its sides count.
 void RateRecord::see_instant(const InstantMotion& motion, const std::vector<TangentState>& states,
                              std::size_t c) {
   const Contact& contact = model_.contacts[c];
   const double t = motion.instant.t;
   for (Peak& peak : peaks_[c])
-    if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution) peak = {};  // seen again below
+    if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution) peak = {};  // found again below
   const auto offer = [&](std::size_t which, double value, auto&& rate_of) {
     if (!(std::abs(value) > peaks_[c][which].size)) return;
     Seen seen{value, false, {}, {}};
@@ -215,7 +215,7 @@ void RateRecord::at_instant(const InstantMotion& motion, const std::vector<Tange
   if (landings_) landings_->instant(motion, states);
 }
 
-/// What the run lost until it ended, by each contact and in all.
+/// Losses of the run until its end, for each contact and in total.
 void RateRecord::add_losses() {
   const Audit& audit = result_.report.audit;
   const auto add = [&](const char* name, int contact, double value, auto&& rate_of) {

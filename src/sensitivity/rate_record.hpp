@@ -1,7 +1,7 @@
-// rate_record.hpp: events, rows and figures of contacts with their derivatives, in the scene's units.
+// rate_record.hpp: records events, rows and results of contacts with their derivatives, in the scene's units.
 //
-//   peak of q:   at a turn q_p there, its time -(q'_p)/q'';   at an instant Dq, and the instant's own dt/dp
-//   rest:        what is left at the last output time
+//   peak of q:   at an extreme q_p there, its time -(q'_p)/q'';   at an instant Dq, and the instant's own dt/dp
+//   rest:        value at the last output time
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace signorini {
 
 class RateRecord final : public TangentListener, public ForwardingRecorder {
  public:
-  /// computed: in the machine's units. Both must outlive it; recorder: may be null.
+  /// computed: in the machine's units. Both must outlive the object; recorder: may be null.
   RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,
              Sensitivities& result, bool losses);
 
@@ -27,14 +27,14 @@ class RateRecord final : public TangentListener, public ForwardingRecorder {
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
 
-  /// Peaks, rests, and with losses these and landings into the result, whose report is known.
+  /// Adds peaks, rests, and with losses these and landings to the result, whose report must be known.
   void finish();
 
  private:
-  /// Of one contact.
+  /// Peak of one quantity of a contact.
   struct Peak {
     double size = 0.0, value = 0.0, t = 0.0;
-    bool turn = false;  // not at an instant
+    bool turn = false;  // an extreme between instants
     std::vector<double> rates, t_rates;
   };
   struct Seen {
@@ -54,10 +54,10 @@ class RateRecord final : public TangentListener, public ForwardingRecorder {
   const Model& model_;
   const std::vector<ModelDerivative>& derivatives_;
   Sensitivities& result_;
-  const std::vector<TangentState>* states_ = nullptr;                             // of the last instant
-  double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;  // the last one
+  const std::vector<TangentState>* states_ = nullptr;                             // after the last instant
+  double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;  // the last instant
   std::vector<std::array<Peak, 4>> peaks_;
-  std::optional<LandingRecord> landings_;  // with losses
+  std::optional<LandingRecord> landings_;  // only with losses
 };
 
 }  // namespace signorini

@@ -18,7 +18,7 @@
 namespace signorini {
 namespace {
 
-/// Keys that say how a run is computed, not what moves.
+/// Refuses keys that control the computation, not the motion.
 void check_path(const std::string& path) {
   for (const std::string_view table : {"run.", "reduction.", "schema", "title", "units"})
     if (path.starts_with(table) && !path.starts_with("run.initial"))
@@ -35,7 +35,7 @@ void check_options(const RunSpec& run, const SensitivityOptions& options) {
   if (options.losses) throw UsageError("discrete derivatives: losses are followed along the motion only");
 }
 
-/// A place for the derivative by gravity, which makes no load where it is zero.
+/// Adds a place for the derivative by gravity; zero gravity makes no load.
 void make_room_for_weight(const SceneReader& read, const Scene& scene, const std::vector<std::string>& paths,
                           Model& model) {
   if (scene.gravity != std::array{0.0, 0.0}) return;
@@ -44,12 +44,12 @@ void make_room_for_weight(const SceneReader& read, const Scene& scene, const std
       if (!path.starts_with("gravity.")) continue;
       try {
         take_weight(build_undoubted(read({set_to(path, g)})), model);
-      } catch (const Error&) {  // derivative() says it
+      } catch (const Error&) {  // derivative() reports it
       }
     }
 }
 
-/// A companion has no part in derivatives.
+/// The run without a companion, which has no part in derivatives.
 RunSpec without_companion(RunSpec run) {
   run.certify = Certify::no;
   return run;

@@ -10,10 +10,10 @@ namespace {
 
 constexpr int most_halvings = 30;
 constexpr int fewest_tangent_levels = 12;
-constexpr double bolder = 1.5;   // than the last part that converged
-constexpr int turn_places = 24;  // of a step of six radians: a quarter each
-// A product of two motions turns twice as far as they do: of Gauss's ten places a step of six radians takes two
-// sets, which leave 6^21 (10!)^4 / (21 (20!)^3) = 1e-14 of it.
+constexpr double bolder = 1.5;   // relative to the last part that converged
+constexpr int turn_places = 24;  // per step of six radians: a quarter radian each
+// A product of two motions oscillates twice as fast: a step of six radians needs two sets of ten Gauss points, with a
+// relative error of 6^21 (10!)^4 / (21 (20!)^3) = 1e-14.
 constexpr std::size_t work_parts = 2;
 
 }  // namespace
@@ -54,7 +54,7 @@ SeriesTangents::SeriesTangents(const Model& model, ModeSystems& systems,
                                const std::vector<const ModelDerivative*>& data, bool losses)
     : model_(model), systems_(systems), touched_(contact_dofs(model, data)), losses_(losses) {}
 
-/// Its system with friction at the slip rates at the beginning of a series.
+/// The mode's system with friction at the slip rates at the beginning of a series.
 ModeSystemPtr SeriesTangents::system_at(const ModeSystem& system, const Series& series) const {
   std::vector<Form> rows;
   for (const std::size_t c : system.factorised().by_rate)
@@ -134,7 +134,7 @@ void SeriesTangents::advance(TangentState& state, const RunStep& step, const std
       state.reach = std::max(state.reach, length * e.series->scale);
     if (length > 0.0) state.error += state.series.error();
     const double to = length == rest ? e.x : from + length;
-    double done = from;  // up to where works are known
+    double done = from;  // end of the part with known works
     for (; next < wanted.size() && wanted[next].x <= to; ++next) {
       const double x = wanted[next].x - from;
       samples[next].tangents[p] = state.series.at(x);

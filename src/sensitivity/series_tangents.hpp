@@ -1,9 +1,9 @@
-// series_tangents.hpp: one tangent along the series of a step, part by part, and its works.
+// series_tangents.hpp: advances one tangent along the series of a step, part by part, with its works.
 //
-//   [0, x_end]  =  parts, each as long as the tangent's own series converges, halved where it does not
-//   W_p        +=  sum over Gauss's places of factor (power)_p               (work_rates.hpp)
+//   [0, x_end]  =  parts, each as long as the tangent's own series converges, halved if it does not
+//   W_p        +=  sum over Gauss points of factor (power)_p               (work_rates.hpp)
 //
-// Works over a part of a step take Gauss's ten places for each half of a step.
+// Works over a part of a step use ten Gauss points for each half of a step.
 #pragma once
 
 #include "run/run_listener.hpp"
@@ -11,7 +11,7 @@
 
 namespace signorini {
 
-/// A place of a step, in its series.
+/// A requested position in a step, in its series.
 struct WantedPlace {
   double t = 0.0, x = 0.0;
   bool row = false, turn = false;
@@ -24,7 +24,7 @@ struct WantedPlace {
 
 class SeriesTangents {
  public:
-  /// model, systems: must outlive it.
+  /// model, systems: must outlive the object.
   SeriesTangents(const Model& model, ModeSystems& systems, const std::vector<const ModelDerivative*>& data,
                  bool losses);
 
@@ -38,7 +38,7 @@ class SeriesTangents {
 
   const Model& model_;
   ModeSystems& systems_;
-  std::vector<Eigen::Index> touched_;  // degrees of freedom that contacts, or their derivatives, show
+  std::vector<Eigen::Index> touched_;  // degrees of freedom on which contacts, or their derivatives, depend
   bool losses_;
 };
 

@@ -13,15 +13,17 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_bytes_of_modes = std::size_t{1}
-                                            << 28;  // of modes; beyond, all are forgotten. Chosen.
-constexpr double longest_decay_at_once = 4.0;       // alpha t at once, as Oscillators::advance asks
+                                            << 28;  // storage of modes; when it is exceeded, all are dropped.
+                                                    // Chosen value.
+constexpr double longest_decay_at_once = 4.0;       // limit of alpha t in one step, as in
+                                                    // Oscillators::advance
 
-/// Matrices of many columns, one for displacements and one for their rates, in flat amplitudes.
+/// Matrices with many columns, one for displacements and one for their rates, in flat amplitudes.
 struct ModalBundle {
   Eigen::MatrixXd z, rate;
 };
 
-/// z and rate of each mode some time later, of a motion that begins with these amplitudes in every mode.
+/// Displacement and rate of each mode after some time, for a motion with these initial values in every mode.
 ModalPoint mode_response(const Oscillators& oscillators, const Amplitudes& zero, double z, double rate,
                          double force, double time) {
   const auto all = [&](double value) {
@@ -173,7 +175,7 @@ void StateFlow::advance(const Mode& mode, double time, std::vector<TangentState>
   tell(mode, modes.out * all, modes.seen * second, states);
 }
 
-/// What contacts feel of it.
+/// Writes the contact quantities of the tangents.
 void StateFlow::tell(const Mode& mode, const Eigen::MatrixXd& moved, const Eigen::MatrixXd& seen,
                      std::vector<TangentState>& states) const {
   const Eigen::Index columns = seen.cols();

@@ -1,11 +1,11 @@
-// state_flow.hpp: tangents by the initial state alone over a stretch, in the modes of its contact state.
+// state_flow.hpp: tangents by the initial state over a stretch, in the modes of its contact state.
 //
 //   w'' + alpha w' + L w = f = Y Phi^T sum_k t_k kt_k p_k           p_k: tangents of anchors, constant on a stretch
 //   w(t) = c w0 + s w0' + h f,   w'(t) = c' w0 + s' w0' + h' f      mode by mode, in closed form (oscillators.hpp)
 //   W = Phi X w,   w = Y Phi^T M W                                  W: n x columns
 //
-// Loads do not appear: they act on all neighbouring motions alike. So whatever drives the structure, a stretch costs four
-// products of matrices, and its length costs nothing. Modes of a contact state are kept.
+// Loads do not appear, because they act on all neighbouring motions alike. So for any excitation a stretch costs four
+// matrix products, independent of its length. Modes of a contact state are kept.
 #pragma once
 
 #include <map>
@@ -18,22 +18,23 @@ namespace signorini {
 
 class StateFlow {
  public:
-  /// Of a model that modes_uncouple(). The flow keeps a copy of it, in which loads and the start mean nothing.
+  /// For a model with modes_uncouple(). The flow keeps a copy of the model; its loads and initial state are not used.
   explicit StateFlow(const Model& model);
 
-  /// Whether all that the flow depends on is the same: matrices, forms and stiffnesses of contacts.
+  /// True if all data that the flow depends on are equal: matrices, forms and stiffnesses of contacts.
   [[nodiscard]] bool fits(const Model& model) const;
-  /// Whether the modes of this contact state are good enough.
+  /// True if the modes of this contact state are accurate enough.
   [[nodiscard]] bool knows(const Mode& mode);
-  /// All tangents that are alive, `time` later: displacements, velocities; accelerations of degrees of freedom that
-  /// contacts see; forces of contacts and their rates.
+  /// Advances all active tangents by `time`: displacements, velocities; accelerations of degrees of freedom with
+  /// contacts; contact forces and their rates.
   void advance(const Mode& mode, double time, std::vector<TangentState>& states);
 
  private:
-  /// Rows of flat amplitudes: real modes, real and imaginary parts of pairs.
+  /// Rows are flat amplitudes: real modes, real and imaginary parts of pairs.
   struct Modes {
     std::shared_ptr<const StateModes> state;
-    Eigen::MatrixXd in, out, seen, from_tangent;  ///< seen: rows of out at the degrees of freedom of contacts
+    Eigen::MatrixXd in, out, seen, from_tangent;  ///< seen: rows of `out` at the degrees of freedom of
+                                                  ///< contacts
     Oscillators oscillators;
     bool good = false;
   };
@@ -45,12 +46,12 @@ class StateFlow {
   const Model model_;
   OpenBasis basis_;
   std::optional<ModalSystem> system_;
-  std::vector<Eigen::Index> felt_;  // degrees of freedom that contacts see
+  std::vector<Eigen::Index> felt_;  // degrees of freedom with contacts
   std::map<std::vector<State>, Modes> known_;
   std::size_t bytes_ = 0;
 };
 
-/// The modes of each contact state are uncoupled by damping alpha M, alpha >= 0 (modal_system.hpp).
+/// True if damping alpha M, alpha >= 0, leaves the modes of each contact state uncoupled (modal_system.hpp).
 [[nodiscard]] bool modes_uncouple(const Model& model);
 
 }  // namespace signorini

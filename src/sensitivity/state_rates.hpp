@@ -1,9 +1,9 @@
-// state_rates.hpp: what a parameter does to the modes of a state, B and G of modal_tangents.hpp.
+// state_rates.hpp: derivatives of a state's modal equations by a parameter, B and G of modal_tangents.hpp.
 //
 //   B = Y Phi^T ( K_p + contacts' ) Phi X - Y Phi^T M_p Phi X L,    G = Y Phi^T ( C_p - alpha M_p ) Phi X
 //   contacts' = sum of n (N_gap,p n + N_gap n_p)^T + n_p N_gap n^T + ..., outer products of forms
 //
-// Column k of a product is that of mode k: shape, times the open matrix, back into modes.
+// Column k of a product belongs to mode k: its shape, multiplied by the open matrix, projected on the modes.
 #pragma once
 
 #include "engine/exact/modal/thin_product.hpp"
@@ -12,18 +12,18 @@
 
 namespace signorini {
 
-/// Of one parameter in open modes; empty: none.
+/// Derivatives of one parameter in open modes; empty: none.
 struct OpenRates {
   Eigen::MatrixXd mass, drag, stiffness;  ///< drag: C_p - alpha M_p
 };
 
-/// What a parameter does to a state that does not depend on the stretch.
+/// Derivatives of a state that do not depend on the stretch.
 template <class S>
 struct ParameterModes {
-  Square<S> b, g;  ///< g: empty where it is zero
+  Square<S> b, g;  ///< g: empty if it is zero
 };
 
-/// A state of the contacts and its modes, at the begin of a stretch.
+/// A state of the contacts and its modes, at the beginning of a stretch.
 struct StateAt {
   const Model& model;
   const ModalSystem& modes;
@@ -40,10 +40,10 @@ inline bool any_term(const Combination& c) {
 template <class S>
 class StateRatesOf {
  public:
-  /// All must outlive it; l: eigenvalues of the listed modes.
+  /// All arguments must outlive the object; l: eigenvalues of the listed modes.
   StateRatesOf(const StateAt& at, const std::vector<S>& l) : at_(at), spectrum_(at.state.spectrum), l_(l) {}
 
-  /// Rows: the degrees of freedom named; columns: flat modes (flat_modes).
+  /// Rows: the given degrees of freedom; columns: flat modes (flat_modes).
   [[nodiscard]] RowMatrix shown(const std::vector<Eigen::Index>& dofs) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
     RowMatrix out(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(reals + 2 * pairs));
@@ -79,7 +79,7 @@ class StateRatesOf {
     return q;
   }
 
-  /// Column k of X, its real part and, of pairs, its imaginary one: of a mode, or the conjugate one.
+  /// Column k of X as real part and, for pairs, imaginary part, of a mode or its conjugate.
   [[nodiscard]] std::vector<Vector> shape(std::size_t k) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
     Amplitudes unit = spectrum_.zero();
@@ -121,7 +121,7 @@ class StateRatesOf {
     }
   }
 
-  /// A form's modes: what forces along it do, and what modes show of it.
+  /// A form in modal coordinates: the effect of forces along it, and its value by modes.
   struct Seen {
     std::vector<S> from, row;
   };

@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-/// P_p of the loads that the start is in equilibrium with.
+/// P_p of the loads of the static equilibrium.
 Vector static_load_rate(const Model& model, const ModelDerivative& derivative) {
   Vector p = Vector::Zero(model.size());
   for (std::size_t i = 0; i < model.loads.size(); ++i) {

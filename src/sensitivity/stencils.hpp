@@ -1,25 +1,25 @@
-// stencils.hpp: differences through a few points.
+// stencils.hpp: finite-difference stencils.
 //
 //   f' = sum_i w_i f(p + k_i h) / h          k_i: points, w_i: weights
 //
-// `check` are weights of lower order through the same points: where both differ the function is not smooth there.
+// `check` are weights of lower order at the same points: where both results differ, the function is not smooth.
 #pragma once
 
 #include <vector>
 
 namespace signorini {
 
-/// Points in units of the step, and weights over it.
+/// Points in units of the step, and weights divided by the step.
 struct Stencil {
   std::vector<int> points;
-  std::vector<double> weights, check;  ///< check: of lower order, through the same points
+  std::vector<double> weights, check;  ///< check: weights of lower order at the same points
 };
 
-/// Exact for what is linear, or a parabola.
+/// Exact for linear and quadratic functions.
 [[nodiscard]] const Stencil& two_points();
-/// Of sixth order, checked by the fourth.
+/// Sixth order, checked by fourth order.
 [[nodiscard]] const Stencil& six_points();
-/// Of fifth order, checked by the fourth; to the upper side, to the lower one h is negative.
+/// Fifth order, checked by fourth order; for the upper side; h is negative for the lower side.
 [[nodiscard]] const Stencil& one_side();
 
 }  // namespace signorini

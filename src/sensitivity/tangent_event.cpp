@@ -12,11 +12,11 @@
 namespace signorini {
 namespace {
 
-// Relative differences of two derivatives that mean the same: far above their rounding, far below what
-// differs. Chosen; the symmetric frames of tests/unit/sensitivity move where it does.
+// Relative difference up to which two derivatives count as equal: far above rounding, far below actual differences.
+// Chosen value; tests of symmetric frames in tests/unit/sensitivity depend on it.
 constexpr double same = 1e-7;
-constexpr double same_motion = 1e-9;  // of accelerations, or velocities, that do not jump
-// A guard falls with g'^2 > 2 n |g''| n_g, or its time is not a smooth function of anything: n roundings n_g.
+constexpr double same_motion = 1e-9;  // relative, for accelerations or velocities that do not jump
+// A guard must reach zero with g'^2 > 2 n |g''| n_g, otherwise its time is not a smooth function: n roundings n_g.
 constexpr double grazes = 1e3;
 
 double greatest(const Vector& x, const Model& model) {
@@ -28,7 +28,7 @@ double greatest(const Vector& x, const Model& model) {
   return size;
 }
 
-/// By more than a part of themselves, and of `least`.
+/// True if the difference exceeds a fraction of the vectors, and of `least`.
 bool differ(const Vector& a, const Vector& b, const Model& model, double part, double least) {
   return greatest(b - a, model) > part * std::max({greatest(a, model), greatest(b, model), least});
 }
@@ -39,7 +39,7 @@ double scale_of(const Form& form, const Scales& scales) {
   return scales.velocity;
 }
 
-/// Of one everywhere.
+/// Motion with all components one.
 ContactMotion unit_motion() {
   ContactMotion m;
   m.N = m.T = m.gap = m.ut = m.vn = m.vt = m.an = m.at = m.pressing = m.pressing_rate = 1.0;
@@ -59,8 +59,8 @@ struct TangentEvents::Course {
   const TangentBefore& before;
   TangentSeries& series;
   TangentAfter after;
-  std::vector<std::optional<double>> own;  // dt/dp of a contact's own guard
-  std::vector<ContactMotion> p_before;     // derivatives at fixed time, one a contact
+  std::vector<std::optional<double>> own;  // dt/dp by a contact's own guard
+  std::vector<ContactMotion> p_before;     // derivatives at fixed time, one per contact
 
   [[nodiscard]] double dt_of(std::size_t c) const { return own[c].value_or(after.dt); }
   void stop(std::string why) {
@@ -68,7 +68,7 @@ struct TangentEvents::Course {
   }
 };
 
-/// dt/dp from the guard of a contact, if it is one that fell by itself.
+/// dt/dp from the guard of a contact, if that guard itself reached zero.
 std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) const {
   const RunInstant& now = course.m.instant;
   const Contact& contact = model_.contacts[c];
@@ -84,7 +84,7 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
   const auto guard = std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) {
     return g.kind != Guard::none && g == crossing.form;
   });
-  if (guard == forms.end()) return std::nullopt;  // of a state in between
+  if (guard == forms.end()) return std::nullopt;  // a guard of an intermediate state
   const bool fired =
       std::any_of(now.fired.begin(), now.fired.end(), [&](const Fired& f) { return f.contact == c; });
   const double value = crossing.form.value(course.m.motion_before[c]);
@@ -106,7 +106,7 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
   return -moved / rate;
 }
 
-/// Velocities and accelerations of what has mass are the same before and after.
+/// True if velocities and accelerations of degrees of freedom with mass do not jump.
 bool TangentEvents::is_smooth(const Course& course) const {
   const std::vector<DofKind>& kinds = course.m.instant.after.system->kinds();
   const double rate = model_.scales.velocity / model_.scales.displacement;
@@ -116,7 +116,7 @@ bool TangentEvents::is_smooth(const Course& course) const {
                  rate);
 }
 
-/// One whose place would move with the time: ut - T/kt changes there.
+/// True for an anchor whose position depends on the time of the instant: ut - T/kt changes there.
 bool TangentEvents::drops_anchor(const Course& course, std::size_t c) const {
   const State before = course.m.instant.mode_before[c].state, after = course.m.instant.after.mode[c].state;
   if (after != State::stick || before == State::stick) return false;
@@ -141,13 +141,13 @@ void TangentEvents::find_times(Course& course) const {
   course.after.dt = times.front();
   if (*most - *least <= same * std::max(std::abs(*least), std::abs(*most)) + least_) return;
   if (is_smooth(course)) {
-    course.after.dt = 0.0;  // nothing jumps: each has its own, and the motion none
+    course.after.dt = 0.0;  // nothing jumps: each contact has its own time, and the motion none
     return;
   }
   course.stop("events at one instant part with it, and what comes after depends on which is first");
 }
 
-/// The tangent of the state just after.
+/// Computes the tangent of the state just after.
 void TangentEvents::move_state(Course& course) const {
   const InstantMotion& m = course.m;
   const RunInstant& now = m.instant;
@@ -176,8 +176,8 @@ void TangentEvents::move_state(Course& course) const {
   course.after.start.v = Dv - dt * m.after.a;
 }
 
-/// An anchor lies where the slip has left it: p = ut - T/kt, T just before, or the kinetic friction where
-/// that has let go and taken hold again.
+/// An anchor is at its position at the end of the slip: p = ut - T/kt, with T just before, or with the kinetic friction
+/// force at a change from slip to stick.
 void TangentEvents::move_anchors(Course& course) const {
   const InstantMotion& m = course.m;
   course.after.start.anchors = course.before.start.anchors;
@@ -208,13 +208,12 @@ void TangentEvents::move_anchors(Course& course) const {
   }
 }
 
-/// To what rounding makes of its terms, or of a typical size.
+/// True if a rate is zero to the rounding of its terms, or of a typical size.
 bool TangentEvents::vanishes(double rate, double terms, double scale) const {
   return std::abs(rate) <= 10.0 * same * terms + same_motion * scale / size_;
 }
 
-/// What a mode holds still stays where it is held for other values of the parameter too, or the mode is
-/// theirs on one side only.
+/// Constraints of a mode must also hold for other values of the parameter; otherwise the derivative is only one-sided.
 void TangentEvents::look_at_holds(Course& course) const {
   const InstantMotion& m = course.m;
   const TangentAfter& after = course.after;
@@ -239,7 +238,7 @@ void TangentEvents::look_at_holds(Course& course) const {
   }
 }
 
-/// A guard that is zero afterwards, and is not for other values of the parameter, falls on one side of it.
+/// A guard that is zero afterwards, but not for other values of the parameter, is reached on one side only: a kink.
 void TangentEvents::look_for_kinks(Course& course) const {
   const InstantMotion& m = course.m;
   const Decision& decision = m.instant.after;
@@ -264,7 +263,7 @@ void TangentEvents::look_for_kinks(Course& course) const {
     terms.vt = std::abs(p.vt) + contact.tangent.magnitude(wv);
     const double size = form_rate.magnitude(m.motion_after[c]) + form.magnitude(terms) +
                         std::abs(dt) * form.magnitude(m.rate_after[c]);
-    // a gap that opens from rest: its rate, too
+    // a gap that opens from rest: also its rate
     const bool opens_slowly = guard.kind == Guard::closing && guard.leading != 1;
     if (vanishes(value, size, form.magnitude(unit_motion()) * scale_of(form, model_.scales)) &&
         (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))

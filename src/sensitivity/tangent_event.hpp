@@ -1,16 +1,16 @@
-// tangent_event.hpp: the tangent motion across an instant, for one parameter.
+// tangent_event.hpp: tangent motion across an instant, for one parameter.
 //
-//   dt/dp = - (G_p + grad G . w)/G'       of the guard that fell;  tau_p of a breakpoint;  0 at the start
+//   dt/dp = - (G_p + grad G . w)/G'       of the guard that reached zero;  tau_p of a breakpoint;  0 at the start
 //   w+ = w- + (u'- - u'+) dt/dp,   w'+ = Dv+ - u''+ dt/dp
-//   p_p = D(ut - T/kt)                    an anchor that is dropped
+//   p_p = D(ut - T/kt)                    for a new anchor
 //
-// Where derivatives from both sides of p differ there is none: two guards that fall at one instant and part
-// with the parameter, a guard that grazes, one that stands at zero afterwards and would fall for other
+// There is no derivative if those from both sides of p differ: two guards that reach zero at one instant and separate
+// when the parameter changes, a guard that grazes, or a guard that is zero afterwards and would be reached for other
 // values.
 //
-// Of a guard that grazes, dt/dp has no bound. Where the motion is as smooth after it as before,
-//   u'- = u'+,  u''- = u''+        and no anchor is dropped whose place depends on the time,
-// w does not depend on dt/dp: derivatives of states alone (orbits) can cross such a graze with dt/dp = 0.
+// For a guard that grazes, dt/dp is unbounded. If the motion is equally smooth before and after it,
+//   u'- = u'+,  u''- = u''+        and no new anchor depends on the time, w does not depend on dt/dp: derivatives of
+// states alone (orbits) can cross such a graze with dt/dp = 0.
 #pragma once
 
 #include <optional>
@@ -20,17 +20,17 @@
 
 namespace signorini {
 
-/// What the motion has just before, and what the instant made of it.
+/// The motion just before an instant, and just after it.
 struct InstantMotion {
   const RunInstant& instant;
   const SeriesPoint &before, &after;
-  const Series& series_after;  ///< about the instant, of scale 1
-  std::vector<ContactMotion> motion_before, rate_before, motion_after, rate_after;  ///< one a contact
+  const Series& series_after;  ///< around the instant, with scale 1
+  std::vector<ContactMotion> motion_before, rate_before, motion_after, rate_after;  ///< one per contact
 };
 
-/// The same of one parameter.
+/// The same data for one parameter.
 struct TangentBefore {
-  Tangent start;  ///< anchors before
+  Tangent start;  ///< with the anchors before
   SeriesPoint point;
   std::vector<DrivenRates> driven;
 };
@@ -40,14 +40,15 @@ struct TangentAfter {
   SeriesPoint point;
   std::vector<DrivenRates> driven;
   double dt = 0.0;                           ///< of the instant
-  std::vector<EventRates> rates;             ///< one a contact, machine's units
-  std::vector<double> impulse_n, impulse_t;  ///< derivatives, one a contact; empty: there is no impact
-  std::string reason;                        ///< not empty: there is no derivative after the instant
+  std::vector<EventRates> rates;             ///< one per contact, machine units
+  std::vector<double> impulse_n, impulse_t;  ///< derivatives, one per contact; empty: no impact
+  std::string reason;                        ///< not empty: reason why there is no derivative after the
+                                             ///< instant
 };
 
 class TangentEvents {
  public:
-  /// All must outlive it. size: of the parameter, for what is small.
+  /// All arguments must outlive the object. size: size of the parameter, for zero tests.
   TangentEvents(const Model& model, ModeSystems& systems, const ModelDerivative& derivative, double size,
                 double t_end)
       : model_(model),
@@ -58,7 +59,7 @@ class TangentEvents {
 
   [[nodiscard]] TangentAfter pass(const InstantMotion& motion, const TangentBefore& before,
                                   TangentSeries& series) const;
-  /// Grazes where nothing jumps are crossed; the times of their events have no derivative.
+  /// Also crosses grazes without jumps; the times of their events have no derivative.
   void cross_smooth_grazes() { crosses_grazes_ = true; }
 
  private:
@@ -77,8 +78,8 @@ class TangentEvents {
   const Model& model_;
   ModeSystems& systems_;
   const ModelDerivative& derivative_;
-  double size_;   // of the parameter
-  double least_;  // a rate of times that is nothing
+  double size_;   // size of the parameter
+  double least_;  // limit of rates of times that count as zero
   bool crosses_grazes_ = false;
 };
 

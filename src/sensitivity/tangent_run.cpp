@@ -10,11 +10,12 @@
 namespace signorini {
 namespace {
 
-constexpr Eigen::Index fewest_modal = 16;  // as run/choose_flow.hpp: below, the series is as fast
+constexpr Eigen::Index fewest_modal = 16;  // same reason as in run/choose_flow.hpp: below, the series is as
+                                           // fast
 constexpr int most_turn_steps = 6;
-constexpr std::size_t forcing_terms = 6;  // of a constant all but the first are zero
+constexpr std::size_t forcing_terms = 6;  // for a constant, all but the first are zero
 
-/// About an instant, of scale 1, from derivatives.
+/// Series around an instant, with scale 1, from derivatives.
 Series series_of(const Jet& jet, const Forcing& forcing) {
   Series s;
   s.t = jet.t;
@@ -31,7 +32,7 @@ Series series_of(const Jet& jet, const Forcing& forcing) {
   return s;
 }
 
-/// Of a stretch in modes: two products with the mode shapes, sums of n terms each.
+/// Relative error of a modal stretch: two products with the mode shapes, sums of n terms each.
 double error_in_modes(const Model& model) { return 2.0 * static_cast<double>(model.size()) * rounding::eps; }
 
 std::vector<const ModelDerivative*> pointers_to(const std::vector<ModelDerivative>& derivatives) {
@@ -123,7 +124,7 @@ bool TangentRun::crosses(const RunStep& step) {
   return true;
 }
 
-/// The stretch up to t, in closed form.
+/// Crosses the stretch up to t in closed form.
 void TangentRun::cross(double t) {
   if (way_ != Way::closed || !(t > begin_)) return;
   flow_->advance(crossed_, t - begin_, states_);
@@ -165,7 +166,7 @@ void TangentRun::observe(const RunStep& step) {
     observe_modes(step);
 }
 
-/// The stretch that has ended at t once more.
+/// Follows the stretch that has ended at t.
 void TangentRun::follow(double t) {
   if (!is_followed() || t <= followed_.t()) return;
   Stepper& engine = followed_.engine(way_ == Way::own_modes);
@@ -186,7 +187,7 @@ void TangentRun::follow(double t) {
   }
 }
 
-/// The tangents just before the instant at t.
+/// Computes the tangents just before the instant at t.
 void TangentRun::arrive(double t) {
   follow(t);
   cross(t);
@@ -270,7 +271,7 @@ void TangentRun::observe_modes(const RunStep& step) {
                          std::move(at.tangents),
                          {},
                          {}};
-    for (const TangentState& state : states_) {  // nothing drives it but what is constant
+    for (const TangentState& state : states_) {  // driven by constants only
       sample.driven.push_back(state.now.driven);
       sample.anchors.push_back(state.now.start.anchors);
     }

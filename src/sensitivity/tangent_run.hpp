@@ -1,19 +1,19 @@
-// tangent_run.hpp: the tangent motions of several parameters, carried along beside a run.
+// tangent_run.hpp: tangent motions of several parameters, computed beside a run.
 //
 //   begin:    w = u0_p, w' = v0_p, anchors from the start
 //   step:     every tangent in the modes of the stretch (modal_tangents.hpp), or over the step's series
 //             (tangent_series.hpp), halved where it does not converge
 //   instant:  across the event (tangent_event.hpp)
 //
-// An engine whose steps are no series (`ida`, `newmark`) is followed when a stretch has ended: the motion is
-// computed once more, to rounding, with the tangents beside it, and the event's time with it (followed_motion.hpp).
-// A stretch of `exact` in modes that tangents cannot follow there is followed along series. Tangents by the initial state
-// alone cross a stretch of `exact` in closed form where they are asked to (state_flow.hpp).
+// An engine whose steps are not series (`ida`, `newmark`) is followed after each stretch: the motion is recomputed to
+// rounding, together with the tangents and the event's time (followed_motion.hpp). A modal stretch of `exact` that
+// tangents cannot follow in modes is followed along series. Tangents by the initial state alone can cross a stretch of
+// `exact` in closed form (state_flow.hpp).
 //
-// Works and losses are integrals along the way (work_rates.hpp): where they are wanted every stretch is followed
-// along series.
+// Works and losses are integrals over time (work_rates.hpp): if they are requested, every stretch is followed along
+// series.
 //
-// What is wanted of them on the way is handed to a listener: rows at output times, turns, instants.
+// Requested results are passed to a listener: rows at output times, extremes, instants.
 #pragma once
 
 #include "sensitivity/followed_motion.hpp"
@@ -26,15 +26,16 @@ namespace signorini {
 
 class TangentRun final : public RunListener {
  public:
-  /// model, run: in the machine's units. All but sizes must outlive it.
+  /// model, run: in the machine's units. All arguments except sizes must outlive the object.
   TangentRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
              const std::vector<double>& sizes, TangentListener& listener, bool losses = false);
-  /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` knows are crossed in closed form,
-  /// whatever drives them. No rows are told on the way, instants are. It must outlive this.
+  /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` has are crossed in closed
+  /// form, for any excitation. Rows are then not reported, instants are. `flow` must outlive this object.
   void cross_by(StateFlow& flow) { flow_ = &flow; }
-  /// Of an observer that hands on what it hears: what the engine shares with that one. It must outlive this.
+  /// For an observer that forwards to another one: the modal data that the engine shares with it. Must outlive this
+  /// object.
   void listens_with(const ModalShare& share) { share_ = &share; }
-  /// Of states alone: events that graze are crossed where nothing jumps (tangent_event.hpp).
+  /// For derivatives of states alone: crosses grazing events without jumps (tangent_event.hpp).
   void cross_smooth_grazes() {
     for (TangentState& state : states_) state.events.cross_smooth_grazes();
   }
@@ -50,7 +51,7 @@ class TangentRun final : public RunListener {
   [[nodiscard]] Stretches stretches() const;
 
  private:
-  /// What the stretch after an instant is followed by; the last two: once its end is known.
+  /// Method for the stretch after an instant; the last two once its end is known.
   enum class Way { unknown, series, modes, own_series, own_modes, closed };
   [[nodiscard]] Way way_of(const RunStep& step);
   [[nodiscard]] bool starts_in_modes(const RunStep& step);
@@ -79,7 +80,7 @@ class TangentRun final : public RunListener {
   std::size_t next_ = 0;
   std::vector<const ModelDerivative*> data_;
   bool losses_;
-  std::optional<ModalTangents> modal_;  ///< where modes can follow the model
+  std::optional<ModalTangents> modal_;  ///< if modes can follow the model
   SeriesTangents series_;
   FollowedMotion followed_;
   Way way_ = Way::unknown;
@@ -87,7 +88,7 @@ class TangentRun final : public RunListener {
   const ModalShare* share_ = &own_share_;
   bool foreign_ = false;  ///< the engine makes no series
   Stretches stretches_;
-  SeriesPoint end_;  ///< the motion just before the next instant
+  SeriesPoint end_;  ///< motion just before the next instant
   StateFlow* flow_ = nullptr;
   Mode crossed_;        ///< of the stretch that flow_ crosses
   double begin_ = 0.0;  ///< of the stretch

@@ -8,12 +8,12 @@
 namespace signorini {
 namespace {
 
-// Of the tangent at the beginning: a greater term has cost its digits in what it is summed with. Chosen:
-// three.
+// Relative to the tangent at the beginning: a larger term costs digits of the sum. Chosen value: three digits.
 constexpr double most_cancelling = 1e3;
-// Of the tangent, the last terms of a series; ten thousand steps leave the square root of that many. Chosen.
+// Relative to the tangent: limit of the last terms of a series; ten thousand steps accumulate as their square root.
+// Chosen value.
 constexpr double left_out = 1e-14;
-constexpr int first_terms = 3;  // that say how large it is
+constexpr int first_terms = 3;  // terms that determine the size of the series
 
 std::size_t index_in(const Series& series, std::size_t contact, int order) {
   return contact * series.forcing.count + static_cast<std::size_t>(order);
@@ -85,7 +85,7 @@ std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::Matrix
 
 void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out) {
   // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
-  const Eigen::Index columns = series.u.cols(), known = series.levels + 1;  // of forces; beyond is anything
+  const Eigen::Index columns = series.u.cols(), known = series.levels + 1;  // forces beyond are arbitrary
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(columns, columns);
   double power = 1.0;
   for (Eigen::Index j = 0; j < columns; ++j, power *= part) {
@@ -142,7 +142,7 @@ void TangentSeries::begin(const ModeSystem& system, const Series& motion, const 
     if (system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive) u_(i, 1) = scale_ * start.v[i];
 }
 
-/// The greatest entry, rotations and displacements by the scales of the scene.
+/// The largest entry, rotations and displacements relative to the scales of the scene.
 double TangentSeries::size_of(const Eigen::Ref<const Vector>& x) const {
   double size = 0.0;
   for (std::size_t i = 0; i < scales_.size(); ++i)
@@ -162,18 +162,18 @@ bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const
       const double size = size_of(u_.col(checked)) * power;
       if (!std::isfinite(size)) return false;
       (checked < first_terms ? first : greatest) = std::max(checked < first_terms ? first : greatest, size);
-      // Coefficient k is the result of k/2 solves: of about eight half-units of rounding each.
+      // Coefficient k is the result of k/2 solves, with a rounding of about eight half-units each.
       rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
     last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
     if (last <= left_out * std::max(first, greatest) + nothing_) break;
     if (levels_ == most_tangent_levels) return false;
   }
-  // Terms left out count in velocities as often as their degree says.
+  // Omitted terms count in velocities as often as their degree.
   const double size = first > 0.0 ? first : greatest;
   error_ = size > 0.0 ? (rounding::eps * rounded + static_cast<double>(levels_) * last) / size : 0.0;
   if (greatest <= most_cancelling * (first + nothing_)) return true;
-  return greatest <= most_cancelling * size_of(at(x).u);  // it may start from nothing
+  return greatest <= most_cancelling * size_of(at(x).u);  // it may start from zero
 }
 
 void TangentSeries::expand_to(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
@@ -182,7 +182,7 @@ void TangentSeries::expand_to(const ModeSystem& system, const Series& motion, co
   for (int k = 0; k <= levels; ++k) level(k);
 }
 
-/// x += what the parameter does to the equations of motion at order k.
+/// x += contributions of the parameter to the equations of motion at order k.
 void TangentSeries::add_sources(int k) {
   if (forcing_.loaded)
     for (std::size_t i = 0; i < known_u_.size(); ++i) x_[i] += forcing_.load(static_cast<Eigen::Index>(i), k);
@@ -203,7 +203,7 @@ void TangentSeries::add_sources(int k) {
   }
 }
 
-/// The right sides of the contacts' rows at order k.
+/// Right-hand sides of the contacts' rows at order k.
 void TangentSeries::add_rows(int k) {
   const Unknowns& at = system_->unknowns();
   const Series& s = *motion_;
@@ -255,7 +255,7 @@ void TangentSeries::add_rows(int k) {
   }
 }
 
-/// Friction that depends on the slip rate; what the motion left out is nothing.
+/// Friction that depends on the slip rate; terms omitted in the motion are zero.
 void TangentSeries::add_friction(int k) {
   const double to_velocity = (k + 1) / scale_;
   for (auto& [contact, friction] : friction_) {

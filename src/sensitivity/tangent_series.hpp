@@ -1,14 +1,13 @@
-// tangent_series.hpp: the tangent motion of a mode as a series, beside that of the motion.
+// tangent_series.hpp: tangent motion of a mode as a series, beside the series of the motion.
 //
 //   M wa_k + C wv_k + K w_k + sum ( n N_p,k + t T_p,k )
 //     = P_p,k - M_p a_k - C_p v_k - K_p u_k - sum ( n_p N_k + t_p T_k )
 //   row . (motion of the contact)_p,k = - row_p . (motion of the contact)_k          rows of the mode
 //   wv_k = (k+1)/s w_(k+1),   wa_k = (k+1)(k+2)/s^2 w_(k+2)
 //
-// The same recurrence as that of the motion (motion/taylor.hpp), differentiated: each level is one solve with
-// the mode's own factors. Levels past those of the motion have no source: what the motion left out is below
-// its rounding. The motion may be quiet where its tangent is not, so the tangent has its own measure of
-// convergence.
+// This is the recurrence of the motion (motion/taylor.hpp), differentiated: each level is one solve with the mode's own
+// factors. Levels beyond those of the motion have no source, since the motion's omitted terms are below its rounding.
+// The motion may be slow where its tangent is not, so the tangent has its own convergence criterion.
 #pragma once
 
 #include "contact/friction.hpp"
@@ -19,54 +18,55 @@
 
 namespace signorini {
 
-/// Tangents of u and v at one instant, and of the anchors; one parameter.
+/// Tangents of u and v at one instant, and of the anchors, by one parameter.
 struct Tangent {
   Vector u, v;
   std::vector<double> anchors;
 };
 
-/// Everything at one place of a series: values or tangents.
+/// All quantities at one position of a series: values or tangents.
 struct SeriesPoint {
   Vector u, v, a, forces, force_rates;
 };
 [[nodiscard]] SeriesPoint point_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, double scale,
                                    std::size_t degree, double x);
-/// The same at several places, where of u and a only these degrees of freedom are asked for: the others are zero.
+/// Same at several positions; only these degrees of freedom of u and a are computed, the others are zero.
 [[nodiscard]] std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces,
                                                  double scale, std::size_t degree,
                                                  const std::vector<double>& x,
                                                  const std::vector<Eigen::Index>& dofs);
 
-/// A series about t + scale x of half-width `part` of it, from one about t; the forcing expanded anew.
+/// Converts a series around t to one around t + scale x, whose half-width is the fraction `part`; the forcing is
+/// expanded again.
 void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out);
 
 class TangentSeries {
  public:
-  /// Levels at most. A step of six radians has 6^40/40! = 2e-17 left.
+  /// Largest number of levels. A step of six radians leaves 6^40/40! = 2e-17.
   static constexpr int most_tangent_levels = 40;
 
-  /// All but size must outlive it; size: of the parameter. Less than eps of a scale's displacement for all of
-  /// it is nothing.
+  /// All arguments except size must outlive the object; size: size of the parameter. A change below eps of a scale's
+  /// displacement for a change of the parameter by its size is zero.
   TangentSeries(const Model& model, const Structure& structure, const ModelDerivative& derivative,
                 double size);
 
-  /// As many levels as it takes to reach x, at least so many or those of the motion; false: it does not
-  /// converge there.
+  /// Computes the levels needed to reach x, at least `levels` or those of the motion; false: it does not converge
+  /// there.
   [[nodiscard]] bool expand(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
                             const Tangent& start, double x, int levels);
-  /// `levels` levels and no more.
+  /// Computes exactly `levels` levels.
   void expand_to(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
                  const Tangent& start, int levels);
 
   [[nodiscard]] SeriesPoint at(double x) const;
-  /// points_at()
+  /// points_at() of this series.
   [[nodiscard]] std::vector<SeriesPoint> at(const std::vector<double>& x,
                                             const std::vector<Eigen::Index>& dofs) const;
   [[nodiscard]] const ForcingRatesSeries& forcing() const { return forcing_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] long solves() const { return solves_; }
-  /// Of the last expand(): what rounding of its terms and the terms left out may make of the tangent at x, over its size at
-  /// the beginning.
+  /// Error of the last expand(): rounding of its terms and omitted terms at x, relative to the tangent at the
+  /// beginning.
   [[nodiscard]] double error() const { return error_; }
 
  private:
@@ -87,7 +87,7 @@ class TangentSeries {
   const Series* motion_ = nullptr;
   const Tangent* start_ = nullptr;
   ForcingRatesSeries forcing_;
-  std::vector<std::pair<std::size_t, FrictionTangent>> friction_;  // of contacts whose friction varies
+  std::vector<std::pair<std::size_t, FrictionTangent>> friction_;  // contacts with varying friction
   Eigen::MatrixXd u_, forces_;
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
   Vector a_, v_;

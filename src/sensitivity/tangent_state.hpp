@@ -1,8 +1,8 @@
-// tangent_state.hpp: the tangent of one parameter under way, and who hears of it.
+// tangent_state.hpp: state of one parameter's tangent during a run, and listener interface.
 //
 //   TangentState    one parameter: its data, the state just before the next instant, works and losses
 //   TangentSample   the motion and all tangents at one time between events
-//   TangentListener what is wanted of them on the way: rows at output times, turns, instants
+//   TangentListener receives requested results: rows at output times, extremes, instants
 #pragma once
 
 #include "sensitivity/loss_rates.hpp"
@@ -11,20 +11,20 @@
 
 namespace signorini {
 
-/// The motion and its tangents at one time between events.
+/// Motion and tangents at one time between events.
 struct TangentSample {
   double t = 0.0;
   const Forcing& forcing;
   const Mode& mode;
   SeriesPoint point;
   Vector force_bends;                            ///< second derivatives of the contact forces
-  std::vector<SeriesPoint> tangents;             ///< one a parameter; empty vectors: it has none any more
+  std::vector<SeriesPoint> tangents;             ///< one per parameter; empty vectors: it has none any more
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
   std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
-  std::vector<WorkRates> works = {};             ///< one a parameter; empty: not followed
+  std::vector<WorkRates> works = {};             ///< one per parameter; empty: not followed
 };
 
-/// One parameter's tangent.
+/// Tangent of one parameter.
 struct TangentState {
   explicit TangentState(const Model& model, const Structure& structure, ModeSystems& systems,
                         const ModelDerivative& data, double size, double t_end)
@@ -33,30 +33,31 @@ struct TangentState {
   const ModelDerivative& derivative;
   TangentSeries series;
   TangentEvents events;
-  TangentBefore now;                    ///< the state just before the next instant
-  std::optional<ForcingRates> forcing;  ///< of the segment
-  double reach = 0.0;                   ///< time over which its series converged last; 0: not known
-  double error = 0.0;  ///< of all stretches so far, relative (TangentSeries::error); of states alone
+  TangentBefore now;                    ///< state just before the next instant
+  std::optional<ForcingRates> forcing;  ///< of the current segment
+  double reach = 0.0;                   ///< time over which its series converged last; 0: unknown
+  double error = 0.0;  ///< of all stretches so far, relative (TangentSeries::error); for derivatives of
+                       ///< states alone
   bool alive = true;
-  double until = 0.0;  ///< where it is not
+  double until = 0.0;  ///< time from which it does not exist
   std::string reason;
-  std::vector<EventRates> rates;  ///< of the last instant, one a contact
+  std::vector<EventRates> rates;  ///< of the last instant, one per contact
   double dt = 0.0;                ///< of the last instant
-  // where works and losses are followed
-  std::optional<WorkTangent> works;  ///< now, at fixed time
+  // only if works and losses are followed
+  std::optional<WorkTangent> works;  ///< current values, at fixed time
   std::optional<LossRates> losses;
   WorkRates along;               ///< along the last instant
-  std::vector<double> impulses;  ///< derivatives of Pn at the last instant; empty: there were none
+  std::vector<double> impulses;  ///< derivatives of Pn at the last instant; empty: no impulse
 };
 
 class TangentListener {
  public:
   virtual ~TangentListener() = default;
-  /// Output time: a row. turn: T, N, g or ut of a contact may turn here beyond all before.
+  /// Called at output times (row), and where T, N, g or ut of a contact may have a new extreme (turn).
   virtual void sample(const TangentSample& sample, bool row, bool turn) = 0;
-  /// After every instant, the start among them.
+  /// Called after every instant, including the start.
   virtual void at_instant(const InstantMotion& motion, const std::vector<TangentState>& states) = 0;
-  /// Of watched(): beyond all before.
+  /// True if a value of watched() exceeds all previous ones.
   [[nodiscard]] virtual bool exceeds(std::size_t contact, std::size_t which, double value) const = 0;
 };
 

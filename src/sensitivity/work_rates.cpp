@@ -7,7 +7,7 @@
 namespace signorini {
 namespace {
 
-/// p' of a contact that slips in direction s, and how its form moves: the guard of that state is s p'.
+/// Derivative of the form p' of a contact that slips in direction s; the guard of that state is s p'.
 Form slip_form_rate(const Contact& contact, const ContactRates& rates, const ContactState& state, int s) {
   const auto forms = guards(contact, state);
   for (std::size_t i = 0; i < forms.size(); ++i)
@@ -69,7 +69,7 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     if (!contact.obeys_coulomb()) continue;
     if (!is_open(state.state))
       damped += damping_rate(rates) * m.vn * m.vn + 2.0 * contact.normal_damping * m.vn * p.vn;
-    else if (state.state == State::inside)  // its dashpot takes what its spring gives, kn g^2/2
+    else if (state.state == State::inside)  // its dashpot dissipates the energy of its spring, kn g^2/2
       damped -=
           stiffness_rate(rates) * m.gap * m.vn + contact.normal_stiffness * (p.gap * m.vn + m.gap * p.vn);
   }
@@ -98,7 +98,7 @@ double WorkTangent::kinetic(const Vector& v, const Vector& Dv) const {
   return energy;
 }
 
-/// shear: that of its shear element, which stands among those of the structure.
+/// shear: energy of its shear element, which belongs to the structure.
 double WorkTangent::contact_energy(std::size_t c, const StoredMotion& at, double& shear) const {
   const Contact& contact = model_.contacts[c];
   const ContactRates& rates = derivative_.contacts[c];

@@ -1,11 +1,11 @@
-// work_rates.hpp: how works and losses since t = 0 move with a parameter.
+// work_rates.hpp: derivatives of works and losses since t = 0 by a parameter.
 //
 //   W_p+ = W_p + int d/dp ( power at fixed time ) dt         between instants, Gauss's rule over a series
-//   W_p+ = W_p- + (power- - power+) dt/dp + DL               across an instant at which L is lost at once
+//   W_p+ = W_p- + (power- - power+) dt/dp + DL               across an instant with a loss L
 //   power: P . v,  v^T C v + cn g'^2,  T p',  -T s',  -N     motion/powers.hpp
-//   E_p = v^T M w' + v^T M_p v / 2 + u^T K w + ...           what is stored, at one time
+//   E_p = v^T M w' + v^T M_p v / 2 + u^T K w + ...           stored energy, at one time
 //
-// L: impacts, friction that drops, loads that jump on parts without mass (run/audit.hpp). D: along the moving
+// L: loss by impacts, drops of friction, and jumps of loads on parts without mass (run/audit.hpp). D: along the moving
 // instant. Units: the machine's, over that of the key.
 #pragma once
 
@@ -23,13 +23,13 @@ struct WorkRates {
   [[nodiscard]] double surface() const;
 };
 
-/// Everything at one place between instants.
+/// All quantities at one position between instants.
 struct TangentPlace {
   double t = 0.0;
   const Forcing& forcing;
   const Mode& mode;
   SeriesPoint motion, tangent;
-  std::vector<DrivenRates> driven;  ///< one a contact
+  std::vector<DrivenRates> driven;  ///< one per contact
   Vector load;                      ///< P_p
 };
 
@@ -42,18 +42,18 @@ struct StoredMotion {
 
 class WorkTangent {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive the object.
   WorkTangent(const Model& model, const ModelDerivative& derivative)
       : model_(model), derivative_(derivative), now_{Works(model.contacts.size()), 0.0} {}
 
   [[nodiscard]] const WorkRates& now() const { return now_; }
   [[nodiscard]] WorkRates& now() { return now_; }
-  /// += factor times the derivatives of all powers.
+  /// Adds factor times the derivatives of all powers.
   void add(const TangentPlace& place, double factor);
-  /// += dt times the powers themselves; of each contact its own dt.
+  /// Adds dt times the powers themselves; each contact has its own dt.
   void shift(const Forcing& forcing, double t, const Mode& mode, const SeriesPoint& motion,
              const std::vector<ContactMotion>& m, double dt, const std::vector<double>& dt_of);
-  /// Derivatives of kinetic, elastic and contact energy; all else zero.
+  /// Derivatives of kinetic, elastic and contact energy; all others are zero.
   [[nodiscard]] Energy stored(const StoredMotion& at) const;
   [[nodiscard]] double kinetic(const Vector& v, const Vector& Dv) const;
 
@@ -65,7 +65,7 @@ class WorkTangent {
   WorkRates now_;
 };
 
-/// kn_p and cn_p, which the rows of a closed contact hold.
+/// kn_p and cn_p, from the rows of a closed contact.
 [[nodiscard]] double stiffness_rate(const ContactRates& rates);
 [[nodiscard]] double damping_rate(const ContactRates& rates);
 /// The derivative of ut - T/kt.

@@ -44,8 +44,8 @@ void TableRows::instant(const InstantRow& row, const InstantRecord& record) {
   }
 }
 
-/// Those after the last instant; at an instant those of both of its sides, and of others that are no further than the
-/// clock tells.
+/// States after the last instant; at an instant, those of both of its sides, and of other instants within the time
+/// resolution.
 std::vector<ContactState> TableRows::states_at(std::size_t contact, double t) const {
   std::vector<ContactState> states;
   auto next = std::upper_bound(states_.begin(), states_.end(), t,
@@ -83,7 +83,7 @@ long TableRows::read(const std::filesystem::path& file, const char* name, const 
 void TableRows::check(const ToldRow& row, const ToldRowReader& reader, const char* file, const Found& found) {
   if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
-  std::optional<std::vector<Violation>> least;  // of the states at its time that have the row's name
+  std::optional<std::vector<Violation>> least;  // over the states at its time with the row's name
   for (const ContactState& state : states_at(row.contact, row.t)) {
     if (row.state != to_string(state.state)) continue;
     std::vector<Violation> broken;
@@ -98,7 +98,7 @@ void TableRows::check(const ToldRow& row, const ToldRowReader& reader, const cha
   for (Violation& v : *least) found(std::move(v));
 }
 
-/// What a row of a contact in this state breaks.
+/// Violations of a row whose contact is in this state.
 std::vector<Violation> TableRows::broken_by(const ToldRow& row, const ContactState& state,
                                             const char* file) const {
   const Contact& c = model_.contacts[row.contact];
@@ -115,11 +115,11 @@ std::vector<Violation> TableRows::broken_by(const ToldRow& row, const ContactSta
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }
-  if (state.state == State::inside) m.g = 0.0;  // it is a dashpot's: the same
+  if (state.state == State::inside) m.g = 0.0;  // a dashpot force, which does not depend on the gap
   std::vector<Violation> broken;
   witness_.contact(row.t, row.contact, state, m, false, size.force, broken);
   std::erase_if(broken, [&](const Violation& v) {
-    return c.tangential_stiffness && v.law == "slip direction";  // it takes g', which tables do not have
+    return c.tangential_stiffness && v.law == "slip direction";  // needs g', which tables lack
   });
   for (Violation& v : broken) v.event = file;
   check_forces(row, state, file, [&](Violation v) { broken.push_back(std::move(v)); });
@@ -153,12 +153,12 @@ void TableRows::check_forces(const ToldRow& row, const ContactState& state, cons
     check("friction force", c.compliance_split() ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
-/// slip = ut - T/kt; of borrowed springs ut is the surfaces'. of_force: what T is known to.
+/// slip = ut - T/kt; with borrowed springs ut is that of the surfaces. of_force: error of T.
 void TableRows::check_slip(const ToldRow& row, const char* file, double of_force, const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
   const double kt = c.compliance_split() ? 0.0 : c.tangential_stiffness.value_or(0.0);
   const double by_force = kt > 0.0 ? row.T / kt : 0.0;
-  // Of a surface that moves, place knows where it was at instants.
+  // For a moving surface the position is only known at instants.
   const double surface = c.surface_motion.is_constant()
                              ? 0.0
                              : std::abs(Forcing(model_, row.t, Side::after).surface(row.contact, row.t, 0));
@@ -180,7 +180,7 @@ void TableRows::check_ratio(const ToldRow& row, const char* file, const Found& f
 }
 
 void TableRows::reach(const ToldRow& row) {
-  // A run that stopped has rows of a step that leads to no instant: no peak takes part in it.
+  // A stopped run has rows of a step without an instant at its end; no peak includes them.
   if (stopped_ && !states_.empty() && row.t > states_.back().t) return;
   Peak& peak = peaks_[row.contact];
   const Size& size = sizes_[row.contact];
@@ -211,7 +211,7 @@ double TableRows::noise_of_force(std::size_t k) const {
          (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * noise_of_length(k);
 }
 
-/// No row is beyond its extremes, and the farther one of a force is its peak.
+/// No row may exceed the extremes, and the larger extreme of a force in magnitude is its peak.
 void TableRows::check_loads(const std::vector<std::optional<ToldSummary::Load>>& told,
                             const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
   for (std::size_t k = 0; k < told.size(); ++k) {
@@ -238,7 +238,7 @@ void TableRows::check_loads(const std::vector<std::optional<ToldSummary::Load>>&
 }
 
 void TableRows::check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const {
-  if (engine_.limits.step > 0.0) return;  // they are those of the ends of steps
+  if (engine_.limits.step > 0.0) return;  // extremes only at the ends of steps
   for (std::size_t k = 0; k < told.size(); ++k) {
     if (!told[k]) continue;
     const double length = noise_of_length(k);

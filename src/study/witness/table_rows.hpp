@@ -1,12 +1,12 @@
-// table_rows.hpp: contacts.csv and motion.csv before the witness.
+// table_rows.hpp: checks of contacts.csv and motion.csv by the witness.
 //
-//   state of a row = that after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
-//   ratio = |T| / |N| where there is friction, the contact is closed and N is not 0
-//   peaks of summary.json >= rows up to the last instant of a run that stopped
+//   state of a row = state after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
+//   ratio = |T| / |N| with friction, for a closed contact and N != 0
+//   peaks of summary.json >= rows up to the last instant of a stopped run
 //
 //   TableRows rows(model, engine, witness);
 //   for each instant: rows.instant(record);
-//   rows.contacts(directory / "contacts.csv", run, found);        which rows there must be: table_span.hpp
+//   rows.contacts(directory / "contacts.csv", run, found);        required rows: table_span.hpp
 #pragma once
 
 #include <filesystem>
@@ -22,14 +22,15 @@ class TableRows {
  public:
   using Found = std::function<void(Violation)>;
 
-  /// All must outlive it. stopped: the run ended before t_end, by itself.
+  /// All arguments must outlive the object. stopped: the run ended before t_end, by itself.
   TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness, bool stopped);
-  /// In the order of time.
+  /// To be called in the order of time.
   void instant(const InstantRow& row, const InstantRecord& record);
-  /// Of contacts.csv, of motion.csv: all rows, and whether they are all. Return how many there were. Errors: FileError.
+  /// Check all rows of contacts.csv, of motion.csv, and their completeness; return the number of rows. Errors:
+  /// FileError.
   long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
-  /// Of the rows that were checked, and of the instants.
+  /// Compares peaks with the checked rows and instants.
   void check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const;
   void check_loads(const std::vector<std::optional<ToldSummary::Load>>& told,
                    const std::vector<std::optional<Peak>>& peaks, const Found& found) const;
@@ -39,11 +40,11 @@ class TableRows {
     double t = 0.0, resolution = 0.0;
     std::vector<ContactState> before, after;
   };
-  /// Sizes of terms over the whole run.
+  /// Largest magnitudes of terms over the whole run.
   struct Size {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
-  struct Order {  // of the rows of a table
+  struct Order {  // of the rows in a table
     void (TableSpan::*row)(const ToldRow&);
     void (TableSpan::*end)(const ToldRowReader&) const;
   };
@@ -68,8 +69,8 @@ class TableRows {
   std::vector<States> states_;
   std::vector<Size> sizes_;
   std::vector<Peak> peaks_;
-  std::vector<ToldSummary::Load> loads_;  // of rows
-  std::vector<bool> reached_;             // by a row
+  std::vector<ToldSummary::Load> loads_;  // extremes over rows
+  std::vector<bool> reached_;             // true if a row reaches the peak
 };
 
 }  // namespace signorini

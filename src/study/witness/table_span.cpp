@@ -9,7 +9,7 @@
 
 namespace signorini {
 
-/// Times are multiplied by their unit and divided by it.
+/// Equal up to the rounding of a conversion of units and back.
 bool TableSpan::same(double a, double b) {
   return std::abs(a - b) <= rounding::of_few * std::max(std::abs(a), std::abs(b));
 }
@@ -25,7 +25,7 @@ void TableSpan::grid_row(const ToldRow& row) {
     misplaced("contacts.csv", row.t, due_);
     const double early = row.t - rounding::of_few * std::abs(row.t);
     const auto found = std::lower_bound(grid.begin(), grid.end(), early);
-    if (found == grid.end() || !same(*found, row.t)) return;  // a time that was not asked for
+    if (found == grid.end() || !same(*found, row.t)) return;  // not an output time
     place_ = static_cast<std::size_t>(found - grid.begin());
     due_ = row.contact;
   }
@@ -36,7 +36,7 @@ void TableSpan::grid_row(const ToldRow& row) {
 
 void TableSpan::end_of_grid(const ToldRowReader& reader) const {
   if (model_.contacts.empty()) return;
-  // A time that the run has reached and not passed has its rows when the instant there is over.
+  // The rows of a time that the run has reached exactly exist only if the instant there was completed.
   const std::size_t least =
       comes_to_its_end()
           ? run_.grid.size()
@@ -44,7 +44,7 @@ void TableSpan::end_of_grid(const ToldRowReader& reader) const {
                 std::lower_bound(run_.grid.begin(), run_.grid.end(), run_.reached,
                                  [](double t, double end) { return t < end && !same(t, end); }) -
                 run_.grid.begin());
-  const bool at_last = !in_order_ && place_ + 1 >= least;  // its rows are in disorder: that is told
+  const bool at_last = !in_order_ && place_ + 1 >= least;  // rows out of order are reported instead
   if ((place_ < least && !at_last) || (due_ > 0 && run_.ended && in_order_))
     reader.refuse_as_cut(fmt::format("the row of contact \"{}\" at t = {:.9g}", model_.contacts[due_].name,
                                      place_ < run_.grid.size() ? run_.grid[place_] : run_.reached));

@@ -1,4 +1,4 @@
-// told_row.hpp: rows of contacts.csv and motion.csv, one after the other.
+// told_row.hpp: reads the rows of contacts.csv and motion.csv.
 //
 //   ToldRowReader reader(directory / "contacts.csv", model);
 //   while (const auto row = reader.next()) ...
@@ -28,11 +28,11 @@ class ToldRowReader {
   ToldRowReader(const std::filesystem::path& file, const Model& model);
 
   [[nodiscard]] std::optional<ToldRow> next();
-  /// Tables of older runs lack it.
+  /// False for tables of older runs, which lack the column.
   [[nodiscard]] bool has_ratios() const { return ratios_; }
-  /// A last line without its line break was left out.
+  /// True if a last line without its line break was omitted.
   [[nodiscard]] bool is_cut() const { return reader_.is_cut(); }
-  /// What this table lacks at its end: a FileError that says so, with its line.
+  /// Throws a FileError with the line, for a table that ends too early.
   [[noreturn]] void refuse_as_cut(const std::string& lacks) const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr State built_in[] = {State::open, State::closed, State::stick, State::slip_plus, State::slip_minus};
 
-/// Turns cells of one row into the members of an event.
+/// Converts the cells of a row to the members of an event.
 class EventCells {
  public:
   EventCells(const std::filesystem::path& file, const Model& model)
@@ -39,7 +39,7 @@ class EventCells {
     return event;
   }
 
-  /// A last line without its line break was left out.
+  /// Refuses a table whose last line has no line break.
   void refuse_if_cut() const {
     if (reader_.is_cut()) throw FileError(file_.string(), cut_at(reader_, "a line break"));
   }
@@ -101,7 +101,7 @@ std::optional<ToldSummary::Load> load_of(const Json& contact) {
                            value("T", "greatest")};
 }
 
-/// What an ended run says of itself.
+/// Reads the results of a completed run.
 void take_end(const Json& json, const Model& model, const std::string& file, ToldSummary& told) {
   const auto refuse = [&](const std::string& why) { throw FileError(file, why); };
   const Json& outcome = json.at("outcome");

@@ -11,7 +11,7 @@ namespace {
 
 using Powers = std::array<double, Along::most>;  // a_0 + a_1 y + ..., y = 2x - 1 in [-1, 1]
 
-/// Newton's divided differences, multiplied out.
+/// Newton's divided differences, expanded to powers.
 Powers powers_of(const Along::Values& f, std::size_t n) {
   Along::Values y{}, d = f;
   for (std::size_t i = 0; i < n; ++i) y[i] = 2.0 * Along::point(n, i) - 1.0;
@@ -36,7 +36,7 @@ struct Roots {
   std::size_t count = 0;
 };
 
-/// Where it changes its sign in (-1, 1), ascending.
+/// Positions of sign changes in (-1, 1), ascending.
 Roots roots_of(const Powers& a, std::size_t degree) {
   Roots roots;
   if (degree == 0) return roots;

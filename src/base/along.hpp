@@ -1,4 +1,4 @@
-// along.hpp: a polynomial of a low degree through values at points along something.
+// along.hpp: low-degree polynomial through values at points along a line.
 //
 //   p(x) = sum_i L_i(x) f_i,   x_i = (1 - cos(pi i/(n - 1)))/2 in [0, 1],  degree n - 1;   n = 1: a constant
 //
@@ -13,15 +13,15 @@
 namespace signorini {
 
 struct Along {
-  static constexpr std::size_t most = 6;  ///< points
+  static constexpr std::size_t most = 6;  ///< limit for the number of points
   static constexpr double lebesgue = 2.0;
   using Values = std::array<double, most>;
 
-  /// Of n points the i-th.
+  /// Position of the i-th of n points.
   [[nodiscard]] static double point(std::size_t n, std::size_t i);
   [[nodiscard]] static double through(const Values& f, std::size_t n, double x);
 
-  /// Of places with equal values, to rounding, the first.
+  /// The first position is given if several values are equal up to rounding.
   struct Extremes {
     double least = 0.0, greatest = 0.0, at_least = 0.0, at_greatest = 0.0;
   };

@@ -1,9 +1,9 @@
-// bounded_cache.hpp: what was made lately and may be wanted again.
+// bounded_cache.hpp: least-recently-used cache with bounded count and size.
 //
 //   if (Value* known = cache.find(key)) use(*known); else use(cache.insert(key, make(key), bytes));
 //
-// Bounded by count and by bytes: what was used least recently goes. What was inserted last always stays,
-// whatever its size. References hold until the next insert.
+// Bounded by number of entries and by bytes: the least recently used entry is removed first. The last inserted entry
+// always stays, whatever its size. References are valid until the next insert.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,14 @@ class BoundedCache {
   BoundedCache(const BoundedCache&) = delete;
   BoundedCache& operator=(const BoundedCache&) = delete;
 
-  /// nullptr: not there.
+  /// nullptr if the key is absent.
   [[nodiscard]] Value* find(const Key& key) {
     const auto known = index_.find(key);
     if (known == index_.end()) return nullptr;
     entries_.splice(entries_.begin(), entries_, known->second);
     return &known->second->value;
   }
-  /// key: not there yet. bytes: memory that key and value hold beyond their own sizes.
+  /// key: must be absent. bytes: memory of key and value in addition to their own sizes.
   Value& insert(const Key& key, Value value, std::size_t bytes) {
     entries_.push_front({std::move(value), bytes + each, {}});
     entries_.front().place = index_.emplace(key, entries_.begin()).first;
@@ -56,10 +56,10 @@ class BoundedCache {
     std::size_t bytes;
     typename Index::iterator place;
   };
-  /// Of the nodes of list and index: what they hold, and some four words each to hold together.
+  /// Size of the nodes of list and index: their contents, and about four words each of links.
   static constexpr std::size_t each = sizeof(Entry) + sizeof(typename Index::value_type) + 8 * sizeof(void*);
   CacheBounds most_;
-  Entries entries_;  // the last used first
+  Entries entries_;  // most recently used first
   Index index_;
   std::size_t bytes_ = 0;
 };

@@ -11,14 +11,14 @@
 namespace signorini {
 namespace {
 
-/// The system w - M z - d z0 = q in the present basis. Columns: w, z, z0, right side.
+/// The system w - M z - d z0 = q in the current basis. Columns: w, z, z0, right-hand side.
 class Tableau {
  public:
   Tableau(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Eigen::VectorXd& d)
       : n_(q.size()), t_(n_, 2 * n_ + 2), basis_(static_cast<std::size_t>(n_)) {
     t_ << Eigen::MatrixXd::Identity(n_, n_), -M, -d, q;
     for (Eigen::Index i = 0; i < n_; ++i) basis_[static_cast<std::size_t>(i)] = i;
-    // What an elimination leaves of a zero.
+    // rounding of a zero after elimination
     zero_ = rounding::of_many * std::max(1.0, M.cwiseAbs().maxCoeff());
   }
 
@@ -28,7 +28,7 @@ class Tableau {
   }
   [[nodiscard]] const std::vector<Eigen::Index>& basis() const { return basis_; }
 
-  /// The row that is most negative first makes the start feasible.
+  /// Row of the most negative entry, the first pivot: it makes the start feasible.
   [[nodiscard]] Eigen::Index first_row(const Eigen::VectorXd& d) const {
     Eigen::Index best = 0;
     for (Eigen::Index i = 1; i < n_; ++i)
@@ -36,7 +36,7 @@ class Tableau {
     return best;
   }
 
-  /// The row that blocks the entering column, -1: none does. z0 leaves as soon as it can.
+  /// The row that limits the entering column; -1: none. z0 leaves as soon as possible.
   [[nodiscard]] Eigen::Index blocking_row(Eigen::Index column) const {
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < n_; ++i) {
@@ -53,7 +53,7 @@ class Tableau {
     return best;
   }
 
-  /// Exchanges; returns the variable that left.
+  /// Pivots; returns the variable that left the basis.
   Eigen::Index pivot(Eigen::Index row, Eigen::Index column) {
     t_.row(row) /= t_(row, column);
     for (Eigen::Index i = 0; i < n_; ++i)
@@ -74,13 +74,13 @@ class Tableau {
   }
 
  private:
-  /// a - b; what an elimination leaves of a zero is zero, or ties would be broken by rounding.
+  /// a - b; a difference of rounding size is set to zero, because rounding would otherwise break ties.
   [[nodiscard]] static double difference(double a, double b) {
     const double d = a - b;
     return std::abs(d) <= rounding::of_many * std::max(std::abs(a), std::abs(b)) ? 0.0 : d;
   }
-  /// Row i over its pivot before row j over its own: right side first, then the columns of w, which hold the
-  /// inverse of the basis.
+  /// Compares row i over its pivot with row j over its own lexicographically: right-hand side first, then the columns
+  /// of w, which contain the inverse of the basis.
   [[nodiscard]] bool lexicographically_less(Eigen::Index i, double pi, Eigen::Index j, double pj) const {
     const Eigen::Index rhs = t_.cols() - 1;
     for (Eigen::Index k = -1; k < n_; ++k) {
@@ -97,7 +97,7 @@ class Tableau {
   double zero_ = 0.0;
 };
 
-/// The same basis solved afresh, without the rounding of all the exchanges.
+/// Solves the same basis again, without the rounding of all pivots.
 Eigen::VectorXd refined(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Tableau& tableau,
                         const Eigen::VectorXd& z) {
   std::vector<Eigen::Index> active;
@@ -124,7 +124,7 @@ std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, c
   if (n == 0 || q.minCoeff() >= 0.0) return Eigen::VectorXd::Zero(n);
   Tableau tableau(M, q, d);
   Eigen::Index left = tableau.pivot(tableau.first_row(d), tableau.artificial());
-  // Lexicographic pivots never return to a basis; rounding might, so there is an end all the same.
+  // Lexicographic pivots never return to a basis, but rounding might: hence a limit.
   const Eigen::Index most = 100 + 50 * n;
   for (Eigen::Index i = 0; i < most; ++i) {
     const Eigen::Index entering = tableau.complement(left);

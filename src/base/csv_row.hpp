@@ -1,9 +1,9 @@
-// csv_row.hpp: a row of a table of a run.
+// csv_row.hpp: reads one row of a CSV table.
 //
-//   t,"a, quoted",1.5      cells between commas; in quotes they may hold commas, line breaks and "" for "
+//   t,"a, quoted",1.5      cells separated by commas; quoted ones may contain commas, line breaks and "" for "
 //
-// A last line without its line break (a run that is being written, or was killed) is no row: its cells are left, so that
-// whoever reads what was written to its end can tell that it is cut, or take it.
+// A last line without its line break (a run in progress, or killed) is not a row: its cells are returned, so that the
+// caller can report or use it.
 #pragma once
 
 #include <istream>
@@ -12,8 +12,8 @@
 
 namespace signorini {
 
-/// False at the end, where `cells` has what a last line without its line break has, and for a row of more than 100 MB
-/// (a million degrees of freedom have 40), which is none.
+/// Returns false at the end, with the cells of a last line without line break in `cells`, and for a row of more than
+/// 100 MB (a million degrees of freedom need 40), which is invalid.
 [[nodiscard]] bool read_csv_row(std::istream& in, std::vector<std::string>& cells);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// disjoint_sets.hpp: which of 0 .. n-1 hang together, from pairs that do.
+// disjoint_sets.hpp: connected components of 0 .. n-1, from connected pairs (union-find).
 //
 //   DisjointSets sets(n);
 //   sets.join(i, j);
@@ -17,7 +17,7 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  /// The least member of i's set.
+  /// The smallest member of i's set.
   [[nodiscard]] std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -27,7 +27,7 @@ class DisjointSets {
     j = find(j);
     (i < j ? parent_[j] : parent_[i]) = i < j ? i : j;
   }
-  /// The sets in the order of their least members, members ascending.
+  /// The sets in the order of their smallest members, members ascending.
   [[nodiscard]] std::vector<std::vector<std::size_t>> sets() {
     std::vector<std::vector<std::size_t>> result;
     std::vector<std::size_t> number(parent_.size());

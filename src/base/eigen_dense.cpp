@@ -30,10 +30,10 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
 
 namespace {
 
-/// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. Scaled to a unit diagonal of B first:
+/// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. B is scaled to a unit diagonal first, because
 /// translations and rotations differ by powers of the length.
 struct Reduced {
-  Eigen::VectorXd s;  ///< 1 / D; empty when B is not positive definite
+  Eigen::VectorXd s;  ///< 1 / D; empty if B is not positive definite
   Eigen::LLT<Eigen::MatrixXd> llt;
   Eigen::MatrixXd c;
 
@@ -109,7 +109,7 @@ std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a, const Eig
   return lu.solve(b);
 }
 
-/// Inverse iteration, x <- A^-1 A^-T x. A may be singular: a diagonal of rounding keeps its factors regular.
+/// Inverse iteration, x <- A^-1 A^-T x. A may be singular: a small diagonal term keeps its factors regular.
 Eigen::MatrixXd least_stretched(const Eigen::MatrixXd& a, Eigen::Index count) {
   constexpr int rounds = 4;
   const Eigen::Index n = a.rows();
@@ -149,7 +149,8 @@ static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double lea
 
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
                                   double size) {
-  constexpr Eigen::Index fewest_divided = 48;  // columns from which division costs less than rotations
+  constexpr Eigen::Index fewest_divided = 48;  // number of columns from which divide and conquer costs less
+                                               // than rotations
   constexpr unsigned both = Eigen::ComputeThinU | Eigen::ComputeThinV;
   return a.cols() < fewest_divided ? shortest_by(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)
                                    : shortest_by(Eigen::BDCSVD<Eigen::MatrixXd>(a, both), b, least, size);

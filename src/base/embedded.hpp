@@ -10,9 +10,9 @@ struct EmbeddedFile {
   std::string_view name, text;
 };
 
-/// Scenes to start from: src/cli/scenes.
+/// Template scenes: src/cli/scenes.
 [[nodiscard]] std::span<const EmbeddedFile> scene_templates();
-/// Words of the reference of scenes: src/cli/texts.
+/// Texts of the scene reference: src/cli/texts.
 [[nodiscard]] std::span<const EmbeddedFile> reference_texts();
 /// Parts of the page of `report`: src/report/page.
 [[nodiscard]] std::span<const EmbeddedFile> page_parts();

@@ -1,4 +1,4 @@
-// excerpt.hpp: what a message shows of a text that somebody else wrote.
+// excerpt.hpp: shortens foreign text for messages.
 #pragma once
 
 #include <string>
@@ -6,13 +6,13 @@
 
 namespace signorini {
 
-/// At most 80 characters, "..." where more were there; what is not printable ASCII becomes '?'.
+/// At most 80 characters, with "..." if it was longer; characters other than printable ASCII become '?'.
 [[nodiscard]] std::string excerpt(std::string_view text);
 
-/// Whether the bytes are UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
+/// True for valid UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
 [[nodiscard]] bool is_utf8(std::string_view text);
 
-/// UTF-8 without control characters, but for tabs and line breaks.
+/// True for UTF-8 without control characters other than tabs and line breaks.
 [[nodiscard]] bool is_plain_text(std::string_view text);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// file_name.hpp: any text as a part of a file's name.
+// file_name.hpp: converts text to a part of a file name.
 //
 //   file_name("first support", 80, "-_", '_') == "first_support"
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace signorini {
 
-/// The first `most` characters; what is neither a letter or digit of ASCII nor in `kept` becomes `other`.
+/// The first `most` characters; characters other than ASCII letters, digits and those in `kept` become `other`.
 [[nodiscard]] std::string file_name(std::string_view text, std::size_t most, std::string_view kept,
                                     char other);
 

@@ -1,4 +1,4 @@
-// input_file.hpp: what may be opened to be read whole.
+// input_file.hpp: checks a file before it is read.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,11 @@
 
 namespace signorini {
 
-/// Why this is nothing to read from, "is a directory"; empty for a regular file, and for one that is missing,
-/// where opening says why. A pipe would wait for a writer, and a device may never end.
+/// Reason why this is not a readable file, "is a directory"; empty for a regular file, and for a missing one, for which
+/// opening reports the reason. A pipe would wait for a writer, and a device may never end.
 [[nodiscard]] std::string why_no_input_file(const std::filesystem::path& path);
 
-/// ": No such file or directory" for what errno was, or nothing.
+/// ": No such file or directory" for a value of errno, or "".
 [[nodiscard]] std::string because(int error);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// json.hpp: JSON, read and written. Parser and writer are compiled once, in json.cpp: each file that
+// json.hpp: reads and writes JSON. Parser and writer are compiled once, in json.cpp, because each file that
 // instantiates them costs four seconds (docs/decisions/dense-algebra-in-one-file.md).
 #pragma once
 
@@ -10,9 +10,9 @@ namespace signorini {
 
 using Json = nlohmann::ordered_json;
 
-/// Indented, with a line end; bytes that are not UTF-8 become replacement characters, and -0 is 0.
+/// Indented text with a final line break; bytes that are not UTF-8 become replacement characters, and -0 becomes 0.
 [[nodiscard]] std::string json_text(const Json& json);
-/// The same in one line, without line end.
+/// Same in one line, without line break.
 [[nodiscard]] std::string json_line(const Json& json);
 /// Errors: Json::exception.
 [[nodiscard]] Json parse_json(std::istream& stream);

@@ -1,4 +1,4 @@
-// listed.hpp: names in a sentence.
+// listed.hpp: lists names in a sentence.
 //
 //   listed({"A", "B", "C"}, 3)        "'A', 'B' and 'C'"
 //   listed({"A", "B", "C", "D"}, 2)   "'A', 'B' and 2 more"
@@ -9,10 +9,10 @@
 
 namespace signorini {
 
-/// The first `most` of them by name, of the others how many they are.
+/// The first `most` names, then the number of the others.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names, std::size_t most = 10);
 
-/// The same of texts that stand as they are, with their quotes or without.
+/// Same for texts without additional quotes.
 [[nodiscard]] std::string listed_plainly(const std::vector<std::string>& texts, std::size_t most = 10);
 
 }  // namespace signorini

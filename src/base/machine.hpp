@@ -1,4 +1,4 @@
-// machine.hpp: what times were measured on.
+// machine.hpp: the machine on which times were measured.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,14 @@
 namespace signorini {
 
 struct Machine {
-  std::string processor;  ///< as the system names it; "unknown processor" where it does not
+  std::string processor;  ///< as the system names it; otherwise "unknown processor"
   std::size_t cores = 1;  ///< processors()
   std::string compiler;   ///< "g++ 12.2.0, optimised"
 };
 
 [[nodiscard]] Machine this_machine();
 
-/// How many processors this process may use.
+/// Number of processors available to this process.
 [[nodiscard]] std::size_t processors();
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// number.hpp: numbers as text, and back, without a locale.
+// number.hpp: converts numbers to text and back, independent of the locale.
 //
 //   shortest(0.1) == "0.1";  parse_number(shortest(x)) == x for every finite x
 #pragma once
@@ -10,13 +10,13 @@
 
 namespace signorini {
 
-/// The fewest digits that read back exactly (std::to_chars): "1e-08", "0.3", "100", "inf", "nan".
+/// The shortest digits that read back exactly (std::to_chars): "1e-08", "0.3", "100", "inf", "nan".
 [[nodiscard]] std::string shortest(double value);
 
-/// The whole text as a number (a leading + is allowed); nothing if any character is left over.
+/// The whole text as a number (a leading + is allowed); nullopt if any character is left over.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// The whole text as an integer; nothing if any character is left over or it does not fit.
+/// The whole text as an integer; nullopt if any character is left over or it overflows.
 [[nodiscard]] std::optional<long long> parse_integer(std::string_view text);
 
 /// "1 value", "3 values".

@@ -1,8 +1,8 @@
 // output_directory.hpp: a directory, or a single file, that results are written to.
 //
-//   check:   it is not there, is empty, or holds earlier results (its marker file) that may be replaced
-//   make:    it and those above it
-//   unmake:  those that were made, as far as they are empty
+//   check:   it is absent or empty, or contains earlier results (its marker file) that may be replaced
+//   make:    creates it and its parents
+//   unmake:  removes the created ones, as far as they are empty
 //
 // Errors of all: FileError, with the directory's name.
 #pragma once
@@ -13,12 +13,12 @@
 
 namespace signorini {
 
-/// What a directory of results is: "run", whose summary.json tells it from somebody's files.
+/// Kind of a directory of results: "run", with summary.json as the file that identifies it.
 struct ResultsKind {
   std::string what, marker;
 };
 
-/// replace: earlier results give way (--force).
+/// replace: earlier results may be replaced (--force).
 void check_output_directory(const std::filesystem::path& path, const ResultsKind& kind, bool replace);
 
 /// A file that is not in such a directory: refused where it is there and has no `mark` among its first bytes, as `what` that
@@ -28,7 +28,7 @@ void check_output_file(const std::filesystem::path& path, const std::string& wha
 /// Returns the outermost that had to be made; empty where all were there.
 std::filesystem::path make_directory(const std::filesystem::path& path);
 
-/// `first`: as make_directory() returned it.
+/// `first`: return value of make_directory().
 void unmake_directory(const std::filesystem::path& path, const std::filesystem::path& first);
 
 }  // namespace signorini

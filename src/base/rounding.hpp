@@ -1,18 +1,18 @@
-// rounding.hpp: what a double cannot tell apart; the one home of multiples of eps.
+// rounding.hpp: rounding errors of double precision; all multiples of eps are defined here.
 //
 //   |fl(x op y) - (x op y)| <= eps/2 |x op y|,      eps = 2^-52
 //
-// A computed number counts as zero below c eps times the sum of the magnitudes of its terms. c has no unit;
-// the unit is that of the terms, so a zero test changes with neither units nor axes.
+// A computed number counts as zero below c eps times the sum of the magnitudes of its terms. c is dimensionless, and
+// the terms have the unit, so a zero test is independent of units and axes.
 //
-//   c    for                                         why
+//   c    for                                         reason
 //   4    products and sums of two or three terms     at most 8 operations of eps/2
-//   64   sums of many terms, solves, differences     128 operations of eps/2 at worst; about 10^4 that err at
-//                                                    random, as sqrt(n) eps/2
-//   100  times                                       IDA's own measure of times that are one
-//   1000 solutions of small dense problems           some n^2 operations of eps/2 a row, n = 24: six contacts
+//   64   sums of many terms, solves, differences     128 operations of eps/2 at worst; about 10^4 with
+//                                                    random errors, as sqrt(n) eps/2
+//   100  times                                       IDA's own limit for equal times
+//   1000 solutions of small dense problems           some n^2 operations of eps/2 per row, n = 24: six contacts
 //
-// What has passed through a solve is known to the solve's backward error, not to these.
+// Results of a solve have the solve's backward error instead.
 #pragma once
 
 #include <limits>

@@ -1,8 +1,8 @@
-// shared_vector.hpp: a vector whose copies share what none of them has changed since.
+// shared_vector.hpp: a copy-on-write vector whose copies share unchanged pieces.
 //
-//   a, b = a copy of a;  b.set(i, x)        of the two only the piece with place i is another one
+//   a, b = a copy of a;  b.set(i, x)        only the piece that contains i is copied
 //
-// Pieces are never written to once they are there: copies may be read by several threads.
+// Pieces are never written after their creation, so copies may be read by several threads.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace signorini {
 
-/// piece: places that are copied with one that changes; fewer where there are no more.
+/// piece: number of elements that are copied together with a changed one; the last piece may be smaller.
 template <class T, std::size_t piece = 16>
 class SharedVector {
  public:

@@ -36,7 +36,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view given, const std::vector<std::string>& known) {
-  constexpr std::size_t longest = 60;  // no one misspells a name of that length by accident
+  constexpr std::size_t longest = 60;  // longer names are unlikely to be typing errors
   if (given.size() > longest) return {};
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, given.size() / 3) + 1;

@@ -1,14 +1,17 @@
-// thinned.hpp: few rows whose straight lines stand for many.
+// thinned.hpp: reduces many rows to few, with straight lines between them.
 //
-//   lines:   a row is left out where the straight line between the rows kept beside it passes each of its quantities q
+//   lines:   a row is dropped if the straight line between the neighbouring kept rows passes each of its quantities q
 //            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-10
-//   bins:    where that is not enough, of each bin [i w, (i + 1) w) of time the first and the last row, and those with the
-//            least and the greatest of each quantity, in their order (M4: Jugel, Jerzak, Hackenbroich, Markl 2014; lines
-//            between bins are those of all rows);   w = duration / 10000, doubled as often as needed up to duration / 1250
+//   bins:    if that is not enough, each bin [i w, (i + 1) w) of time keeps the first and the last row, and those with
+// the
+//            smallest and the largest value of each quantity, in order (M4: Jugel, Jerzak, Hackenbroich, Markl 2014;
+// lines
+//            between bins are those of all rows);   w = duration / 10000, doubled as often as needed up to duration /
+// 1250
 //
-// Rows are looked at once for each c, and once more at the end: what is left out is at most 3 c, 0.3 % of the range,
-// off the lines, or is reached by them within a bin. Half a pixel of a panel of 170 has 0.3 %; the widest picture
-// has a panel of 1234 pixels.
+// Rows are processed once for each c, and once more at the end: a dropped row is at most 3 c, 0.3 % of the range, off
+// the lines, or within a bin whose extremes are drawn. 0.3 % is half a pixel of a panel of 170 pixels; the widest
+// picture has a panel of 1234 pixels.
 #pragma once
 
 #include <algorithm>
@@ -21,21 +24,21 @@
 
 namespace signorini {
 
-/// Values{}(row): an array of `count` quantities, of which bins keep the extremes of the first `drawn`. Rows have a time t,
-/// ascending; it may repeat.
+/// Values{}(row): an array of `count` quantities; bins keep the extremes of the first `drawn`. Rows have an ascending
+/// time t; it may repeat.
 template <class Row, std::size_t count, class Values, std::size_t drawn = count>
 class Thinned {
  public:
   using Quantities = std::array<double, count>;
 
   struct Wanted {
-    /// As many rows at the end; bins have more if a picture needs them.
+    /// Target number of rows at the end; bins have more if a picture needs them.
     std::size_t most = 8000;
-    /// No more than `most` in any case, as wide as bins have to be for that.
+    /// Never more than `most`, with bins as wide as necessary.
     bool crowded = false;
-    /// Lines leave out neither of two rows of one time.
+    /// Lines keep both of two rows with the same time.
     bool both_sides = false;
-    /// Nor what would leave a gap of more than that.
+    /// Lines leave no gap of more than this.
     double widest = std::numeric_limits<double>::infinity();
   };
   Thinned(double duration, const Wanted& wanted)
@@ -50,7 +53,7 @@ class Thinned {
       least_[i] = std::min(least_[i], q[i]);
       greatest_[i] = std::max(greatest_[i], q[i]);
     }
-    // At once what is ever needed: pages that are not used cost nothing, vectors that grow leave holes.
+    // Reserved at once: unused pages cost nothing, whereas growing vectors fragment memory.
     if (rows_.capacity() == 0)
       rows_.reserve(room(std::max(wanted_.most, wanted_.crowded ? 0 : most_of_bins)) + 1);
     rows_.push_back(row);
@@ -58,20 +61,20 @@ class Thinned {
   }
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
-  /// Hands them over.
+  /// Moves the rows out.
   [[nodiscard]] std::vector<Row> take() { return std::move(rows_); }
-  /// Of a bin; 0 while there are none.
+  /// Width of a bin; 0 if there are none.
   [[nodiscard]] double width() const { return width_; }
-  /// Greatest less least of the i-th quantity so far.
+  /// Largest minus smallest value of the i-th quantity so far.
   [[nodiscard]] double range(std::size_t i = 0) const {
     return rows_.empty() ? 0.0 : greatest_[i] - least_[i];
   }
-  /// The greatest magnitude of the i-th quantity.
+  /// The largest magnitude of the i-th quantity.
   [[nodiscard]] double size(std::size_t i) const {
     return rows_.empty() ? 0.0 : std::max(std::abs(least_[i]), std::abs(greatest_[i]));
   }
 
-  /// At the end. Differences up to `floors` are none.
+  /// To be called at the end. Differences up to `floors` count as none.
   void close(const Quantities& floors) {
     floors_ = floors;
     share_ = std::max(share_, finest);
@@ -86,8 +89,8 @@ class Thinned {
   static constexpr double first_bins = 10000.0, pixels = 1250.0;
   static constexpr std::size_t most_of_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
 
-  /// Rows held before they are thinned to so many: each is then looked at nine times, and a record is no longer than
-  /// what it keeps and an eighth more.
+  /// Number of rows held before they are thinned: each row is processed about nine times, and the memory is an eighth
+  /// more than that of the kept rows.
   static std::size_t room(std::size_t kept) { return kept + kept / 8; }
 
   void thin() {
@@ -106,12 +109,12 @@ class Thinned {
     limit_ = room(std::max(enough, rows_.size()));
   }
 
-  /// Lines from the row kept last that pass all rows since have slopes between low and high.
+  /// Lines from the last kept row that pass all rows since then have slopes between low and high.
   void leave_out_lines() {
     if (rows_.size() < settled_ + 3) return;
     Quantities d, low, high, from;
     for (std::size_t i = 0; i < count; ++i) d[i] = std::max(share_ * (greatest_[i] - least_[i]), floors_[i]);
-    std::size_t kept = settled_;  // its place; the row itself stands at `anchor` until then
+    std::size_t kept = settled_;  // its index; the row itself is at `anchor` until then
     double t = 0.0;
     const auto begin_at = [&](const Row& row) {
       from = Values{}(row);
@@ -192,7 +195,7 @@ class Thinned {
   std::vector<Row> rows_;
   Quantities least_, greatest_, floors_{};
   double share_ = 0.0, width_ = 0.0;
-  std::size_t settled_ = 0;  // the last row that lines have been looked for at this share
+  std::size_t settled_ = 0;  // last row processed with the current c
 };
 
 }  // namespace signorini

@@ -1,10 +1,10 @@
-// wide_lanes.hpp: a function compiled twice, for two and for four doubles an instruction, chosen at start.
+// wide_lanes.hpp: compiles a function twice, for two and four doubles per instruction; selected at program start.
 //
-//   SIGNORINI_WIDE_LANES void f(...) { loops over Four }      bits the same on every machine:
-//   each lane holds a result of its own, or a sum is taken in the same four parts; never a fused product and sum
+//   SIGNORINI_WIDE_LANES void f(...) { loops over Four }      same bits on every machine:
+//   each lane holds a result of its own, or a sum is taken in the same four parts; no fused multiply-add
 //
-// For functions outside templates; what they call has to be inlined into them. Where the compiler or a sanitizer
-// cannot choose at start, there is the narrow one only.
+// For functions outside templates; functions that they call must be inlined. If the compiler or a sanitizer does not
+// support the selection, only the narrow version exists.
 #pragma once
 
 namespace signorini {
@@ -18,7 +18,7 @@ namespace signorini {
 
 using Four = double __attribute__((vector_size(32)));
 
-/// Lanes at any address of doubles. What a template is told of a vector's type is not how it is aligned.
+/// Vector type of doubles at any address. A template argument would lose the alignment attribute of a vector type.
 template <class T>
 struct [[gnu::packed, gnu::may_alias]] LanesAt {
   T v;

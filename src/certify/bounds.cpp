@@ -11,8 +11,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// What an error of a column may be from one step; columns beyond the model's are forces, then outputs, which
-/// have no tolerance of their own.
+/// Error of a column from one step; columns beyond the model's are forces, then outputs, which have no tolerances of
+/// their own.
 double tolerance_of(const Model& model, std::size_t index, double greatest, const Tolerance& t) {
   if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
   if (index >= model.columns.size() + forces_a_row * model.contacts.size()) return t.rtol * greatest;
@@ -24,7 +24,7 @@ double tolerance_of(const Model& model, std::size_t index, double greatest, cons
   return t.rtol * greatest + atol;
 }
 
-/// What may jump at an event.
+/// True for columns that may jump at an event.
 bool jumps(const Model& model, std::size_t index) {
   return index >= model.columns.size() || model.columns[index].velocity;
 }
@@ -40,7 +40,7 @@ class ColumnOf {
   std::size_t column_;
 };
 
-/// Rows within the error of an event: there a velocity may be that on the event's other side.
+/// Rows within the error of an event: there a velocity may be the one on the event's other side.
 std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector<TimedEvent>& events,
                                  const std::vector<double>& errors) {
   std::vector<bool> at(t.size(), false);
@@ -110,7 +110,7 @@ class HistoryBounds {
   HistoryErrors errors_;
 };
 
-/// c times the greatest difference of one figure, and what its own last step may be off by.
+/// c times the largest difference of one figure, plus the error of its own last step.
 class FigureBound {
  public:
   FigureBound(const BoundSettings& settings, std::size_t companions)

@@ -1,10 +1,9 @@
-// bounds.hpp: bounds of displacements, velocities, peaks and landings, from what run and companions differ
-// by.
+// bounds.hpp: error bounds of displacements, velocities, peaks and landings from the differences of run and companions.
 //
 //   bound = c max over the last five rows of |x - x'| + tol(x)
 //
-// tol(x): one local tolerance where the engine has one, else roundings. Within the error of an event a
-// velocity may be that on its other side: there the change to the rows before and after is added.
+// tol(x): one local tolerance if the engine has one, else rounding. Within the error of an event a velocity may be the
+// one on its other side: there the change to the neighbouring rows is added.
 #pragma once
 
 #include "certify/tracker.hpp"
@@ -13,7 +12,7 @@
 
 namespace signorini {
 
-/// What was kept of a run and of its companions.
+/// Recorded data of a run or of its companion.
 struct Kept {
   const KeptRows* rows = nullptr;
   const Report* report = nullptr;
@@ -21,14 +20,14 @@ struct Kept {
 
 struct BoundSettings {
   double factor = 1.0;  ///< c
-  Tolerance tolerance;  ///< of the run; rtol 0: roundings only
+  Tolerance tolerance;  ///< tolerance of the run; rtol 0: rounding only
 };
 
 [[nodiscard]] HistoryErrors bound_history(const Model& model, const Kept& run,
                                           const std::vector<Kept>& companions, const BoundSettings& settings,
                                           const std::vector<TimedEvent>& events, const Verdict& verdict);
 
-/// Peaks and landings of the whole run; landings only as far as they have ended before verdict.until.
+/// Bounds peaks and landings of the whole run; only landings that have ended before verdict.until.
 void bound_extremes(Certificate& certificate, const Kept& run, const std::vector<Kept>& companions,
                     const BoundSettings& settings);
 

@@ -33,13 +33,13 @@
 namespace signorini {
 namespace {
 
-/// run.certify = "auto": a companion may cost so much of the run.
+/// Limit of a companion's cost relative to the run, for run.certify = "auto".
 constexpr double cheap = 0.5;
-/// A companion that nobody asked for ends after so many times the expected steps; some at least, for events.
+/// An automatic companion ends after this multiple of the expected steps; the minimum allows for events.
 constexpr double patience = 20.0, least_steps = 1e5;
 constexpr std::chrono::milliseconds now_and_then{50};
 
-/// A thread that is started without signals: they are the caller's.
+/// A thread with all signals blocked, so that the calling thread receives them.
 class QuietThread {
  public:
   template <class Work>
@@ -102,7 +102,7 @@ class CompanionWatch final : public RunListener, public EventShift {
   double moved_, by_ = 0.0;
 };
 
-/// One companion, from its beginning to its end.
+/// One companion run, from beginning to end.
 class CompanionTask {
  public:
   CompanionTask(CompanionRun run, const Leash& leash, double most_steps, bool forces)
@@ -111,7 +111,7 @@ class CompanionTask {
     tracker_.most_steps = most_steps;
   }
 
-  /// Keeps what goes wrong: a companion never ends its run.
+  /// Stores errors: a companion never ends its run.
   void compute() {
     try {
       report_ = simulate(run_.model, run_.run, tracker_, watch_, watch_.needs(), &watch_);
@@ -152,7 +152,8 @@ class CompanionTask {
   std::string failure_;
 };
 
-/// All companions of a run: beside it, as far as there are processors for them; when it has ended, its own takes one, too.
+/// All companions of a run: they run beside it, limited by the number of processors; when the run has ended, they may
+/// use its processor, too.
 class Companions {
  public:
   Companions(std::vector<CompanionRun> runs, double most_steps, bool forces) {
@@ -163,12 +164,12 @@ class Companions {
   Companions(const Companions&) = delete;
   Companions& operator=(const Companions&) = delete;
 
-  /// Beside the run, which has a processor.
+  /// Starts them beside the run, which uses one processor.
   void begin() {
     const std::size_t beside = std::min(tasks_.size(), processors() - 1);
     while (threads_.size() < beside) start();
   }
-  /// The run has come to `reached`: companions need go no further. Until all have ended, or go_on says no.
+  /// The run has reached `reached`: companions need not go further. Waits until all have ended, or go_on returns false.
   void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
     leash_.stop_at(reached);
     if (interrupted) leash_.stop();
@@ -199,14 +200,14 @@ class Companions {
   std::mutex mutex_;
   std::condition_variable ended_;
   std::size_t done_ = 0;            // guarded by mutex_
-  std::list<QuietThread> threads_;  // the last member: they end first
+  std::list<QuietThread> threads_;  // the last member: destroyed first
 };
 
-/// Whether a run is certified without being asked for it.
+/// True if a run is certified without a request.
 bool is_cheap(const CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
 
-/// Why it is not. Of one engine the ratio is known well. Of two it is not, but what the run took is known by then, and how often
-/// it began anew.
+/// Reason why it is not certified. The cost ratio of two runs with one engine is well known; for two engines it is not,
+/// but the duration of the run is known by then, and the number of its restarts.
 std::string why_not(const Model& model, const RunSpec& run, const CompanionPlan& plan, const Report& report) {
   if (!(plan.cost > 0.0))
     return "the cost of a companion run cannot be estimated for this scene; --certify starts one";

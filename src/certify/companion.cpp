@@ -14,21 +14,21 @@
 namespace signorini {
 namespace {
 
-// See companion.hpp.
+// Values of c: companion.hpp.
 constexpr double by_exact = 1.5, by_tolerance = 2.0, by_step = 3.0, by_rounding = 5.0;
 constexpr double local_beside_exact = 0.1, local_beside_finer = 0.5;
 constexpr double finer_tolerance = 0.01, finer_step = 0.5;
-constexpr double rtol_beside_steps = 1e-9;  // the error of a step is far greater; chosen
-// dt times the fastest rate of a motion: the amplification (1 - z/2) / (1 + z/2) of average acceleration rings from z = 2 on,
-// and at a frequency z/dt the period is off by z^2/12.
+constexpr double rtol_beside_steps = 1e-9;  // the error of a given step is far larger; chosen value
+// Limit of dt times the fastest rate of a motion: the amplification (1 - z/2) / (1 + z/2) of average acceleration
+// oscillates from z = 2 on, and for a frequency z/dt the period error is z^2/12.
 constexpr double resolved = 1.0;
 
-/// What is the same in all companions.
+/// The part that all companions share.
 CompanionRun companion_of(const Model& model, const RunSpec& run) {
   CompanionRun companion{model, run};
   hold_capture(companion.model, tolerance_of(model, run).capture_velocity());
   companion.run.frames.clear();
-  companion.model.outputs.clear();  // nobody reads them
+  companion.model.outputs.clear();  // not used
   return companion;
 }
 
@@ -55,7 +55,7 @@ CompanionPlan ida_plan(const Model& model, const RunSpec& run) {
   return plan;
 }
 
-/// Why half the step tells nothing about the step.
+/// Reason why half the step does not estimate the error of the step.
 std::string unresolved(const Model& model, double dt) {
   const double decay = fastest_decay(model), rate = std::max(model.omega_max, decay);
   if (dt * rate <= resolved) return "";
@@ -66,7 +66,7 @@ std::string unresolved(const Model& model, double dt) {
       decay > model.omega_max ? "1" : "rad", model.units.time, resolved / rate);
 }
 
-/// tolerance_of() takes rtol times the model's scales; what the scene gives is made finer here.
+/// tolerance_of() uses rtol times the model's scales; this refines the absolute tolerances of the scene.
 void make_finer(Tolerances& atol) {
   for (std::optional<double>* t : {&atol.displacement, &atol.velocity, &atol.force})
     if (*t) **t *= finer_tolerance;
@@ -150,7 +150,7 @@ CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
                                                         : "auto: exact does not take the scene";
     return plan;
   }
-  // Where nobody knows what the finer run costs, the sharper one is taken.
+  // If the cost of the finer run is unknown, the sharper one (exact) is used.
   const bool cheaper = !(finer->cost > 0.0) || !(exact->cost > 0.0) || exact->cost <= finer->cost;
   CompanionPlan plan = std::move(cheaper ? *exact : *finer);
   plan.choice =

@@ -1,31 +1,33 @@
-// companion.hpp: what a run is certified by, and whether that is worth it.
+// companion.hpp: choice of the companion run that certifies a run, and its expected cost.
 //
-//   run       companion  how                              c    why
-//   not exact exact      as it is                         1.5  the difference is the error
+//   run       companion  setting                          c    reason
+//   not exact exact      unchanged                        1.5  the difference is the error
 //   ida       finer      rtol / 100, atol / 100           2    at rtol / 10 errors may be alike
-//   of a dt   ida        rtol 1e-9 at most                1.5  the difference is the error
-//   of a dt   finer      dt / 2                           3    4/3 at order two, 2 at order one
-//   exact     finer      twice, data off by one rounding  5    two draws of a random error
+//   with dt   ida        rtol 1e-9 at most                1.5  the difference is the error
+//   with dt   finer      dt / 2                           3    4/3 at order two, 2 at order one
+//   exact     finer      twice, data off by one rounding  5    two samples of a random error
 //
-// Beside exact the difference contains ida's own local error: a tenth of t_uncertainty is added, for what
-// guards that graze hide of it; half of it at rtol / 100, since in chatter the companion errs alike. Else all
-// of it, since the companion's own error is as large.
+// With exact as companion, the difference contains ida's own local error: a tenth of t_uncertainty is added for the
+// part that grazing guards hide; with rtol / 100 half of it, since in chatter the companion has similar errors. In all
+// other cases all of it is added, since the companion's own error is as large.
 //
-// In series a run makes the same roundings in each step of the same length (exact_engine.cpp, share_of_step): after N steps
-// they are N times one rounding, and data off by a rounding show nothing of it, since they turn a motion and neither damp it
-// nor feed it. So companions of `exact` take steps of other lengths, by chance.
+// A run in series makes the same rounding errors in each step of the same length (exact_engine.cpp, share_of_step):
+// after N steps they add up to N roundings. Perturbed data do not show this, because they rotate a motion but neither
+// damp nor excite it. So companions of `exact` take steps of other, random lengths.
 //
-// In modes an event's time is known to the rounding of a sum over modes only, tau: a bound that two draws seldom come
-// near. What follows begins at that time, so companions of `exact` move each such event by tau / c, along the motion. Its own
-// row has the time without that; what the motion makes of it later is in D, and c D bounds what it makes of tau.
+// In modes an event's time has an error tau from the rounding of a sum over modes, a bound that two samples seldom
+// approach. The later motion starts at that time, so companions of `exact` shift each such event by tau / c, along the
+// motion. The event's own row has the unshifted time; the later effect of the shift is part of D, and c D bounds the
+// effect of tau.
 //
-// What a step does not resolve, half of it does not resolve either: stiff dashpots ring at both, and contacts with them. So
-// dt / 2 is taken where it is asked for only, and then certifies nothing unless dt max(omega_max, fastest decay) <= 1.
+// A motion that a step does not resolve is not resolved by half of it either: stiff dashpots oscillate with both, and
+// so do contacts with them. So dt / 2 is used on request only, and then certifies nothing unless dt max(omega_max,
+// fastest decay) <= 1.
 //
-// What is decided by a tolerance is decided by the run's in all of them: velocities below which
-// rebounds rest, and heights below which ida leaves flights to the series. A finer run that integrated
-// flights which its run takes exactly would be the worse of the two: the errors of thousands of hits add up.
-// Why these c: validation/certified.
+// Decisions that depend on a tolerance use the run's tolerance in all companions: velocities below which rebounds come
+// to rest, and heights below which ida leaves flights to the series. A finer run that integrated flights which the run
+// computes exactly would be less accurate: the errors of thousands of impacts accumulate. The values of c are tested in
+// validation/certified.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +43,8 @@ struct CompanionRun {
   Model model;
   RunSpec run;
   std::uint64_t seed = 0;
-  /// Of what the rounding of modes hides of an event's time (Step::resolution beyond that of the clock): by so much of it
-  /// its events are moved, either way.
+  /// Fraction of the rounding error of an event's time in modes (Step::resolution beyond the time resolution) by which
+  /// its events are shifted, in either direction.
   double moved = 0.0;
 };
 
@@ -50,18 +52,19 @@ struct CompanionPlan {
   std::vector<CompanionRun> runs;
   std::string name;    ///< "exact", "ida, rtol 1e-10"
   std::string choice;  ///< "as given", or "auto: ..."
-  std::string doubt;   ///< why nothing is certain by it; empty: none
+  std::string doubt;   ///< reason why it cannot certify anything; empty: none
   double factor = 1.0;
-  double local = 1.0;    ///< part of t_uncertainty that is added: of what the difference has not seen
-  double cost = 0.0;     ///< expected, of that of the run; 0: nobody knows
-  double seconds = 0.0;  ///< the same of itself
-  double steps = 0.0;    ///< expected, of one companion; 0: nobody knows
+  double local = 1.0;    ///< fraction of t_uncertainty that is added: the part that the difference does not
+                         ///< contain
+  double cost = 0.0;     ///< expected, relative to the run; 0: unknown
+  double seconds = 0.0;  ///< expected duration of the companion itself
+  double steps = 0.0;    ///< expected number, for one companion; 0: unknown
 };
 
-/// Gives every contact of `model` that has none the capture velocity of this run.
+/// Gives all contacts of `model` without a capture velocity that of this run.
 void hold_capture(Model& model, double capture_velocity);
 
-/// run.engine is not automatic. Errors: SceneError where a companion is asked for that refuses the model.
+/// run.engine must not be automatic. Errors: SceneError if a requested companion refuses the model.
 [[nodiscard]] CompanionPlan plan_companion(const Model& model, const RunSpec& run);
 
 }  // namespace signorini

@@ -10,10 +10,10 @@
 namespace signorini {
 namespace {
 
-/// Of each datum: some units in the last place, less than anything that is known of a structure.
+/// Relative change of each datum: some units in the last place, less than the accuracy of any structural data.
 constexpr double rounding_of_data = 1e-15;
 
-/// SplitMix64 (Steele, Lea, Flood 2014): a good bit mixer, which is all that is asked for.
+/// SplitMix64 (Steele, Lea, Flood 2014): a good bit mixer, which is sufficient here.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
@@ -21,7 +21,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-/// It has a gap at the start, and no rounding of one.
+/// True if the contact has a gap at the start, beyond rounding.
 bool is_apart(const Contact& c, const Vector& u0) {
   return !c.normal_force_given() &&
          c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0));
@@ -31,13 +31,13 @@ class Disturber {
  public:
   explicit Disturber(std::uint64_t seed) : seed_(mixed(seed)) {}
 
-  /// 1 + delta r, of the datum of this number.
+  /// 1 + delta r, for the datum with this number.
   [[nodiscard]] double factor(std::uint64_t number) const {
     const std::uint64_t bits = mixed(seed_ ^ mixed(number));
     const double size = 0.5 + 0.5 * static_cast<double>(bits >> 12U) * 0x1p-52;
     return 1.0 + ((bits & 1U) != 0U ? size : -size) * rounding_of_data;
   }
-  /// Of the next datum.
+  /// Factor of the next datum.
   double next() { return factor(++number_); }
 
   void matrix(SparseMatrix& a) {
@@ -50,14 +50,14 @@ class Disturber {
       }
   }
 
-  /// Of reduced models: what is left of K's entries where they cancel.
+  /// For reduced models: perturbs entries of K by the terms that cancel in them.
   void shapes(const Reduction& reduction, SparseMatrix& k) {
     for (Eigen::Index j = 0; j < reduction.stiffness_terms.rows(); ++j) {
       const double terms = reduction.stiffness_terms(j, j), own = k.coeff(j, j);
       if (own > 0.0 && terms > own) k.coeffRef(j, j) += (next() - 1.0) * terms;
     }
   }
-  /// And of its products with other shapes.
+  /// Perturbs products with other shapes as well.
   void products(Model& near) {
     const std::uint64_t own = mixed(++number_);
     mix_shapes(
@@ -89,7 +89,7 @@ class Disturber {
   std::uint64_t seed_, number_ = 0;
 };
 
-/// Degrees of freedom on which a contact acts that touches at the start.
+/// Degrees of freedom of contacts that touch at the start.
 std::vector<bool> touched(const Model& model) {
   std::vector<bool> list(static_cast<std::size_t>(model.size()), false);
   for (const Contact& c : model.contacts)

@@ -16,7 +16,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Rounding of an event's own time: that of a sum, twice.
 constexpr double of_clock = 2.0 * rounding::eps;
 
-/// Where the sequence ends to be certain, and why; the earliest wins.
+/// End of the certain sequence, and its reason; the earliest one counts.
 struct Horizon {
   double t = never;
   std::string reason;
@@ -27,10 +27,10 @@ struct Horizon {
 
 using Rows = std::vector<std::size_t>;
 
-/// What is known of a contact from its events before.
+/// Data of a contact from its previous events.
 struct Past {
-  double off = 0.0;                                                   // of the event before
-  std::vector<double> speeds = std::vector<double>(remembered, 0.0);  // differences R of the last ones
+  double off = 0.0;                                                   // difference at the previous event
+  std::vector<double> speeds = std::vector<double>(remembered, 0.0);  // differences R of the last events
   std::size_t next = 0;
 };
 
@@ -67,7 +67,7 @@ class Judge {
   }
 
  private:
-  /// Differences of partners, and the first event of each contact that has none.
+  /// Computes differences of partners, and the first event of each contact without a partner.
   void pair(const std::vector<Rows>& own, const Track& companion) {
     const std::vector<Rows> other = by_contact(companion.events, names_.size());
     for (std::size_t k = 0; k < own.size(); ++k) {
@@ -99,7 +99,7 @@ class Judge {
     if (a == nullptr || b == nullptr) {
       const TimedEvent& alone = a != nullptr ? *a : *b;
       if (alone.t <= std::min(run_.reached, companion.reached))
-        // It may be earlier by its own uncertainty, which is great where a guard grazes.
+        // It may be earlier by its own uncertainty, which is large where a guard grazes.
         horizon_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
                     a != nullptr ? describe(*a) + " has no partner in the companion"
                                  : "the companion has an event more, " + describe(*b));
@@ -107,9 +107,9 @@ class Judge {
     }
     const double off = b->t - a->t, change = std::abs(off - past.off);
     past.off = off;
-    // The time since the contact's event before: errors that both share shift no event past another.
+    // Time since the contact's previous event: a common error shifts no event past another.
     const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
-    // Each has its own rounding besides; changes at one instant share it.
+    // Each event has its own rounding in addition; changes at one instant share it.
     const double apart = i > 0 && since > 0.0 ? own_rounding(own, other, i, companion) : 0.0;
     const double shift = factor_ * change + apart;
     if (same(*a, *b) && shift <= 0.5 * since) {
@@ -130,7 +130,8 @@ class Judge {
     return false;
   }
 
-  /// Of two neighbours together. A companion that computes to rounding cannot vouch for more than it tells apart itself.
+  /// Rounding of two neighbours together. A companion that computes to rounding cannot certify more than it resolves
+  /// itself.
   [[nodiscard]] double own_rounding(const Rows& own, const Rows& other, std::size_t i,
                                     const Track& companion) const {
     if (!rounded_ && !companion.rounded) return 0.0;
@@ -140,7 +141,7 @@ class Judge {
            static_cast<double>(events[rows[i - 1]].uncertainty);
   }
 
-  /// False: by less than its speed may be off.
+  /// Returns false if the decision depends on less than the error of its speed.
   bool flies_or_rests(const TimedEvent& a, const TimedEvent& b, Past& past) {
     const double r = a.departure, other = b.departure;
     if (std::isnan(r) || std::isnan(other)) return true;
@@ -161,7 +162,7 @@ class Judge {
                        to_string(event.to));
   }
 
-  /// What changes beside a guard that falls does so at the time of that guard, and is as uncertain.
+  /// Changes at the same instant as a guard's event have the time of that guard, and are as uncertain.
   void share() {
     const std::vector<TimedEvent>& events = run_.events;
     for (std::size_t begin = 0, end = 0; begin < events.size(); begin = end) {
@@ -173,7 +174,7 @@ class Judge {
     }
   }
 
-  /// From differences to errors, in the order of time.
+  /// Converts differences to errors, in the order of time.
   void grow() {
     errors_.assign(run_.events.size(), none);
     std::vector<double> last(remembered, 0.0);
@@ -190,8 +191,8 @@ class Judge {
     }
   }
 
-  /// What lies within its error of the horizon may lie beyond it. Its earliest possible time is where the certain
-  /// part ends, so that it has no such event in it, and no row that may lie behind one.
+  /// An event within its error of the end may be beyond it. The certain part ends at its earliest possible time, so
+  /// that it contains no such event, and no row that may be after one.
   void settle(Verdict& result) {
     result.until = run_.reached;
     if (horizon_.t < never) {
@@ -232,11 +233,11 @@ class Judge {
   bool rounded_;
   Horizon horizon_;
   std::vector<double> deviation_, errors_;
-  std::vector<float> uncertainty_;  // of a run's event or of its partner, if that is less sharp
-  double spread_ = 0.0;             // c D where the sequence ends to be certain
+  std::vector<float> uncertainty_;  // for an event of the run, or its partner's if larger
+  double spread_ = 0.0;             // c D at the end of the certain sequence
 };
 
-/// No less than x.
+/// Rounds up, so that the result is not below x.
 float rounded_up(double x) {
   const auto near = static_cast<float>(x);
   return static_cast<double>(near) < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;

@@ -7,10 +7,10 @@
 namespace signorini {
 namespace {
 
-// Half of the digits: beyond this the first order, which C is, is none.
+// Half of the digits: beyond this the first-order approximation C is invalid.
 constexpr double most_mixed = 1e-8;
 
-/// C; rows of shapes without mass are zero, as they are at the frequency infinity.
+/// C; rows of shapes without mass are zero, as for infinite frequency.
 Eigen::MatrixXd mixing(const std::function<double(Eigen::Index, Eigen::Index)>& coupling,
                        const Model& model) {
   const Eigen::MatrixXd& terms = model.reduction->stiffness_terms;
@@ -30,7 +30,7 @@ Eigen::MatrixXd mixing(const std::function<double(Eigen::Index, Eigen::Index)>& 
   return result;
 }
 
-/// f_i' = f_i + sum_j C_ij f_j. Degrees of freedom beside the shapes stay.
+/// f_i' = f_i + sum_j C_ij f_j. Degrees of freedom beyond the shapes are unchanged.
 void mix(const Eigen::MatrixXd& c, Combination& form) {
   Vector f = Vector::Zero(c.rows());
   Combination mixed, beside;
@@ -50,7 +50,7 @@ void mix(const Eigen::MatrixXd& c, Combination& form) {
 
 void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model) {
   const Eigen::MatrixXd c = mixing(coupling, model);
-  // u = X q = X' q':  q' = q - C^T q. Gaps are what they were, to the last digit.
+  // u = X q = X' q':  q' = q - C^T q. Gaps keep their exact values.
   const Vector u0 = model.u0;
   for (Vector* q : {&model.u0, &model.v0}) q->head(c.rows()) -= c.transpose() * q->head(c.rows()).eval();
   for (Contact& contact : model.contacts) {

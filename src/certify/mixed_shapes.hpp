@@ -1,11 +1,12 @@
-// mixed_shapes.hpp: shapes of a reduced model, off by what roundings of K make of them.
+// mixed_shapes.hpp: perturbation of a reduced model's shapes by roundings of K.
 //
 //   x_i' = x_i + sum_j C_ij x_j,   C_ij = d_ij / (lambda_i m_j - K_jj),   lambda_i = K_ii/m_i, i with mass
 //   d_ij = delta r_ij |x_i|^T |K| |x_j|,   r_ij = r_ji,   1/2 <= |r_ij| <= 1
 //
-// A rounding of each entry of K couples two shapes by d, which leaves K_ii as it is and turns the shapes. So contacts, loads
-// and the initial state see other forms; the structure is the same. Where a soft motion is made of stiff members its shape
-// is off by ten thousand roundings. Shapes of nearly one frequency are left: any two of their plane are as good.
+// A rounding of each entry of K couples two shapes by d, which leaves K_ii unchanged and rotates the shapes. So the
+// forms of contacts, loads and the initial state change; the structure is the same. If a soft motion consists of stiff
+// members, its shape is off by ten thousand roundings. Shapes with nearly equal frequencies are unchanged: any two
+// shapes of their plane are equivalent.
 #pragma once
 
 #include <functional>
@@ -14,7 +15,7 @@
 
 namespace signorini {
 
-/// The model is reduced; coupling: delta r_ij of a pair, the same for (i, j) and (j, i).
+/// The model must be reduced; coupling: delta r_ij of a pair, the same for (i, j) and (j, i).
 void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model);
 
 }  // namespace signorini

@@ -13,12 +13,12 @@
 namespace signorini {
 namespace {
 
-// Nearer to its limit than this part of it a contact may slide. Chosen, as for starts of reduced models.
+// Relative distance to the friction limit below which a contact may slide. Chosen as for starts of reduced models.
 constexpr double at_limit = 1e-9;
 
 bool rubs(const Model& model, const Contact& c) { return model.statics.frictional && c.has_friction(); }
 
-/// Friction holds it below its limit, by a spring.
+/// True if friction holds the contact below its limit, by a spring.
 bool sticks(const Model& model, std::size_t k) {
   const Contact& c = model.contacts[k];
   const double limit = sticking_limit(c, -model.statics.reactions[k]);
@@ -26,7 +26,7 @@ bool sticks(const Model& model, std::size_t k) {
          std::abs(c.initial_shear) < (1.0 - at_limit) * limit;
 }
 
-/// In `near`, with the sliding point where it is.
+/// Shears in `near`, with unchanged sliding points.
 std::vector<double> shears(const Model& model, const Model& near) {
   std::vector<double> list;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -38,7 +38,7 @@ std::vector<double> shears(const Model& model, const Model& near) {
   return list;
 }
 
-/// Forces at u0 that are left where the contacts that bear have the forces of their gaps there, rigid ones of the start.
+/// Unbalanced forces at u0, with contact forces from the gaps, for rigid contacts from the start.
 Vector left_over(const Model& model, const std::vector<double>& reactions,
                  const std::vector<double>& shears) {
   Vector force = static_load(model.loads, model.size()) - model.stiffness * model.u0;
@@ -60,7 +60,7 @@ bool bears(const Model& model, std::size_t k) {
   return !model.contacts[k].normal_force_given() && model.statics.reactions[k] > 0.0;
 }
 
-/// No contact that bears has left, and none that is open has come.
+/// True if no loaded contact has opened, and no open one has closed.
 bool keeps_states(const Model& model, const Model& near, const Vector& u) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
@@ -76,7 +76,7 @@ bool keeps_states(const Model& model, const Model& near, const Vector& u) {
 
 namespace {
 
-/// Static, and all friction in it holds below its limits, by springs.
+/// True for a static start in which all friction is below its limits, by springs.
 bool is_known(const Model& model) {
   if (!model.static_start || model.statics.reactions.size() != model.contacts.size()) return false;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -113,7 +113,7 @@ std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
     return held.solve(p, Vector::Zero(static_cast<Eigen::Index>(rows.size()))).first;
   };
   std::optional<Vector> w = solve();
-  // Free motions are held where ut = 0.
+  // Free motions are fixed by ut = 0.
   for (std::size_t k = 0; !w && k < model.contacts.size(); ++k) {
     const Combination& tangent = near.contacts[k].tangent;
     if (tangent.terms.empty() ||

@@ -8,9 +8,9 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t rows_beside = 3;  // of each near hit, before and after
+constexpr std::size_t rows_beside = 3;  // before and after each near hit
 
-/// How much the gap of a contact is off between two runs, from the columns of their rows.
+/// Difference of a contact's gap between two runs, from the columns of their rows.
 class GapDifference {
  public:
   GapDifference(const Model& model, const Kept& run, const Kept& companion)
@@ -23,7 +23,8 @@ class GapDifference {
     }
   }
 
-  /// The greatest around t; where displacements of a contact have no columns, what the greatest of all could do to its gap.
+  /// The largest difference around t; if a contact's displacements have no columns, the largest possible effect of all
+  /// differences on its gap.
   [[nodiscard]] double around(double t, const Contact& contact) const {
     const std::size_t rows = std::min(run_.t.size(), other_.t.size());
     const auto at = static_cast<std::size_t>(
@@ -58,7 +59,8 @@ class GapDifference {
   const Model& model_;
   const KeptRows &run_, &other_;
   std::vector<int>
-      column_of_;  // of the displacement of a degree of freedom; -1: none; empty: columns are not its
+      column_of_;  // column of each displacement; -1: none; empty: columns do not match the degrees of
+                   // freedom
 };
 
 }  // namespace

@@ -1,10 +1,10 @@
-// open_hits.hpp: hits that neither a run nor its companion may have seen.
+// open_hits.hpp: impacts that a run and its companion may both have missed.
 //
-//   least gap g of the companion,   e = c max |g - g'| at rows around that time:   open where g <= e
-//   from when on: g + bend (t' - t)^2 = g + e
+//   smallest gap g of the companion,   e = c max |g - g'| at rows around that time:   open if g <= e
+//   starting time: g + bend (t' - t)^2 = g + e
 //
-// A run whose error is that of many steps passes by a hit that just grazes, and so does its companion where its own error is
-// no smaller.
+// A run with accumulated step errors may miss a grazing impact, and so may its companion if its own error is no
+// smaller.
 #pragma once
 
 #include "certify/bounds.hpp"
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// The first of these near hits that is open. factor: c.
+/// The first of these near impacts that is open. factor: c.
 [[nodiscard]] std::optional<Track::Objection> first_open_hit(const Model& model, const Kept& run,
                                                              const Kept& companion,
                                                              const std::vector<NearHit>& near, double factor);

@@ -18,7 +18,7 @@ void Tracker::sample(const Sample& sample) {
   if (all_) {
     for (const ContactSample& contact : sample.contacts)
       rows.values.insert(rows.values.end(), {contact.N, contact.T});
-    // The outputs of a time come after its sample, unless they are those that came last.
+    // Outputs of a time come after its sample, unless they were the last ones received.
     if (last_time_ == sample.t)
       rows.values.insert(rows.values.end(), last_outputs_.begin(), last_outputs_.end());
     else

@@ -1,9 +1,9 @@
-// tracker.hpp: what is kept of a run and of its companions, while they run.
+// tracker.hpp: data recorded from a run and from its companions.
 //
-//   Tracker own(model, run, &recorder)      passes all on to the recorder
-//   Tracker other(model, run)               keeps events and the columns of history.csv, passes nothing on
+//   Tracker own(model, run, &recorder)      forwards everything to the recorder
+//   Tracker other(model, run)               keeps events and the columns of history.csv, forwards nothing
 //
-// A companion runs in a thread of its own: it stops where the run has ended, or where it is told to.
+// A companion runs in its own thread: it stops where the run has ended, or on request.
 #pragma once
 
 #include <atomic>
@@ -15,13 +15,13 @@
 
 namespace signorini {
 
-/// Columns of history.csv, row by row; then N and T of each contact, and the outputs, where they are wanted.
+/// Columns of history.csv, row by row; then N and T of each contact, and the outputs, if requested.
 struct KeptRows {
   std::size_t width = 0;
   std::vector<double> t, values;
 };
 
-/// How far companions may go; changed by the run's thread.
+/// Limit of the companions' time; changed by the run's thread.
 class Leash {
  public:
   void stop_at(double t) { end_.store(t, std::memory_order_relaxed); }
@@ -37,8 +37,7 @@ inline constexpr std::size_t forces_a_row = 2;
 
 class Tracker : public ForwardingRecorder {
  public:
-  /// Both must outlive it; without a recorder nothing is passed on.
-  /// `all`: forces and outputs, too.
+  /// Both arguments must outlive the object; without a recorder nothing is forwarded. `all`: also forces and outputs.
   explicit Tracker(const Model& model, bool all, Recorder* next = nullptr)
       : ForwardingRecorder(next), model_(model), all_(all), companion_(next == nullptr) {
     rows.width =
@@ -52,15 +51,15 @@ class Tracker : public ForwardingRecorder {
 
   std::vector<TimedEvent> events;
   KeptRows rows;
-  const Leash* leash = nullptr;                                 ///< of a companion
-  double most_steps = std::numeric_limits<double>::infinity();  ///< of a companion
+  const Leash* leash = nullptr;                                 ///< only for a companion
+  double most_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
   bool too_long = false;                                        ///< it was ended by most_steps
-  double moved = 0.0;  ///< of a companion: part of the time of the next events that it has added itself
+  double moved = 0.0;  ///< for a companion: part of the time of the next events that it has added itself
 
  private:
   const Model& model_;
   bool all_, companion_;
-  double last_time_ = std::numeric_limits<double>::quiet_NaN();  // of the outputs that came last
+  double last_time_ = std::numeric_limits<double>::quiet_NaN();  // of the last outputs
   std::vector<double> last_outputs_;
   double steps_ = 0.0;
 };

@@ -5,7 +5,7 @@
 namespace signorini {
 namespace {
 
-/// Force of a contact by the displacement that it is off; 0: nobody knows.
+/// Contact force per error of its displacement; 0: unknown.
 double stiffness_of(const Contact& contact, const ComplianceShare& share) {
   const double own = (share.normal ? contact.normal_spring() : contact.tangent_spring()).value_or(0.0);
   if (own > 0.0) return own;
@@ -15,7 +15,7 @@ double stiffness_of(const Contact& contact, const ComplianceShare& share) {
 }  // namespace
 
 Truncation truncation_of(const Model& model, const Reduction& reduction, const std::vector<Peak>& peaks) {
-  if (peaks.size() < model.contacts.size()) return {};  // nothing was computed
+  if (peaks.size() < model.contacts.size()) return {};  // not computed
   std::vector<double> off(peaks.size(), reduction.ringing);
   for (const ComplianceShare& share : reduction.shares) {
     if (share.contact < 0) continue;

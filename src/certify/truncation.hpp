@@ -1,15 +1,15 @@
-// truncation.hpp: what leaving modes out may have moved the contacts of a reduced model, and their forces.
+// truncation.hpp: possible effect of the modes left out on contacts of a reduced model, and on their forces.
 //
-//   f_d = compliance left out in direction d of a contact  x  the contact's greatest force along d
-//   off = ringing + the greater f of the contact's two
-//   displacement = greatest off
-//   force = greatest of off x the contact's spring along d, or off / compliance in d where it has none
+//   f_d = compliance left out in direction d of a contact  x  the contact's largest force along d
+//   off = ringing + the larger f of the contact's two directions
+//   displacement = largest off
+//   force = largest of off x the contact's spring along d, or off / compliance in d without a spring
 //
-// ringing: of the jumps of loads in the modes left out. A motion that is off across a contact moves it along
-// its tangent, too, as an axis that is bent does: hence the greater of the two. A spring makes of a gap that
-// is off what its stiffness says at once; the structure behind it yields later (measured: beside the full
-// pipeline, forces are off by kn times what displacements are). Estimates: a change of force may shift an
-// event, which they know nothing of.
+// ringing: oscillation of the modes left out after jumps of loads. A displacement error across a contact also moves it
+// along its tangent, as the deflection of a bent axis does: hence the larger of the two. A spring immediately converts
+// an error of the gap to a force; the structure behind it yields later (measured: compared with the full pipeline,
+// errors of forces are kn times those of displacements). These are estimates: a change of force may shift an event,
+// which they do not include.
 #pragma once
 
 #include "signorini/certify.hpp"

@@ -15,12 +15,13 @@
 namespace signorini {
 namespace {
 
-// Of the range: differences of the map over it have its second derivative times it, and noise over it, which the residual
-// of an orbit shows: the square root of it balances both. Chosen: the bounds of `exact`, and what `ida` takes.
+// Step of finite differences relative to the range: the error is the second derivative times the step, plus noise over
+// the step, which the residual of an orbit shows; its square root balances both. Chosen bounds for `exact`, and the
+// step for `ida`.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-constexpr std::size_t most_kept = 4;  // maps: those of a point, of its difference, of the next point
-constexpr double most_periods = restart_periods + 4.0;  // of a transient, and of the orbit itself
-constexpr double same_time = 1e-9;  // of a period: rounding of times that are written as text
+constexpr std::size_t most_kept = 4;  // maps: for a point, its difference, and the next point
+constexpr double most_periods = restart_periods + 4.0;  // transient, and the orbit itself
+constexpr double same_time = 1e-9;  // relative to a period: rounding of times written as text
 
 }  // namespace
 
@@ -62,7 +63,7 @@ Orbit BranchMap::orbit_at(const BranchState& state) const {
 BranchMap BranchMap::doubled() const {
   BranchMap twice = *this;
   twice.options_.orbit.times *= 2;
-  twice.section_ *= 0.5;  // a part of the period
+  twice.section_ *= 0.5;  // as a fraction of the period
   twice.start_.duration *= 2.0;
   twice.kept_.clear();
   return twice;
@@ -72,7 +73,7 @@ double BranchMap::parameter(double s) const {
   return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
 }
 
-/// Loads that repeat themselves act up to the end of the run: far enough for the period at s and a transient.
+/// Periodic loads must act until the end of the run: long enough for the period at s and a transient.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
     return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", shortest(t_end)}});
@@ -84,7 +85,7 @@ Scene BranchMap::scene_at(double s) const {
   return needed > t_end_ ? until(needed) : scene;
 }
 
-/// Errors: SceneError where the loads do not repeat themselves as they do at the start of the branch.
+/// Errors: SceneError if the loads do not have the same kind of period as at the start of the branch.
 LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   const LoadPeriod loads = options_.orbit.period ? check_period(scene, *options_.orbit.period, drive_)
                                                  : load_period(scene, drive_);
@@ -103,7 +104,7 @@ double BranchMap::period_of(const Scene& scene) const {
 
 double BranchMap::period(double s) const { return autonomous_ ? start_.duration : kept(s).period; }
 
-/// A state of one model means nothing in a model with other unknowns.
+/// A state of one model is meaningless in a model with other unknowns.
 void BranchMap::check_structure(const Model& model) const {
   const bool same_basis = model.basis.has_value() == first_.basis.has_value() &&
                           model.reduction.has_value() == first_.reduction.has_value() &&
@@ -120,7 +121,7 @@ BranchMap::Kept BranchMap::make(double s) const {
   run.flow = orbit_flow(model, run);
   model = rescaled(std::move(model), inverse(machine_));
   check_structure(model);
-  model.scales = first_.scales;  // tolerances and amplitudes are those of the whole branch
+  model.scales = first_.scales;  // tolerances and amplitudes are the same along the whole branch
   run = rescaled(run, inverse(machine_));
   const double period = autonomous_ ? 0.0 : period_of(scene);
   auto map =
@@ -201,7 +202,7 @@ Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) 
   const double h = name_of(at(state.s)->run().engine).accuracy == Accuracy::rounding
                        ? std::clamp(std::sqrt(noise), difference, greatest_difference)
                        : difference_of_steps;
-  const double side = state.s < 0.5 ? h : -h;  // within the range
+  const double side = state.s < 0.5 ? h : -h;  // stays within the range
   if (const auto other = gap(state.s + side)) return (*other - here) / side;
   if (const auto other = gap(state.s - side)) return (here - *other) / side;
   return Vector::Zero(here.size());

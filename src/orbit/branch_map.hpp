@@ -1,12 +1,12 @@
-// branch_map.hpp: the period map of a scene at any value of one of its keys.
+// branch_map.hpp: the period map of a scene for any value of one of its keys.
 //
-//   y = (x, dT, s)       x: directions at the section; dT where the motion is driven by itself; s: (p - from)/(to - from)
-//   G(y) = B^T (z(T; z, s) - z),    dG/ds by a difference of the map, dG/dx from Phi
-//   of conservative motions one row more: (E(x, s) - E*(s))/E1 = 0
+//   y = (x, dT, s)       x: directions at the section; dT for self-excited motions; s: (p - from)/(to - from)
+//   G(y) = B^T (z(T; z, s) - z),    dG/ds by a finite difference of the map, dG/dx from Phi
+//   conservative motions have one more row: (E(x, s) - E*(s))/E1 = 0
 //     over the energy:            E*(s) = from + s (to - from), E1 = to - from, and dG/ds = 0
 //     over a key at an energy:    E* = E1 = that energy
 //
-// All models have the units of the machine of the first one, so that states are comparable.
+// All models use the machine units of the first one, so states are comparable.
 #pragma once
 
 #include "orbit/load_period.hpp"
@@ -16,13 +16,13 @@
 
 namespace signorini {
 
-/// Of a transient that looks for the orbit behind a gap of the branch.
+/// Length of a transient that searches for the orbit behind a gap of the branch.
 inline constexpr int restart_periods = 40;
 
-/// An orbit, or a guess at one.
+/// An orbit, or an initial guess of one.
 struct BranchState {
   OrbitState state;       ///< at the section
-  double duration = 0.0;  ///< machine's; of a forced orbit that of the loads
+  double duration = 0.0;  ///< machine units; for a forced orbit the period of the loads
   double s = 0.0;
 };
 
@@ -30,16 +30,16 @@ class BranchMap {
  public:
   BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first, Recorder* recorder);
 
-  /// What find_orbit() would say of this orbit: period, phase, the state at its time 0.
+  /// The orbit in the form of find_orbit(): period, phase, the state at its time 0.
   [[nodiscard]] Orbit orbit_at(const BranchState& state) const;
-  /// The same over twice the period.
+  /// The same map over twice the period.
   [[nodiscard]] BranchMap doubled() const;
   [[nodiscard]] bool autonomous() const { return autonomous_; }
-  /// Over the energy of conservative motions.
+  /// True for a branch over the energy of conservative motions.
   [[nodiscard]] bool conservative() const { return options_.path == over_energy; }
-  /// Over the energy, or over a key at a given energy.
+  /// True for a branch over the energy, or over a key at a given energy.
   [[nodiscard]] bool keeps_energy() const { return conservative() || options_.orbit.energy.has_value(); }
-  /// E*(s) of orbits that keep it, in the scene's unit; E1.
+  /// E*(s) in the scene's unit, and E1; nullopt if the energy is not prescribed.
   [[nodiscard]] std::optional<double> energy(double s) const {
     return conservative() ? std::optional(parameter(s)) : options_.orbit.energy;
   }
@@ -48,24 +48,24 @@ class BranchMap {
   }
   [[nodiscard]] double range() const { return options_.to - options_.from; }
   [[nodiscard]] double parameter(double s) const;
-  /// The loads' period at s, times `times`; machine's.
+  /// The loads' period at s, times `times`; machine units.
   [[nodiscard]] double period(double s) const;
   [[nodiscard]] const BranchState& start() const { return start_; }
   [[nodiscard]] const Model& model() const { return first_; }
-  /// Section as a part of the period.
+  /// Section as a fraction of the period.
   [[nodiscard]] double section() const { return section_; }
   void move_section(double part) { section_ = part; }
 
-  /// Those of the last values of s are kept.
+  /// The map at s; maps for the last values of s are kept.
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
-  /// The state at s that holds what this mode holds rigidly: n . u = -g0 and n . v = 0 of closed contacts, t . v that of the
-  /// surface of those that stick. A key may move all three.
+  /// The state at s that satisfies the rigid constraints of this mode: n . u = -g0 and n . v = 0 for closed contacts, t
+  /// . v equal to that of the surface for sticking ones. A key may change all three.
   [[nodiscard]] OrbitState fitted(OrbitState state, const Mode& mode, double s) const;
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
-  /// Margins alone, from many rows.
+  /// A pass with margins only, from many rows.
   [[nodiscard]] OrbitPass margins(const BranchState& state) const;
-  /// dG/ds by a difference to one side, coordinates at the section, not yet times B^T, and the row of the energy if there is
-  /// one. A matrix of Newton's method and a direction: neither needs more digits.
+  /// dG/ds by a one-sided difference, in coordinates at the section, not yet times B^T, and the row of the energy if
+  /// there is one. Its accuracy is sufficient for a matrix of Newton's method and a direction.
   [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
 
  private:
@@ -79,8 +79,8 @@ class BranchMap {
   Recorder* recorder_;
   bool autonomous_;
   Factors machine_;
-  double phase_;  // machine's
-  double t_end_;  // of scenes
+  double phase_;  // machine units
+  double t_end_;  // of the scenes
   SilentLoads drive_;
   double section_ = 0.0;
   Model first_;

@@ -14,25 +14,26 @@ namespace signorini {
 namespace {
 
 constexpr int most_corrections = 10;
-constexpr double longest_correction = 0.1;  // in the norm; steps are shorter. Chosen.
-constexpr double slow = 0.02;  // of the residual: more is left where dG/ds is that of another point
+constexpr double longest_correction = 0.1;  // limit in the norm; steps are shorter. Chosen value.
+constexpr double slow = 0.02;  // reduction of the residual; beyond it dG/ds is recomputed at this point
 constexpr double corrected_at_last = 1e-9;  // residual over amplitude, as in shooting.cpp
-// A residual does not fall below a few times the noise of the map. Chosen.
+// The residual cannot decrease below a few times the noise of the map. Chosen value.
 constexpr double of_noise = 4.0;
-constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is near. Chosen.
-constexpr double least_left = 1e-6;     // of a direction that is no family's. Chosen.
-constexpr double held_from = 0.7;       // |t_s|: from there on the parameter is held by corrections. Chosen.
-constexpr double least_size = 1e-3;     // of a coordinate in the norm; chosen
-// As in shooting.cpp; the finer one where a correction left most of the residual.
+constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is near. Chosen value.
+constexpr double least_left = 1e-6;     // remainder of a direction outside all families. Chosen value.
+constexpr double held_from = 0.7;       // |t_s| from which corrections hold the parameter. Chosen value.
+constexpr double least_size = 1e-3;     // lower limit for a coordinate in the norm; chosen value
+// As in shooting.cpp; the finer one is used if a correction left most of the residual.
 constexpr double singular = 1e-9, finer_singular = 1e-12;
 constexpr double amplitudes_a_range =
-    5.0;  // in which the state may change as far as the parameter in its range
-// Of the greatest amplitude of the branch: below, steps no longer shrink with the amplitude, and reach zero. Chosen.
+    5.0;  // weight of a change of the state relative to that of the parameter in its range
+// Relative to the largest amplitude of the branch: below it steps no longer shrink with the amplitude, so that it can
+// reach zero. Chosen value.
 constexpr double vanishing = 0.05;
-// Of dz/ds, beside the motion: above the noise of dG/ds. Chosen; who asks tries it.
+// Remainder of dz/ds beside the motion: above the noise of dG/ds. Chosen value; the caller verifies the result.
 constexpr double shifts_by = 1e-3;
 
-/// sqrt(m_i/m) of coordinates at a section, in scales; 1 where there is no mass.
+/// sqrt(m_i/m) for coordinates at a section, in scales; 1 where there is no mass.
 Vector mass_weights(const Model& model, const OrbitSection& section) {
   const auto n = model.size();
   Vector root(n);
@@ -53,13 +54,13 @@ BranchState BranchNewton::moved(const BranchState& from, const OrbitPass& pass, 
   const OrbitSection section(map_.model(), pass.begin);
   BranchState to = from;
   to.state = section.moved(orbit_state(pass.begin), sizes_.cwiseProduct(dy.head(section.size())));
-  to.s = std::clamp(from.s + dy[dy.size() - 1], 0.0, 1.0);  // outside, the key may mean nothing
+  to.s = std::clamp(from.s + dy[dy.size() - 1], 0.0, 1.0);  // the key may be invalid outside
   to.state = map_.fitted(std::move(to.state), pass.begin.mode, to.s);
   to.duration = map_.autonomous() ? from.duration * (1.0 + dy[section.size()]) : map_.period(to.s);
   return to;
 }
 
-/// dG/dy, rows and columns in the norm: x by its sizes, T by itself. With the phase condition where T is unknown.
+/// dG/dy, rows and columns in the norm: x by its sizes, T by itself; with the phase condition if T is unknown.
 Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass& pass,
                                        const Vector& by_s) const {
   const OrbitSection section(map_.model(), pass.begin);
@@ -95,7 +96,7 @@ Vector BranchNewton::by_parameter(const BranchState& state, const OrbitPass& pas
   return by_s;
 }
 
-/// Why a pass is no step of the branch; empty: it is one.
+/// Reason why a pass cannot be a step of the branch; empty: it can.
 std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) const {
   if (!pass.done()) return "the run over one period stopped: " + pass.outcome.reason;
   if (pass.end_rates.size() == 0) return "the state after one period has no derivative: " + pass.reason;
@@ -104,7 +105,7 @@ std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) 
 
 double BranchNewton::closed_at_last() const { return std::max(corrected_at_last, of_noise_at_last * noise_); }
 
-/// E*(s) - E(x, s), in the scene's units; 0 where no energy is kept.
+/// E*(s) - E(x, s), in the scene's units; 0 if no energy is prescribed.
 double BranchNewton::energy_missing(const Corrected& c) const {
   const std::optional<double> kept = map_.energy(c.state.s);
   return kept ? *kept - c.pass.energy : 0.0;
@@ -143,7 +144,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
     Vector dy = shortest_solution(A, b, least);
-    if (held) dy[dy.size() - 1] = 0.0;  // to rounding it is
+    if (held) dy[dy.size() - 1] = 0.0;  // it is zero to rounding
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
       return c;
@@ -156,7 +157,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
   return c;
 }
 
-/// Where events appear and vanish between steps, as beside a graze, Phi jumps, and full steps go to and fro.
+/// Damped steps. Where events appear and vanish between steps, as beside a graze, Phi jumps, and full steps alternate.
 void BranchNewton::close_damped(Corrected& c, Eigen::Index unknowns) const {
   const ShootingStart start{c.state.state, c.state.duration, false, closed_at_last(), {}};
   Shot shot = shoot(*map_.at(c.state.s), start, corrected_to);
@@ -197,7 +198,7 @@ BranchNewton::Way BranchNewton::split(Corrected& at, const Vector& way) const {
   return {rest / rest.norm(), part / std::max(rest.norm(), part.norm())};
 }
 
-/// Along a family Phi - I is zero, too: t is not to drift along it.
+/// Removes from t its part along families, where Phi - I is zero, too: t must not drift along them.
 Vector BranchNewton::without_families(Corrected& at, const Vector& t) const {
   return families(at).cols() == 0 ? t : split(at, t).across;
 }
@@ -249,7 +250,7 @@ Vector BranchNewton::flip_direction(const Corrected& at) const {
 Vector BranchNewton::other_direction(Corrected at, const Vector& t) const {
   if (at.by_s.size() == 0) at.by_s = by_parameter(at.state, at.pass);
   const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.by_s);
-  // t is one of the two vectors that J takes to zero: with its row, the other one is left.
+  // t is one of two null vectors of J; with t as an additional row, the other one remains.
   Eigen::MatrixXd A(J.rows() + 1, J.cols());
   A << J, t.transpose();
   Vector away = symmetric_eigen(A.transpose() * A).vectors.col(0);

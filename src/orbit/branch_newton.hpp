@@ -1,14 +1,14 @@
-// branch_newton.hpp: Newton's method across a branch of orbits.
+// branch_newton.hpp: Newton's method orthogonal to a branch of orbits.
 //
 //   y = y0 + ds t,   t: the direction of the branch, |t| = 1
 //   [ dG/dy ]        [ -G ]
-//   [  t^T  ] dy  =  [  0 ]         so that folds are passed
+//   [  t^T  ] dy  =  [  0 ]         regular at folds
 //
-// Norm: the range of the parameter counts as 1, and a state all of whose kinds change by a few of their amplitudes. A
-// coordinate with little mass counts less, by sqrt(m_i/m): the fast mode shapes of a fine mesh are in it.
+// Norm: the range of the parameter counts as 1, and so does a change of a state by a few amplitudes of each kind. A
+// coordinate with little mass, such as in the fast mode shapes of a fine mesh, counts less, by sqrt(m_i/m).
 //
-// Far from folds the parameter is held while Newton's method corrects the state: a key that moves the period turns the
-// phases of fast mode shapes by omega dT, and dG/ds means little a step further on.
+// Far from folds the parameter is fixed while Newton's method corrects the state: a key that changes the period rotates
+// the phases of fast mode shapes by omega dT, so dG/ds is outdated a step further.
 #pragma once
 
 #include "orbit/branch_map.hpp"
@@ -16,91 +16,91 @@
 
 namespace signorini {
 
-/// Residual over amplitude that corrections aim at, unless the noise of the map is greater.
+/// Target for the residual over amplitude, unless the noise of the map is larger.
 inline constexpr double corrected_to = 1e-11;
 
-/// Cosine of two directions that count as one. Chosen.
+/// Cosine of two directions that count as equal. Chosen value.
 inline constexpr double alike = 0.9;
 
-/// A point of the branch, as a secant needs it.
+/// A point of the branch, as needed for a secant.
 struct BranchPlace {
   OrbitPoint begin;
   double duration = 0.0, s = 0.0;
 };
 
-/// What a correction ended with.
+/// Result of a correction.
 struct Corrected {
   bool done = false;
-  std::string reason;  ///< why not
+  std::string reason;  ///< reason for a failure
   BranchState state;
   OrbitPass pass;
   double residual = 0.0;
   int iterations = 0;
   Vector
-      by_s;  ///< B^T dG/ds at this point, and the row of the energy if there is one; empty: not asked for yet
-  Eigen::MatrixXd monodromy;  ///< with multipliers and tests: of examine()
+      by_s;  ///< B^T dG/ds at this point, and the row of the energy if there is one; empty: not computed yet
+  Eigen::MatrixXd monodromy;  ///< with multipliers and tests: from examine()
   Multipliers multipliers;
   double error = 0.0;      ///< error_of() the monodromy matrix
-  std::size_t ones = 0;    ///< multipliers that are 1 for reasons of their own
-  Eigen::MatrixXd family;  ///< of families(), once asked for
+  std::size_t ones = 0;    ///< number of multipliers that are structurally 1
+  Eigen::MatrixXd family;  ///< result of families(), computed on request
   TestValues tests;
 };
 
 class BranchNewton {
  public:
-  /// map must outlive it.
+  /// map must outlive the object.
   explicit BranchNewton(BranchMap& map) : map_(map) {}
 
-  /// What counts as 1 in the norm follows from this pass. t: a direction that is to mean the same.
+  /// Sets the units of the norm from this pass. t: a direction to be converted to the new norm.
   void measure(const OrbitPass& pass, Vector* t = nullptr);
-  /// Unknowns of y at the section of a pass.
+  /// Number of unknowns of y at the section of a pass.
   [[nodiscard]] Eigen::Index size(const OrbitPass& pass) const {
     return OrbitSection(map_.model(), pass.begin).size() + (map_.autonomous() ? 2 : 1);
   }
-  /// Along the parameter alone.
+  /// The direction of the parameter alone.
   [[nodiscard]] Vector upwards(const OrbitPass& pass, double sign) const {
     Vector t = Vector::Zero(size(pass));
     t[t.size() - 1] = sign;
     return t;
   }
   [[nodiscard]] BranchState moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const;
-  /// by_s: of the point before, which serves as long as Newton's method converges; empty: none.
+  /// by_s: value at the previous point, used as long as Newton's method converges; empty: none.
   [[nodiscard]] Corrected correct(BranchState guess, const Vector& t, const Vector& by_s) const;
-  /// The direction of the branch, towards where `before` points; multipliers and test functions. ones: as many multipliers
-  /// are 1 for reasons of their own as at the point before; absent: those that are, where no special point is near. known:
+  /// Returns the direction of the branch, oriented like `before`; computes multipliers and test functions. ones: number
+  /// of structural multipliers 1, as at the point before; absent: counted, where no special point is near. known:
   /// `before` is the direction.
   Vector examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones = {},
                  bool known = false) const;
-  /// Whether corrections hold the parameter along this direction.
+  /// True if corrections fix the parameter for this direction.
   [[nodiscard]] static bool holds(const Vector& t);
-  /// Directions of families: so many columns as multipliers are 1 for reasons of their own, in y, of length 1.
+  /// Directions of families: one column for each structural multiplier 1, in y, of length 1.
   [[nodiscard]] const Eigen::MatrixXd& families(Corrected& at) const;
-  /// A way along the branch: what leads along families no longer counts in the length of a step.
+  /// A way along the branch; its part along families does not count in the length of a step.
   struct Way {
-    Vector across;  ///< without families, of length 1
-    Vector drift;   ///< along families, for each unit of that; at most 1
+    Vector across;  ///< without families, length 1
+    Vector drift;   ///< along families, per unit of `across`; at most 1
   };
   [[nodiscard]] Way split(Corrected& at, const Vector& way) const;
-  /// Coordinates at the section, dT/T, s of the orbit of twice the period that leaves at a flip.
+  /// Direction of the orbit of twice the period at a flip: coordinates at the section, dT/T, s.
   [[nodiscard]] Vector flip_direction(const Corrected& at) const;
-  /// The same of the branch that crosses the one along t at a branch point.
+  /// Direction of the branch that crosses the one along t at a branch point.
   [[nodiscard]] Vector other_direction(Corrected at, const Vector& t) const;
-  /// Of such coordinates, of length 1.
+  /// Such coordinates scaled to length 1 in the norm.
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
-  /// How far v leads along t, as corrections keep it: of t itself 1.
+  /// Component of v along t, as corrections preserve it: 1 for t itself.
   [[nodiscard]] static double along(const Vector& v, const Vector& t) {
     return holds(t) ? v[v.size() - 1] / t[t.size() - 1] : v.dot(t);
   }
-  /// From a point before to this one; nothing where the state at the section has other unknowns.
+  /// Difference from one point to another; nullopt if the state at the section has other unknowns.
   [[nodiscard]] std::optional<Vector> difference(const BranchPlace& from, const Corrected& to) const;
-  /// Of length 1; nothing where both points are one.
+  /// The normalised difference; nullopt if both points coincide.
   [[nodiscard]] std::optional<Vector> secant(const BranchPlace& from, const Corrected& to) const;
-  /// The noise of the map (shooting.hpp) is what the next corrections can reach.
+  /// Updates the noise of the map (shooting.hpp), which limits the following corrections.
   void hear_noise(const OrbitPass& first, const OrbitPass& second);
   [[nodiscard]] double noise() const { return noise_; }
-  /// Residual at which a correction is done that gets no further.
+  /// Residual up to which a stagnating correction is accepted.
   [[nodiscard]] double closed_at_last() const;
-  /// Where dz/ds is along the motion: the time by which the orbit at the section is later, a unit of s.
+  /// If dz/ds is along the motion: the time shift of the orbit at the section per unit of s.
   [[nodiscard]] std::optional<double> shift(const Corrected& at, const Vector& t) const;
 
  private:
@@ -114,9 +114,9 @@ class BranchNewton {
   [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
 
   BranchMap& map_;
-  Vector sizes_;           // of x, in scales: what counts as 1 in the norm
+  Vector sizes_;           // units of x in the norm, in scales
   double greatest_ = 0.0;  // amplitude of the state along the branch, in scales
-  double noise_ = 0.0;     // of the map, over the amplitude
+  double noise_ = 0.0;     // noise of the map, relative to the amplitude
 };
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// What lies between two points of a branch: zeros of test functions, changes of the sequence of events.
+// Special points between two points of a branch: zeros of test functions, changes of the sequence of events.
 #include <algorithm>
 #include <cmath>
 
@@ -8,22 +8,24 @@
 namespace signorini {
 namespace {
 
-constexpr double beside_section = 1e-4;  // of the period, from an event to the section. Chosen.
-// In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
+constexpr double beside_section = 1e-4;  // relative to the period, from an event to the section. Chosen
+                                         // value.
+// In the norm: resolution of changes of the sequence, and at least ten times the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
-// An orbit is as continuous at a graze as a root of the key. Beyond ten times the root of the width the other orbit does not
-// meet this one, and is that of another branch. Chosen: ten.
+// An orbit at a graze is as continuous as a square root of the key. If the other orbit differs by more than ten times
+// the root of the width, it belongs to another branch. Chosen value.
 constexpr double roots_apart = 10.0;
-constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not doubted. Chosen.
-constexpr double parts_apart = 1e3;        // of that: two places show the way from one to the other. Chosen.
+constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not checked. Chosen value.
+constexpr double parts_apart = 1e3;        // times that: distance of two places that determine a direction.
+                                           // Chosen value.
 
-constexpr double rounded = 1e-9;  // of the greatest step: above the rounding of s. Chosen.
+constexpr double rounded = 1e-9;  // relative to the largest step: above the rounding of s. Chosen value.
 
 constexpr const char* other_branch = "other branch";
 
 BranchPlace place_of(const Corrected& at) { return {at.pass.begin, at.state.duration, at.state.s}; }
 
-/// An event at the section may count twice, or not at all.
+/// An event at the section may be counted twice, or not at all.
 bool event_at_section(const Corrected& at) {
   const double T = at.state.duration;
   return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
@@ -33,14 +35,14 @@ bool event_at_section(const Corrected& at) {
 
 }  // namespace
 
-/// Where a test function is zero on the step from here to next.
+/// Place where a test function is zero on the step from here to next.
 std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, const Corrected& here,
                                                        const Corrected& next, const Vector& t,
                                                        double ds) const {
   const double a = here.tests.*kind.value, b = next.tests.*kind.value;
   if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
-  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // that is what a fold does
+  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // a fold causes this
   Located point{0.0, kind.name, {}, {}};
   const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
     Corrected c = newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.by_s);
@@ -51,27 +53,27 @@ std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, 
   });
   if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
   point.part = *part;
-  // Where two branches cross any direction in their plane is a tangent: the way from here to next tells which one is this branch's.
+  // Where two branches cross, every direction in their plane is a tangent; the way from here to next is this branch's.
   if (kind.value == &TestValues::branch)
     if (const auto way = newton_.secant(place_of(here), next)) point.t = newton_.split(point.at, *way).across;
   return point;
 }
 
-/// The last point with the sequence of here; kind: other_branch where the next one does not meet it.
+/// The last point with the sequence of `here`; kind: other_branch if the next one is not connected to it.
 std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
                                                                const Vector& t, double ds) const {
   const std::string sequence = sequence_of(here.pass);
   if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
   Located point{0.0, "sequence", {}, {}};
-  bool seen = true;  // another sequence at the end of the interval, not a failure
+  bool seen = true;  // a different sequence at the end of the interval, not a failure
   const auto stretches = [&](const Corrected& c) {
     return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
   };
   const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
   SequenceSearch search(stretches(here), stretches(next), enough / ds);
-  Vector way = ds * t;  // a step in x, along what was found last
+  Vector way = ds * t;  // a step in x along the last direction found
   std::string beyond = sequence_of(next.pass);
-  BranchPlace other = place_of(next);  // the nearest orbit with another sequence
+  BranchPlace other = place_of(next);  // the nearest orbit with a different sequence
   while (!search.done()) {
     const double x = search.next();
     const Corrected& from = point.at.done ? point.at : here;
@@ -105,9 +107,9 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
   return point;
 }
 
-/// Whether the parameter turns on a step without a place where it does, or a multiplier passes 1 without a turn and without a place
-/// where it is 1. Both are continuous as long as the sequence of events stays: the next orbit is then one of another branch, as
-/// behind a fold.
+/// True if the parameter turns on a step without a located fold, or a multiplier passes 1 without a turn and without a
+/// place where it is 1. Both are continuous as long as the sequence of events does not change, so the next orbit then
+/// belongs to another branch, as behind a fold.
 bool BranchWalk::changes_unseen(const Corrected& here, const Corrected& next,
                                 const std::vector<Located>& points) const {
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
@@ -116,8 +118,8 @@ bool BranchWalk::changes_unseen(const Corrected& here, const Corrected& next,
   return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
 }
 
-/// Whether the way from one point to another differs from the branch's direction at the first one, `before`, or, onward, at the
-/// second one. A tangent is no direction of the branch where fast mode shapes turn it.
+/// True if the way from one point to another differs from the branch's direction at the first one, `before`, or,
+/// onward, at the second one. Where fast mode shapes rotate the tangent, it is no direction of the branch.
 bool BranchWalk::bends(const BranchPlace& from, Corrected& to, const Vector* before, bool onward) const {
   const std::optional<Vector> secant = newton_.secant(from, to);
   if (!secant) return false;
@@ -128,14 +130,14 @@ bool BranchWalk::bends(const BranchPlace& from, Corrected& to, const Vector* bef
   return onward && !turning_ && differs(newton_.examine(to, *secant));
 }
 
-/// Whether the branch turns on the step by more than its points show: what lies between could be another part of it, or another
-/// branch. At a change of the sequence it may have a corner.
+/// True if the branch turns on the step by more than its points show: another part of it, or another branch, could lie
+/// between. At a change of the sequence it may have a corner.
 bool BranchWalk::too_long(const Corrected& here, Corrected& next, const Vector& t, double length,
                           std::vector<Located>& points) const {
   if (length <= shortest_doubted) return false;
   if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
   if (sequence_of(here.pass) == sequence_of(next.pass)) {
-    // Where it goes on at both ends it has not come back: the other point is on another arm, as across a resonance.
+    // If it continues at both ends it has not returned: the other point is on another arm, as across a resonance.
     const double along = t[t.size() - 1];
     if (along * next.tests.fold > 0.0 && along * (next.state.s - here.state.s) < 0.0) return true;
     return bends(place_of(here), next, &t, true);
@@ -147,13 +149,13 @@ bool BranchWalk::too_long(const Corrected& here, Corrected& next, const Vector& 
   if (doubted(change->part) && bends(place_of(here), change->at, &t, false)) return true;
   if (!doubted(1.0 - change->part)) return false;
   const auto folds = [](const Located& p) { return p.kind == "fold"; };
-  const double there = next.state.s - change->at.state.s;  // a fold close behind the corner, or at it?
+  const double there = next.state.s - change->at.state.s;  // a fold just behind the corner, or at it?
   if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
   return bends(place_of(change->at), next, nullptr, true);
 }
 
-/// Special points of the step. Where Newton's method has changed to another branch on the way, next becomes the last orbit of
-/// this one, and length is shorter.
+/// Special points of the step. If Newton's method has changed to another branch on the way, next becomes the last orbit
+/// of this one, and length is reduced.
 std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corrected& next, const Vector& t,
                                                      double& length) {
   std::vector<Located> all;
@@ -176,7 +178,7 @@ std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corr
     if (point) all.push_back(std::move(*point));
   };
   for (const SpecialKind& kind : special_kinds) {
-    // Close before a graze a test function may pass zero and jump at it: the part before is searched on its own.
+    // Just before a graze a test function may pass zero and jump at the graze: the part before is searched separately.
     std::optional<Located> zero =
         change ? zero_of(kind, here, change->at, t, change->part * length) : std::nullopt;
     if (zero) zero->part *= change->part;
@@ -193,7 +195,7 @@ std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corr
   return all;
 }
 
-/// The same; next is refused where the step is too long to know what lies between.
+/// Same; next is rejected if the step is too long to know the points between.
 std::vector<BranchWalk::Located> BranchWalk::between(const Corrected& here, Corrected& next, const Vector& t,
                                                      double& length) {
   newton_.examine(next, t);
@@ -205,9 +207,9 @@ std::vector<BranchWalk::Located> BranchWalk::between(const Corrected& here, Corr
   return points;
 }
 
-/// Special points between here and next are added, in their order. A step crosses one change of the sequence: where more follow, next becomes
-/// a place before the second one. Returns the place that shows the way at next, which has its sequence; nothing: nobody
-/// wants more.
+/// Adds the special points between here and next, in their order. A step crosses one change of the sequence; if more
+/// follow, next becomes a place before the second one. Returns the place that determines the direction at next, with
+/// the same sequence; nullopt: the caller wants to stop.
 std::optional<BranchPlace> BranchWalk::cross(std::vector<Located> points, const Corrected& here,
                                              Corrected& next, const Vector& t, double& length) {
   BranchPlace place = place_of(here);

@@ -16,17 +16,18 @@ namespace signorini {
 namespace {
 
 constexpr double shortest_step = 1e-7;  // in the norm
-constexpr int quick = 4;                // corrections, after which the next step may be longer
-constexpr double longest_way = 10.0;  // of a step: a branch turns by less, or the point is elsewhere. Chosen.
-constexpr double shifted_to = 1e-3;   // residual over amplitude: what noise leaves of a shift. Chosen.
-constexpr double restart_step = 2e-3;  // of the range
-// Of amplitudes from the rows of a period, and of multipliers between two points: that two orbits are one. Chosen.
+constexpr int quick = 4;                // number of corrections up to which the next step may be longer
+constexpr double longest_way = 10.0;    // relative to a step: longer ones change branch. Chosen.
+constexpr double shifted_to = 1e-3;     // residual over amplitude: effect of noise on a shift. Chosen value.
+constexpr double restart_step = 2e-3;   // relative to the range
+// For amplitudes from the rows of a period, and multipliers between two points: difference up to which two orbits are
+// one. Chosen value.
 constexpr double same_amplitude = 0.05;
 
 }  // namespace
 
-/// Without a branch: a little further on, by damped steps of Newton's method from here, which find unstable orbits and those
-/// with another sequence of events, too; else after a transient.
+/// Finds an orbit a little further on: by damped steps of Newton's method from here, which also find unstable orbits
+/// and other sequences of events; otherwise after a transient.
 bool BranchWalk::restart(Corrected& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
   if (next.s < 0.0 || next.s > 1.0) return false;
@@ -51,7 +52,7 @@ bool BranchWalk::restart(Corrected& here, double sign) {
   return transient.done() && close(orbit_state(transient.end));
 }
 
-/// To the middle of the family that the orbit is one of.
+/// Moves to the middle of the family that contains the orbit.
 bool BranchWalk::centre(Corrected& here, const Vector& t) {
   std::optional<Corrected> middle = family_middle(map_, newton_, here, t);
   if (!middle || sequence_of(middle->pass) != sequence_of(here.pass)) return false;
@@ -59,7 +60,7 @@ bool BranchWalk::centre(Corrected& here, const Vector& t) {
   return true;
 }
 
-/// A section away from events, if this one is near to one. The point before moves there, too.
+/// Chooses a section away from events if this one is too near. The previous point is moved as well.
 void BranchWalk::cut_anew(Corrected& here, std::optional<BranchPlace>& place) {
   if (map_.autonomous()) return;
   const double T = here.state.duration;
@@ -88,7 +89,8 @@ void BranchWalk::cut_anew(Corrected& here, std::optional<BranchPlace>& place) {
   place = std::move(place_there);
 }
 
-/// Which way the parameter goes on: no section changes it, whereas the branch may be bent more in another one.
+/// Continuing direction of the parameter: independent of the section, whereas the branch may bend more in another
+/// section.
 void BranchWalk::look_ahead(const std::optional<BranchPlace>& place, Corrected& next) {
   ahead_ = 0.0;
   if (!place || map_.autonomous() || turning_) return;
@@ -98,8 +100,9 @@ void BranchWalk::look_ahead(const std::optional<BranchPlace>& place, Corrected& 
   if (std::abs(along) > located_to) ahead_ = along;
 }
 
-/// Of the next step: the tangent, as long as it agrees with the way that the branch has come. Where fast mode shapes take
-/// part it does not: their phases turn within a step. The tangent, a difference of the map, is not asked for again there.
+/// Direction of the next step: the tangent, as long as it agrees with the branch's last step. With fast mode shapes it
+/// does not, because their phases rotate within a step; the tangent, a difference of the map, then is not computed
+/// again.
 Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected& here, const Vector& before) {
   const std::optional<Vector> secant =
       place && !map_.autonomous() ? newton_.secant(*place, here) : std::nullopt;
@@ -113,7 +116,7 @@ Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected&
   return (turning_ ? way : tangent) + drift;
 }
 
-/// It begins where it is least in alphabetical order: the section may move.
+/// Starts with its alphabetically least rotation, because the section may move.
 std::string BranchWalk::sequence_of(const OrbitPass& pass) const {
   std::vector<std::string> list;
   for (const Event& e : pass.events)
@@ -134,7 +137,7 @@ int BranchWalk::number_of_sequence(const OrbitPass& pass) {
   return number;
 }
 
-/// False: nobody wants more.
+/// Returns false if the caller wants to stop.
 bool BranchWalk::add(const Corrected& here, const std::string& special) {
   const Model& model = map_.model();
   Orbit orbit;
@@ -165,7 +168,7 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   point.branch = number_;
   if (points_ > 0 && !point_is_located && folds_) what.emplace_back("fold");
   if (points_ > 0 && (!point_is_located || special == "sequence")) {
-    // A change of the sequence alone explains none of stability beside it.
+    // A change of the sequence alone does not explain a change of stability.
     const BranchPoint& last = branch_.points.back();
     const bool explained = located_ && !last.special.ends_with("sequence");
     if (last.stable != point.stable && !explained) what.emplace_back("stability");
@@ -181,7 +184,7 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   return !branch_.interrupted;
 }
 
-/// The first point. False: the branch ends there.
+/// Adds the first point. False: the branch ends there.
 bool BranchWalk::begin(Corrected& here) {
   here.state = map_.start();
   here.pass = map_.pass(here.state);
@@ -193,7 +196,7 @@ bool BranchWalk::begin(Corrected& here) {
   return here.done;
 }
 
-/// To the next point, or to the end of the range where it is nearer.
+/// Steps to the next point, or to the end of the range if it is nearer.
 Corrected BranchWalk::step(const Corrected& here, const Vector& t, double ds, bool last) const {
   BranchState to = newton_.moved(here.state, here.pass, ds * t);
   if (last) {
@@ -211,7 +214,7 @@ Corrected BranchWalk::step(const Corrected& here, const Vector& t, double ds, bo
   return next;
 }
 
-/// The orbit is the same for all values of the key, but shifted in time: at the end of the range, too.
+/// True if the orbit is the same for all values of the key, apart from a time shift, up to the end of the range.
 bool BranchWalk::only_shifts(const Corrected& here, const Vector& t) const {
   const std::optional<double> shift = newton_.shift(here, t);
   if (!shift) return false;
@@ -228,7 +231,7 @@ bool BranchWalk::only_shifts(const Corrected& here, const Vector& t) const {
   return pass.done() && orbit_residual(map_.model(), pass) <= shifted_to;
 }
 
-/// Whether the branch has a point at this value of the key with this sequence, amplitude and multiplier.
+/// True if the branch has a point at this value of the key with this sequence, amplitude and multiplier.
 bool BranchWalk::has_passed(const Corrected& at) {
   const Model& model = map_.model();
   const Multipliers all = multipliers_of(monodromy(model, at.pass)),
@@ -251,8 +254,8 @@ bool BranchWalk::has_passed(const Corrected& at) {
   return false;
 }
 
-/// A step to another sequence may have changed to the second of two orbits that meet: it is kept. False: the walk has turned
-/// back, and comes to what it has passed.
+/// A step to another sequence may have switched to the second of two merging orbits; that one is kept. False: the walk
+/// has turned back, and repeats its points.
 bool BranchWalk::keeps_going(const Corrected& here, const Corrected& next, double along) {
   if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
   if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
@@ -291,7 +294,7 @@ bool BranchWalk::beyond(const Corrected& here, Corrected& next, Vector& t) {
   return false;
 }
 
-/// end_ stays empty where it ends for what the caller wants.
+/// end_ stays empty if it ends at the caller's request.
 void BranchWalk::walk(Corrected here, Vector t) {
   double ds = 0.25 * options_.step;
   while (points_ < options_.most_points) {
@@ -331,7 +334,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     here = std::move(next);
     t = before;
     newton_.measure(here.pass, &t);
-    here.family = {};  // it was in the norm before
+    here.family = {};  // it was in the norm of the previous point
     t = direction(place, here, t);
     if (centre(here, t)) t = direction(place, here, t);
     keep_mark(here, t);
@@ -352,7 +355,8 @@ void BranchWalk::walk(Corrected here, Vector t) {
   }
 }
 
-/// At an end of the range. Back at its begin behind a gap the branch is one of two pieces, and not complete.
+/// Describes an end of the range. A branch that returns to its beginning behind a gap is one of two pieces, and not
+/// complete.
 void BranchWalk::tell_end(const Corrected& here, double along) {
   end_ = fmt::format("{} {} = {:.9g}", along > 0.0 ? "reached" : "returned to", options_.path, value(here));
   if (along > 0.0 || number_ != 1) return;
@@ -405,7 +409,7 @@ void BranchWalk::offer_mark() {
   if (number_ == 1 && options_.marks) options_.marks([this] { return mark().value(); });
 }
 
-/// What a scene refuses on the way ends the branch, which keeps its points.
+/// A scene that is refused on the way ends the branch, whose points are kept.
 void BranchWalk::guarded(const std::function<void()>& walk) {
   try {
     walk();
@@ -433,7 +437,7 @@ bool BranchWalk::depart(const Junction& junction, Corrected& here, Vector& t) {
   t = newton_.in_norm(junction.away);
   for (double ds = 0.25 * options_.step; ds >= shortest_step; ds *= 0.5) {
     Corrected next = newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, {});
-    // It begins along t: elsewhere is an orbit of another branch, as the simple one, counted twice.
+    // It must begin along t; elsewhere the orbit belongs to another branch, such as the simple one, counted twice.
     const BranchPlace begin{here.pass.begin, here.state.duration, here.state.s};
     if (!next.done || bends(begin, next, &t, false)) continue;
     const std::optional<BranchPlace> place{begin};
@@ -458,7 +462,8 @@ void BranchWalk::leave(const Junction& junction) {
   });
 }
 
-/// Whether the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z turns round, at the same section.
+/// True if the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z reverses, at the same
+/// section.
 bool BranchWalk::returns(const Corrected& here) {
   BranchState half = here.state;
   half.duration *= 0.5;

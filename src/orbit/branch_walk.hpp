@@ -1,12 +1,12 @@
-// branch_walk.hpp: one branch of orbits, point by point.
+// branch_walk.hpp: follows one branch of orbits, point by point.
 //
 //   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
 //   (special_points.hpp)
 //
-// Of a family of orbits the walk follows the one in its middle (family_middle.hpp).
+// In a family of orbits the walk follows the middle one (family_middle.hpp).
 //
-// Where no step is short enough, as where a guard grazes, the orbit a little further on is looked for by a transient.
-// Where another branch begins the walk keeps a junction:
+// If no step is short enough, for instance where a guard grazes, a transient searches for the orbit a little further
+// on. Where another branch begins, the walk stores a junction:
 //
 //   flip            (Phi + I) v = 0: the orbit of twice the period leaves along v
 //   branch point    two directions t, w with dG/dy t = dG/dy w = 0: the other branch leaves along w and -w
@@ -16,19 +16,19 @@
 
 namespace signorini {
 
-/// Where another branch begins.
+/// Beginning of another branch.
 struct Junction {
-  BranchMap map;  ///< of the other branch
-  Corrected at;   ///< the point of the branch that it leaves
-  Vector away;    ///< coordinates at the section, dT/T where T is unknown, s
+  BranchMap map;  ///< map of the other branch
+  Corrected at;   ///< point of the branch that it leaves
+  Vector away;    ///< coordinates at the section, dT/T if T is unknown, s
   std::string kind;
   int from = 1;        ///< number of the branch that it leaves
-  int generation = 1;  ///< so many switches led there
+  int generation = 1;  ///< number of switches that led there
 };
 
 class BranchWalk {
  public:
-  /// Points and sequences are added to `branch`. All but map must outlive it.
+  /// Adds points and sequences to `branch`. All arguments except map must outlive the object.
   BranchWalk(const BranchOptions& options, BranchMap map, Branch& branch, int number, int generation,
              const std::function<void(const BranchPoint&)>& seen)
       : options_(options),
@@ -40,14 +40,14 @@ class BranchWalk {
   BranchWalk(const BranchWalk&) = delete;
   BranchWalk& operator=(const BranchWalk&) = delete;
 
-  /// From the map's first orbit on.
+  /// Follows the branch from the map's first orbit.
   void follow();
-  /// From a junction on.
+  /// Follows the branch from a junction.
   void leave(const Junction& junction);
 
   [[nodiscard]] const std::string& end() const { return end_; }
   [[nodiscard]] bool complete() const { return complete_; }
-  /// Of the last point.
+  /// Mark of the last point.
   [[nodiscard]] std::optional<BranchMark> mark();
   [[nodiscard]] std::vector<Junction>& junctions() { return junctions_; }
 
@@ -70,13 +70,13 @@ class BranchWalk {
   [[nodiscard]] Vector direction(const std::optional<BranchPlace>& place, Corrected& here,
                                  const Vector& before);
   bool add(const Corrected& here, const std::string& special);
-  /// A point between two others, and where.
+  /// A special point between two others, and its position.
   struct Located {
-    double part = 0.0;  // of the step
+    double part = 0.0;  // fraction of the step
     std::string kind;
     Corrected at;
     Vector t;
-    /// Of a change of the sequence, where yet another one follows within the step: the farthest place found before that.
+    /// For a change of the sequence, if another one follows within the step: the farthest place found before that.
     std::optional<Corrected> behind = {};
     double behind_part = 1.0;
   };
@@ -101,7 +101,7 @@ class BranchWalk {
   [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
   [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
   [[nodiscard]] double value(const Corrected& at) const { return map_.parameter(at.state.s); }
-  /// Runs a walk; a scene that is refused on the way ends it.
+  /// Runs a walk; a refused scene ends it.
   void guarded(const std::function<void()>& walk);
 
   const BranchOptions& options_;
@@ -113,31 +113,31 @@ class BranchWalk {
   std::vector<Junction> junctions_;
   std::string end_;
   bool complete_ = false;
-  /// The last orbit that was found behind a gap or a change of the sequence, and where the walk came from.
+  /// The last orbit found behind a gap or a change of the sequence, and the place the walk came from.
   struct FoundBeyond {
     Corrected at;
     double section, sign;
   };
   std::optional<FoundBeyond> found_beyond_;
-  // Steps in a row that ended at another branch, as beside a graze where a multiplier without bound leaves Newton's method no
-  // room: after so many the branch is sought further on. Chosen.
+  // Limit of successive steps that ended at another branch, as beside a graze where an unbounded multiplier leaves
+  // Newton's method no room; then the branch is searched further on. Chosen value.
   static constexpr int most_jumps = 4;
   int jumps_ = 0;
-  bool crossed_gap_ = false;  // it was found anew at least once
-  bool turned_back_ = false;  // it goes from found_beyond_ the other way
+  bool crossed_gap_ = false;  // it was found again at least once
+  bool turned_back_ = false;  // it walks from found_beyond_ in the opposite direction
   std::optional<BranchState> last_;
   double last_section_ = 0.0;
   std::size_t last_points_ = 0;
   bool towards_to_ = true;
   int points_ = 0;
   bool located_ = false;  // the last point is a located one
-  bool folds_ = false;    // the parameter turns between the last two points, and no fold was located
-  bool turning_ = false;  // the tangent is not the way of the branch (direction())
+  bool folds_ = false;    // the parameter turns between the last two points, without a located fold
+  bool turning_ = false;  // the tangent differs from the way of the branch (direction())
   double ahead_ =
-      0.0;  // t_s of the tangent at the last point, in the section of the step that led there; 0: not known
+      0.0;  // t_s of the tangent at the last point, in the section of the step that led there; 0: unknown
   bool doubled_ = false;  // it began at a flip
   double half_section_ = 0.0;
-  Vector half_;  // of a doubled branch: z(T/2) - z at the last point
+  Vector half_;  // for a doubled branch: z(T/2) - z at the last point
 };
 
 }  // namespace signorini

@@ -8,11 +8,11 @@
 namespace signorini {
 namespace {
 
-// Two margins are equal: of the lesser one, and between those parts of the amplitude of T. Chosen.
+// Difference of equal margins: relative to the smaller one, within these fractions of the amplitude of T. Chosen value.
 constexpr double balanced = 1e-3, finest = 1e-8, coarsest = 1e-5;
-constexpr double along_family = 1e-5;  // step of differences, in the norm; chosen
+constexpr double along_family = 1e-5;  // step of finite differences, in the norm; chosen value
 constexpr double singular_family =
-    1e-6;  // a direction that moves no margin, in amplitudes of T a unit. Chosen.
+    1e-6;  // limit for a direction that changes no margin, in amplitudes of T per unit. Chosen value.
 constexpr int most_centrings = 3;
 
 std::vector<std::size_t> never_slip(const Model& model, const OrbitPass& pass) {
@@ -31,7 +31,7 @@ Vector imbalances(const std::vector<std::size_t>& contacts, const OrbitPass& pas
   return d;
 }
 
-/// Whether they count as zero.
+/// True if the differences count as zero.
 bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass, const Vector& d) {
   double least = pass.T_amplitude;
   for (const std::size_t c : contacts) least = std::min({least, pass.margins[c][0], pass.margins[c][1]});
@@ -39,7 +39,7 @@ bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass
   return d.cwiseAbs().maxCoeff() <= std::clamp(balanced * least, finest * T, coarsest * T);
 }
 
-/// Their derivatives along directions of the family; empty: not known. here: those of the point.
+/// Their derivatives along directions of the family; empty: unknown. here: differences at the point.
 Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const Corrected& at,
                        const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& directions,
                        const Vector& here) {
@@ -67,7 +67,7 @@ std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton&
     if (is_balanced(contacts, fine, d)) break;
     const Eigen::MatrixXd D = slopes(map, newton, at, contacts, directions, d);
     if (D.size() == 0) break;
-    // Where all else slips the structure moves with the anchor, and no force changes.
+    // If everything else slips, the structure moves with the anchor, and no force changes.
     const Vector part = shortest_solution(D, -d, singular_family, at.pass.T_amplitude);
     if (!(part.norm() > 0.0)) break;
     Corrected next = newton.correct(newton.moved(at.state, at.pass, directions * part),

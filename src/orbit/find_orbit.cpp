@@ -19,19 +19,21 @@
 namespace signorini {
 namespace {
 
-constexpr int most_transients = 3;    // each twice as long as the one before
-constexpr double beside = 1e-6;       // of the amplitude: members of a family beside the orbit. Chosen.
-constexpr double seen_periods = 1.1;  // in which events are seen: one at a begin is none of that run
-constexpr int most_repeats = 6;       // periods after which a transient is asked whether it repeats itself
-constexpr double comes_back = 1e-3;   // of the amplitude; chosen
-// Parts of a period after which a motion of its own may have closed already; a search that begins with a guess finds any
-// multiple. Larger primes are not looked for. Chosen.
+constexpr int most_transients = 3;    // each twice as long as the previous one
+constexpr double beside = 1e-6;       // relative to the amplitude: distance of neighbouring members of a
+                                      // family. Chosen value.
+constexpr double seen_periods = 1.1;  // duration of the recorded events: an event at the beginning of a run
+                                      // is not recorded
+constexpr int most_repeats = 6;       // number of periods after which a transient is checked for repetition
+constexpr double comes_back = 1e-3;   // relative to the amplitude; chosen value
+// Divisors of a period for which a self-excited motion may have closed already, because a search with an initial guess
+// finds any multiple. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};
-// Residual over amplitude after a part of the period from which Newton's method begins anew, and how far it may move that
-// part: what is left of an orbit that closed to 1e-9 (shooting.cpp). Chosen.
+// Residual over amplitude after a fraction of the period up to which Newton's method restarts with that fraction, and
+// limit of its change: what remains of an orbit that closed to 1e-9 (shooting.cpp). Chosen value.
 constexpr double nearly_closed = 1e-7;
 
-/// One search.
+/// One search for an orbit.
 class Search {
  public:
   Search(const SceneReader& read, const OrbitOptions& options, Recorder* recorder);
@@ -60,21 +62,21 @@ class Search {
   const SceneReader& read_;
   OrbitOptions options_;
   Recorder* recorder_;
-  Model given_;  // in the scene's units, loads as at `phase`
+  Model given_;  // in the scene's units, with loads as at `phase`
   std::optional<PeriodMap> map_;
-  double unit_ = 1.0;    // of time
-  double before_ = 0.0;  // machine's time of the scene at which the loads repeat themselves
-  double period_ = 0.0;  // of the loads times `times`, machine's
+  double unit_ = 1.0;    // unit of time
+  double before_ = 0.0;  // machine time of the scene from which the loads are periodic
+  double period_ = 0.0;  // of the loads times `times`, machine units
   double tolerance_, closed_ = 0.0;
   Orbit orbit_;
   Shot shot_;
   OrbitState initial_;
-  Model first_;  // as the scene begins, in the machine's units
+  Model first_;  // initial model of the scene, in the machine's units
   RunSpec run_;
   std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
 };
 
-/// Time over which histories that begin anew must be known.
+/// Time over which periodic histories must be known.
 double long_enough(const LoadPeriod& loads, const OrbitOptions& options) {
   const double T = loads.period.value_or(0.0) * options.times;
   return loads.settled + T * (4.0 * options.transient + 4.0);
@@ -96,18 +98,18 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
   set_period(scene);
 }
 
-/// Energy is kept where nothing acts, damps or rubs.
+/// Energy is conserved if nothing drives, damps or rubs.
 void check_conservative(const Scene& scene, const LoadPeriod& loads) {
   if (!scene.loads.empty() || loads.period || loads.surfaces_move)
     throw UsageError("--energy: expected a scene without loads and belts");
 }
 
-/// The model, its engine, and what the loads say of the period.
+/// Sets the model, its engine, and the period of the loads.
 void Search::set_period(const Scene& scene) {
   const bool conservative = options_.energy.has_value();
   LoadPeriod loads =
       options_.period && !conservative ? check_period(scene, *options_.period) : load_period(scene);
-  // At rest under loads of amplitude zero: the begin, or the end, of a branch over that amplitude.
+  // Rest under loads of amplitude zero: the beginning or end of a branch over that amplitude.
   if (!loads.period && !loads.surfaces_move && !conservative)
     loads = load_period(scene, driving_loads(scene));
   orbit_.autonomous = !loads.period || (options_.period && !load_period(scene).period && loads.surfaces_move);
@@ -182,7 +184,7 @@ bool Search::forced() {
   return false;
 }
 
-/// After how many periods the transient comes back to a state of its own, as behind a flip.
+/// Number of periods after which the transient repeats itself, as behind a flip; as a text.
 std::string Search::repeated(const OrbitState& state) const {
   OrbitState now = state;
   std::optional<OrbitPass> first;
@@ -235,7 +237,7 @@ bool Search::close(const OrbitState& state, double section, double period) {
   return true;
 }
 
-/// A period of the motion itself that is several times the least one: the same orbit closes after T/n, too.
+/// The period found may be a multiple of the smallest one: the same orbit then closes after T/n, too.
 void Search::shorten() {
   if (!orbit_.autonomous || options_.times > 1 || !(shot_.pass.u_amplitude > 0.0)) return;
   for (const int n : shorter_by)
@@ -249,7 +251,7 @@ void Search::shorten() {
     }
 }
 
-/// Multipliers, families.
+/// Computes multipliers and families.
 void Search::stability() {
   const OrbitPass& pass = shot_.pass;
   if (pass.end_rates.size() == 0) {
@@ -263,7 +265,7 @@ void Search::stability() {
                                     ? monodromy(model, next)
                                     : Eigen::MatrixXd();
   const Multipliers all = multipliers_of(phi);
-  // Along the motion, and of conservative ones from energy to energy.
+  // Along the motion, and for conservative orbits also from energy to energy.
   const std::size_t ones = count_ones(all), of_time = options_.energy ? 2 : orbit_.autonomous ? 1 : 0;
   std::size_t families = ones > of_time ? ones - of_time : 0;
   for (std::size_t c = 0; c < pass.held.size(); ++c) {
@@ -279,7 +281,7 @@ void Search::stability() {
   if (!orbit_.families.empty()) see_edge(phi);
 }
 
-/// A member of a family beside this one in which a contact slips that never does here: Phi is that of the other side.
+/// Detects a neighbouring member of the family in which a contact slips that never slips here: Phi is then one-sided.
 void Search::see_edge(const Eigen::MatrixXd& phi) {
   const OrbitPass& pass = shot_.pass;
   const OrbitSection section(map_->model(), pass.begin);
@@ -301,13 +303,14 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
     }
 }
 
-/// A turn between two places is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.
+/// With these intervals an extreme is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.
 constexpr int places_told = 720;
-/// Of the period: an event so near to the orbit's time 0 is at it. Chosen: what is left of an orbit that closed to 1e-9.
+/// Relative to the period: an event this near to the orbit's time 0 is at it. Chosen: the remainder of an orbit that
+/// closed to 1e-9.
 constexpr double same_instant = 1e-9;
 
-/// Events of a period from the section on, in the order from the orbit's time 0 on. A run that begins there does not tell of
-/// one at its begin, and rounding decides whether it tells of one at its end.
+/// Events of a period from the section on, reordered to start at the orbit's time 0. A run that begins there does not
+/// record an event at its beginning, and rounding decides whether it records one at its end.
 std::vector<Event> since_time_0(std::vector<Event> events, double section, double period) {
   for (Event& event : events) {
     event.t += section;
@@ -317,7 +320,7 @@ std::vector<Event> since_time_0(std::vector<Event> events, double section, doubl
   return events;
 }
 
-/// The start, and what is told of a period.
+/// Records the start, and the results of a period.
 void Search::tell(const OrbitState& at_section, double section) {
   const Model base = orbit_.autonomous ? map_->model() : driven_from(first_, before_);
   const PeriodMap map = map_of(base, false), from_section = map_of(map_->model(), false);

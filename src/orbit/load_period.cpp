@@ -13,12 +13,13 @@
 namespace signorini {
 namespace {
 
-// Of a period: that two are one, or in a ratio of integers. Periods are given with at least so many digits. Chosen.
+// Relative difference up to which periods are equal, or in a ratio of integers. Periods are given with at least this
+// number of digits. Chosen value.
 constexpr double same_period = 1e-9;
 constexpr int most_multiples = 100;
-constexpr int compared_places = 41;  // of a history with itself a period later; chosen
+constexpr int compared_places = 41;  // comparison of a history with itself one period later; chosen value
 
-/// A history of the scene, and the key that holds it.
+/// A history of the scene, and its key.
 struct Driver {
   const HistorySpec* spec;
   std::string key;
@@ -64,7 +65,7 @@ double own_period(const HistorySpec& spec) {
   return spec.period > 0.0 ? spec.period : 2.0 * std::numbers::pi / std::abs(spec.omega);
 }
 
-/// From when on it repeats itself, or stands still.
+/// Time from which the history is periodic or constant.
 double settled_at(const HistorySpec& spec) {
   if (spec.in_code) return spec.in_code->starts().empty() ? 0.0 : spec.in_code->starts().back();
   if (spec.type == HistoryType::table)
@@ -82,7 +83,7 @@ LoadPeriod settled(const std::vector<Driver>& all) {
   return found;
 }
 
-/// Smallest common multiple; nothing: there is none.
+/// Smallest common multiple; nullopt: there is none.
 std::optional<double> common(double a, double b) {
   if (a < b) std::swap(a, b);
   for (int k = 1; k <= most_multiples; ++k) {
@@ -92,8 +93,8 @@ std::optional<double> common(double a, double b) {
   return std::nullopt;
 }
 
-/// A support that is accelerated starts at rest at zero: it comes back only where neither a velocity nor a displacement of a
-/// period is left.
+/// An accelerated support starts at rest at zero: it only returns if the velocity and the displacement of a period
+/// vanish.
 void check_drift(const Driver& d, const History& acceleration, double settled, double period) {
   const History moved = acceleration.integrated().integrated();
   double size = 0.0, drift = 0.0;

@@ -9,11 +9,11 @@
 namespace signorini {
 namespace {
 
-// A multiplier is 1, to the rounding of Phi and of a double eigenvalue. Chosen: a disturbance that needs 1e7 periods to
-// die out is said to stay.
+// Distance of a multiplier from 1 up to which it counts as 1, given the rounding of Phi and of a double eigenvalue.
+// Chosen value: a disturbance that needs 1e7 periods to die out counts as permanent.
 constexpr double one = 1e-7;
 
-/// The greatest distance from a multiplier to the nearest of the others.
+/// The largest distance from a multiplier of one set to the nearest of the other.
 double apart(const Multipliers& a, const Multipliers& b) {
   double greatest = 0.0;
   for (const auto& x : a) {

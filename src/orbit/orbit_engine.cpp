@@ -9,9 +9,9 @@
 namespace signorini {
 namespace {
 
-// Chosen: a series takes a step for every 5 decay times, some hundred steps a period.
+// Chosen: a series takes a step for every 5 decay times, so some hundred steps per period.
 constexpr double most_decays = 2000.0;
-constexpr double of_tolerance = 100.0;  // chosen: errors of a step add up over the steps of a period
+constexpr double of_tolerance = 100.0;  // chosen value: errors of steps accumulate over a period
 
 }  // namespace
 

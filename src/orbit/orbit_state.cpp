@@ -9,7 +9,7 @@ History from(const History& history, double time) {
   return history.is_constant() && history.starts().empty() ? history : history.shifted(-time);
 }
 
-/// A form's row in coordinates whose places are `places`, from `first` on.
+/// Adds a form's row in coordinates with indices `places`, from `first` on.
 void add_form(const Combination& form, const std::vector<Eigen::Index>& places, std::size_t first,
               const Vector& scales, std::vector<Vector>& rows) {
   Vector row = Vector::Zero(scales.size());

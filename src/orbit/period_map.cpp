@@ -11,9 +11,9 @@
 namespace signorini {
 namespace {
 
-constexpr int fewest_in_modes = 6;  // below, series are as fast. Chosen.
+constexpr int fewest_in_modes = 6;  // below this the series is as fast. Chosen value.
 
-/// The least value of a function that is seen at some times: that of a parabola where three of them have one.
+/// Minimum of a sampled function: of the parabola through three samples around it.
 class Least {
  public:
   void see(double t, double value) {
@@ -38,7 +38,7 @@ class Least {
   double least_ = std::numeric_limits<double>::infinity(), vertex_ = least_;
 };
 
-/// Amplitudes, events.
+/// Records amplitudes and events.
 class CycleRecorder final : public Recorder {
  public:
   CycleRecorder(const Model& model, Recorder* outer, OrbitPass& pass)
@@ -110,7 +110,7 @@ class NoRows final : public TangentListener {
   }
 };
 
-/// A derivative of the model that moves nothing.
+/// A zero derivative of the model.
 ModelDerivative still(const Model& model) {
   ModelDerivative d;
   d.mass = d.damping = d.stiffness = SparseMatrix(model.size(), model.size());
@@ -120,10 +120,10 @@ ModelDerivative still(const Model& model) {
   return d;
 }
 
-/// The tangents of all columns of a section's basis.
+/// Tangents of all columns of a section's basis.
 class Bundle {
  public:
-  /// flow: null, or what the columns cross stretches by.
+  /// flow: null, or the closed form with which the columns cross stretches.
   Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, StateFlow* flow)
       : section_(model, begin) {
     for (Eigen::Index k = 0; k < section_.size(); ++k) {
@@ -228,7 +228,7 @@ Energy change(const Energy& from, const Energy& to) {
 
 PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder)
     : model_(std::move(model)), run_(run), recorder_(recorder) {
-  model_.machine = {};  // it is in those units already
+  model_.machine = {};  // it is in machine units already
   model_.reaction_sums.clear();
   model_.warnings.clear();
   run_.certify = Certify::no;
@@ -243,7 +243,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   RunSpec run = run_;
   run.t_end = leg.duration;
   run.output_dt = leg.duration / leg.places;
-  RunSpec bare = run;  // tangents want no rows
+  RunSpec bare = run;  // tangents need no rows
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);
   if (leg.tangents && model_.size() >= fewest_in_modes && (!flow_ || !flow_->fits(model_)))

@@ -1,9 +1,9 @@
-// period_map.hpp: the motion over a period from a state at a section, and how its end moves with that state.
+// period_map.hpp: motion over a period from a state at a section, and the derivative of its end by that state.
 //
 //   z -> z(T; z),     Phi B = the tangent motions of all columns of B, beside one run
 //
-// Phi: the product of the stretches' propagators and of the events' rank-one jumps (sensitivity/tangent_run.hpp).
-// Units: of the model that is computed, the machine's; events and energies are those of the scene.
+// Phi: product of the stretches' propagators and of the events' rank-one jumps (sensitivity/tangent_run.hpp). Units:
+// those of the computed model, the machine's; events and energies in units of the scene.
 #pragma once
 
 #include <array>
@@ -18,35 +18,38 @@ namespace signorini {
 struct OrbitPass {
   Outcome outcome;
   OrbitPoint begin, end;
-  std::vector<OrbitPoint> instants;  ///< those in between at which a state changed, just after
+  std::vector<OrbitPoint> instants;  ///< just after each change of a state in between
   std::vector<Event> events;         ///< without jumps of loads
   Energy cycle;
   double energy = 0.0;  ///< stored at the beginning; the scene's units
-  /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest. Rotations count.
+  /// Half the largest range of displacements, velocities and shears, in scales of the model; 0: at rest. Includes
+  /// rotations.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   double amplitude = 0.0;     ///< of displacements alone, without rotations; the scene's unit
-  Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
-  double rates_error = 0.0;   ///< of end_rates, over their greatest entry: rounding and what series leave out
-  std::string reason;         ///< why they are not known
+  Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not requested, or unknown
+  double rates_error = 0.0;   ///< relative to the largest entry of end_rates: rounding and truncation of
+                              ///< series
+  std::string reason;         ///< reason why they are unknown
   std::vector<OutputExtremes> response;
-  /// Least over the rows of f_s |N| - T and of f_s |N| + T, one a contact, in scales of the model.
+  /// Minimum over the rows of f_s |N| - T and of f_s |N| + T, one per contact, in scales of the model.
   std::vector<std::array<double, 2>> margins;
-  std::vector<bool> held;  ///< contacts that never changed their state, closed and not slipping
+  std::vector<bool> held;  ///< contacts that stayed closed without slip all the time
   bool interrupted = false;
 
   [[nodiscard]] bool done() const { return outcome.kind == Outcome::Kind::done; }
 };
 
-/// Places of a pass whose margins decide; chosen: a parabola through three of them is wrong by 1e-7 of the swing.
+/// Number of samples of a pass for margins; chosen value: a parabola through three of them has an error of 1e-7 of the
+/// range.
 inline constexpr int places_of_margins = 192;
 
-/// What one pass is asked for.
+/// Options of one pass.
 struct OrbitLeg {
   const OrbitState& start;
   double duration;
   bool tangents = true;
-  bool outputs = false;  ///< their extremes
-  int places = 24;       ///< of which amplitudes are made; chosen: for scales of the residual
+  bool outputs = false;  ///< compute extremes of outputs
+  int places = 24;       ///< number of samples for amplitudes; chosen value: they only scale the residual
 };
 
 class PeriodMap {
@@ -56,14 +59,14 @@ class PeriodMap {
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] OrbitPass pass(const OrbitLeg& leg) const;
-  /// The row at the end, and all rows before: for last_state().
+  /// The row at the end, with all previous rows: for last_state().
   [[nodiscard]] Result rows(const OrbitState& start, double duration) const;
   [[nodiscard]] const RunSpec& run() const { return run_; }
-  /// What tangents cross stretches by, where modes can: of this structure, kept and handed on from map to map. Null: not
-  /// made yet, or there is none.
+  /// Closed form with which tangents cross stretches, if modes can: for this structure, kept and passed from map to
+  /// map. Null: not created yet, or not available.
   [[nodiscard]] const std::shared_ptr<StateFlow>& flow() const { return flow_; }
   void take_flow(std::shared_ptr<StateFlow> flow) { flow_ = std::move(flow); }
-  /// Mode shapes of contact states, shared by all maps of one search.
+  /// Shares the mode shapes of contact states among all maps of one search.
   void share(std::shared_ptr<ModalMemory> memory) { memory_ = std::move(memory); }
 
  private:

@@ -1,7 +1,7 @@
-// reader_at.hpp: a scene with one key at a value, as a reader of scenes.
+// reader_at.hpp: a reader of a scene with one key set to a value.
 //
 //   reader_at(read, path, x)(changes) = read([path = x, changes...])
-//   branch_reader: the same; a branch over the energy of conservative motions changes no key
+//   branch_reader: the same; for a branch over the energy of conservative motions no key is changed
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ namespace signorini {
   };
 }
 
-/// Stands in place of a key: what is stored by conservative motions.
+/// Path that stands for the energy of conservative motions instead of a key.
 inline constexpr const char* over_energy = "energy";
 
 [[nodiscard]] inline SceneReader branch_reader(SceneReader read, const std::string& path, double value) {

@@ -6,16 +6,18 @@
 namespace signorini {
 namespace {
 
-constexpr double near_enough = 0.02;  // of the range: the first return that is so near is taken. Chosen.
+constexpr double near_enough = 0.02;  // relative to the range: the first return within this distance is used.
+                                      // Chosen value.
 constexpr double too_far = 0.5;
-constexpr double least_distance = 0.02;  // of the period, from the section to an event. Chosen.
+constexpr double least_distance = 0.02;  // relative to the period, from the section to an event. Chosen
+                                         // value.
 
 bool same_states(const OrbitPoint& a, const OrbitPoint& b) {
   return std::equal(a.mode.begin(), a.mode.end(), b.mode.begin(), b.mode.end(),
                     [](const ContactState& x, const ContactState& y) { return x.state == y.state; });
 }
 
-/// Greatest difference of displacements and velocities, in scales.
+/// Largest difference of displacements and velocities, in scales.
 double distance(const Model& model, const OrbitPoint& a, const OrbitPoint& b) {
   double greatest = 0.0;
   const Scales& s = model.scales;

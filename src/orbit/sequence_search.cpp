@@ -7,15 +7,15 @@
 namespace signorini {
 namespace {
 
-// Of a guess that no other one confirms; no guess is trusted further; none less. Chosen on 400 curves: 11 places to 1e-9.
+// Error of a first guess, and its limits. Chosen on 400 curves: 11 places to reach 1e-9.
 constexpr double first_doubt = 0.2, least_doubt = 1e-3, greatest_doubt = 0.5;
 
-/// Up to three values of a stretch, the nearest place last.
+/// Up to three values of a stretch's length, the nearest place last.
 struct Course {
   std::size_t count = 0;
   std::array<double, 3> x{}, d{};
 
-  /// Whether d^2 is nearer to a straight line than d.
+  /// True if d^2 is closer to linear than d.
   [[nodiscard]] bool grazes() const {
     if (count < 3) return true;
     const double part = (x[2] - x[0]) / (x[1] - x[0]);
@@ -23,7 +23,7 @@ struct Course {
     const double of_values = d[0] + part * (d[1] - d[0]) - d[2];
     return std::abs(of_squares) <= 2.0 * d[2] * std::abs(of_values);
   }
-  /// x where f = d^power is zero: the polynomial x(f) through the last `places` values, by Lagrange.
+  /// x at which f = d^power is zero: the polynomial x(f) through the last `places` values, by Lagrange.
   [[nodiscard]] double zero(int power, std::size_t places) const {
     double sum = 0.0;
     const auto f = [&](std::size_t k) { return power == 2 ? d[k] * d[k] : d[k]; };
@@ -58,16 +58,16 @@ void SequenceSearch::see(double x, bool as_at_begin, std::vector<double> stretch
   const std::size_t side = as_at_begin ? 0 : 1;
   bounds_[side] = x;
   std::vector<Place>& places = sides_[side];
-  // Beyond x* one more sequence may follow: its stretches are others.
+  // Beyond x* another sequence may follow, with different stretches.
   if (!places.empty() && places.back().stretches.size() != stretches.size()) places.clear();
   if (!stretches.empty()) places.push_back({x, std::move(stretches)});
 }
 
-/// Of all stretches that become shorter the one that vanishes first, between the bounds.
+/// The first of all decreasing stretches to vanish, within the bounds.
 std::optional<SequenceSearch::Guess> SequenceSearch::guess_from(const std::vector<Place>& places) const {
   if (places.size() < 2) return std::nullopt;
   const double from = places.back().x;
-  // A guess just beyond a bound is one at the bound: it has its own error.
+  // A guess just beyond a bound is moved to the bound, with its own error.
   const auto inside = [&](double x) { return x > low() - enough_ && x < high() + enough_; };
   std::optional<Guess> nearest;
   for (std::size_t k = 0; k < places.back().stretches.size(); ++k) {
@@ -97,7 +97,7 @@ double SequenceSearch::next() {
   if (from_end && !(guess && guess->x - guess->from <= from_end->from - from_end->x)) guess = from_end;
   const std::optional<Guess> before = std::exchange(guess_, guess);
   if (!guess) return middle;
-  // The last guess was wrong by so much of its way; this one has a shorter way.
+  // The error of the last guess relative to its distance; this one has a shorter distance.
   if (!before) doubt_ = first_doubt;
   if (before && before->x != guess->x)
     doubt_ =

@@ -12,24 +12,24 @@ namespace signorini {
 namespace {
 
 constexpr int most_steps = 30, most_halvings = 6;
-// So many steps that do not halve the residual: Newton's method stagnates. Chosen.
+// Number of successive steps that do not halve the residual after which Newton's method stagnates. Chosen value.
 constexpr std::size_t patience = 8;
-constexpr double reached = 1e-2;  // of the tolerance: no step is tried from there on
-// Residual over amplitude at which an orbit is closed although the residual no longer falls: what rounding of a long
-// or stiff period leaves. Chosen; above it a search has failed.
+constexpr double reached = 1e-2;  // relative to the tolerance: no further step below it
+// Residual over amplitude at which an orbit is accepted although the residual no longer decreases: rounding of a long
+// or stiff period. Chosen value; above it a search has failed.
 constexpr double closed_at_last = 1e-9;
-// Singular values of Phi - I below this, relative to the greatest and to Phi: the rounding of Phi, well below what a
-// disturbance that dies out in 1e7 periods has. Chosen.
+// Limit of singular values of Phi - I that count as zero, relative to the largest one and to Phi: the rounding of Phi,
+// well below the value for a disturbance that dies out in 1e7 periods. Chosen value.
 constexpr double least_singular = 1e-9;
-// Where no step reduces the residual: fast mode shapes make Phi 1e5 times greater than what slow ones do to it.
+// Used if no step reduces the residual: fast mode shapes may make Phi 1e5 times larger than its effect on slow ones.
 constexpr std::array finer_steps{1e-11, 1e-13};
 
-// In scales: an amplitude below it is rest, and what rounding of the state leaves. Chosen: fifty roundings.
+// In scales: a smaller amplitude is rest, with a state of rounding size. Chosen value: fifty roundings.
 constexpr double at_rest = 1e-14;
 
 double over(double value, double amplitude) { return amplitude > at_rest ? value / amplitude : value; }
 
-/// Of the state, and of the energy where it is given.
+/// Residual of the state, and of the energy if it is given.
 double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
   const double gap = orbit_residual(model, pass);
   return start.energy ? std::max(gap, std::abs(pass.energy - *start.energy) / *start.energy) : gap;
@@ -62,8 +62,8 @@ Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStar
   return shortest_solution(A, b, least, phi.norm());
 }
 
-/// One step, halved until the residual falls; trials have no tangents, which cost far more than a run. False: it does not
-/// fall, or rounding is reached.
+/// One step, halved until the residual decreases; trials are computed without tangents, which cost far more than a run.
+/// False: it does not decrease, or rounding is reached.
 bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot, double least) {
   const Model& model = map.model();
   const OrbitSection section(model, shot.pass.begin);
@@ -88,7 +88,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot, d
       shot.residual = residual;
       return true;
     }
-    if (shot.residual <= closed_at_last) return false;  // rounding decides: shorter steps end there, too
+    if (shot.residual <= closed_at_last) return false;  // rounding level: shorter steps would end there, too
   }
   return false;
 }
@@ -122,7 +122,8 @@ double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vec
 
 namespace {
 
-/// Of shears that are coordinates at the end, but not at the beginning: a contact slips there, and sticks when the period ends.
+/// Size of shears that are coordinates at the end, but not at the beginning: a contact slips there, and sticks when the
+/// period ends.
 double shears_left_out(const Model& model, const OrbitPass& pass) {
   double worst = 0.0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
@@ -143,7 +144,7 @@ double orbit_residual(const Model& model, const OrbitPass& pass) {
 
 namespace {
 
-/// Another sequence of events is no noise: Phi means nothing there.
+/// A difference in the sequence of events is no noise: Phi is not comparable.
 bool same_sequence(const OrbitPass& a, const OrbitPass& b) {
   return std::equal(
       a.events.begin(), a.events.end(), b.events.begin(), b.events.end(),
@@ -168,7 +169,7 @@ Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass) {
 
 namespace {
 
-/// Whether what is left is the noise of the map.
+/// True if the remaining residual is the noise of the map.
 bool is_noise(const PeriodMap& map, const Shot& shot) {
   if (shot.residual > of_noise_at_last * greatest_noise || shot.pass.end_rates.size() == 0) return false;
   const OrbitPass next = map.pass({orbit_state(shot.pass.end), shot.duration, false});
@@ -180,7 +181,7 @@ bool is_noise(const PeriodMap& map, const Shot& shot) {
 
 namespace {
 
-/// From the state that was reached, with tangents. False: it stops, or is interrupted.
+/// A pass from the final state, with tangents. False: it stops, or is interrupted.
 bool run_period(const PeriodMap& map, Shot& shot) {
   shot.pass = map.pass({shot.state, shot.duration});
   if (shot.pass.done()) return true;

@@ -7,8 +7,8 @@ namespace signorini {
 namespace {
 
 constexpr int most_places = 20;         // of a search
-constexpr double sharp_enough = 1e-10;  // of a test function; chosen
-constexpr double real_enough = 1e-12;   // imaginary part of a real multiplier: none, but for rounding
+constexpr double sharp_enough = 1e-10;  // limit for a test function; chosen value
+constexpr double real_enough = 1e-12;   // imaginary part of a real multiplier: rounding
 
 }  // namespace
 
@@ -24,7 +24,7 @@ TestValues test_values(const Multipliers& all, std::size_t ones, double along, d
     least = std::min(least, mu.real());
     greatest = std::max(greatest, mu.real());
   }
-  // Within the error: a zero, seen from inside.
+  // Within the error the value counts as zero, from inside.
   const auto inside = [error](double beyond) {
     return std::abs(beyond) <= error ? -std::min(error, sharp_enough) : beyond;
   };

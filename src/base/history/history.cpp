@@ -13,7 +13,7 @@ namespace {
 
 bool has_sine(const Piece& p) { return p.amplitude != 0.0; }
 
-/// Degree of the polynomial part, -1 when it is zero.
+/// Degree of the polynomial part, -1 if it is zero.
 int degree(const Piece& p) {
   for (std::size_t j = p.coefficients.size(); j > 0; --j)
     if (p.coefficients[j - 1] != 0.0) return static_cast<int>(j) - 1;
@@ -193,7 +193,7 @@ std::vector<Breakpoint> History::breakpoints() const {
     const double t = starts_[i];
     const Piece &left = pieces_[i], &right = pieces_[i + 1];
     const double change = std::abs(right.value(t) - left.value(t));
-    // A constant that goes on is no breakpoint (a load of amplitude zero, two equal steps).
+    // No breakpoint between equal constants (a load of amplitude zero, two equal steps).
     if (change == 0.0 && is_constant_piece(left) && is_constant_piece(right)) continue;
     result.push_back({t, change > roundoff(left, t) + roundoff(right, t)});
   }
@@ -271,7 +271,7 @@ History History::repeated(double from, double period, int rounds) const {
     pieces.push_back(std::move(piece));
   };
   for (std::size_t i = 0; i < starts_.size() && starts_[i] < from; ++i) add(starts_[i], pieces_[i + 1], 0.0);
-  // A shape that lasts the whole period ends where it begins anew, whatever rounding makes of that sum.
+  // A shape that lasts the whole period ends where it restarts, in spite of the rounding of that sum.
   const double end = from + period - rounding::of_many * (std::abs(from) + rounds * period);
   for (int round = 0; round < rounds; ++round) {
     const double dt = round * period;

@@ -1,9 +1,9 @@
-// How large a history gets, and whether it ever becomes negative.
+// Magnitude of a history, and whether it ever becomes negative.
 //
 //   f(t) >= f(m) - sum_{0<k<K} |f^(k)(m)| r^k / k! - |a| (w r)^K / K!     for |t - m| <= r,  K > degree
 //
-// The bound holds for all t in the interval, so an interval where it is positive needs no second look; the
-// others are halved. Nothing is sampled, but functions of one's own.
+// The bound holds for all t in the interval, so an interval with a positive bound is finished; others are halved. Only
+// user-defined functions are sampled.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,8 @@
 namespace signorini {
 namespace {
 
-constexpr int samples_of_functions = 4096;  // a piece; chosen: finer than anybody looks at a load
+constexpr int samples_of_functions = 4096;  // per piece; chosen value: finer than the details of practical
+                                            // loads
 
 /// Calls visit(piece, from, to) for the part of every piece within [0, t_end].
 template <class Visit>
@@ -65,7 +66,7 @@ double search(const Piece& p, double from, double to) {
   if (negative(p, m)) return m;
   const double r = std::max(m - from, to - m);
   if (lower_bound(p, m, r) >= -roundoff(p, m)) return -1.0;
-  // Between neighbouring numbers there is nothing left to find.
+  // no numbers between the ends
   if (r <= rounding::of_few * std::max(std::abs(from), std::abs(to))) return -1.0;
   const double left = search(p, from, m);
   return left >= 0.0 ? left : search(p, m, to);
@@ -87,7 +88,7 @@ double negative_in(const Piece& p, double from, double to) {
   return from < to ? search(p, from, to) : -1.0;
 }
 
-/// Of one piece.
+/// Magnitude of one piece.
 double magnitude_between(const Piece& p, double from, double to) {
   double largest = 0.0;
   Piece polynomial = p;
@@ -114,9 +115,10 @@ double magnitude(const History& f, double t_end) {
 }
 
 double greatest_impulse(const History& f, double t_end, double width) {
-  std::vector<double> ends{0.0}, until{0.0}, size;  // of parts, the integral up to there, |f| in them
+  std::vector<double> ends{0.0}, until{0.0}, size;  // ends of parts, integral up to each end, |f| in each
+                                                    // part
   each_part(f, t_end + width, [&](const Piece& p, double from, double to) {
-    // Nobody asks a function of one's own for what comes after the run.
+    // User-defined functions are not evaluated after the end of the run.
     const double seen = p.function ? std::min(to, t_end) : to;
     size.push_back(from <= seen ? magnitude_between(p, from, seen) : 0.0);
     ends.push_back(to);
@@ -129,7 +131,7 @@ double greatest_impulse(const History& f, double t_end, double width) {
     const auto part = static_cast<std::size_t>(next - ends.begin()) - 1;
     return until[part] + size[part] * (t - ends[part]);
   };
-  double greatest = 0.0;  // begins with a part, or ends with one
+  double greatest = 0.0;  // the interval begins or ends with a part
   for (const double t : ends)
     greatest = std::max({greatest, integral(t + width) - integral(t), integral(t) - integral(t - width)});
   return greatest;

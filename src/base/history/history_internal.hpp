@@ -1,32 +1,32 @@
-// history_internal.hpp: how exactly a Piece can be evaluated, and how large it gets.
+// history_internal.hpp: rounding error and magnitude of a history.
 //
 //   |computed f(t) - f(t)| <= 64 eps ( sum_j |c_j s^j| + |a| (1 + |w s + phi|) + (|t| + |t0|) |f'|~ )
 //   s = t - t0
 //
-// |f'|~ is the derivative with every term taken positive: times are themselves rounded, so that f is
-// known no better than |f'| eps |t|.
+// |f'|~ is the derivative with all terms taken positive: times themselves are rounded, so f has at least the error |f'|
+// eps |t|.
 #pragma once
 
 #include "signorini/history.hpp"
 
 namespace signorini {
 
-/// Bound on the roundoff of evaluating the piece at t; units of f.
+/// Bound of the rounding error of evaluating the piece at t; units of f.
 [[nodiscard]] double roundoff(const Piece& piece, double t);
-/// The same of its first derivative.
+/// Same for its first derivative.
 [[nodiscard]] double roundoff_of_rate(const Piece& piece, double t);
 
-/// An upper estimate of max |f| on [0, t_end]: exact for constants, lines, steps and pulses, sampled
-/// otherwise. Units of f.
+/// Upper estimate of max |f| on [0, t_end]: exact for constants, lines, steps and pulses, sampled otherwise. Units of
+/// f.
 [[nodiscard]] double magnitude(const History& f, double t_end);
 
-/// An upper estimate of the greatest integral of |f| over a time of this width that begins in [0, t_end]: of each piece its
-/// greatest |f| counts while it is in force. Units of f times time.
+/// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]; each piece
+/// counts with its largest |f|. Units of f times time.
 [[nodiscard]] double greatest_impulse(const History& f, double t_end, double width);
 
-/// A time in [0, t_end] at which f is negative beyond roundoff, -1 when it is nowhere: proved with the
-/// troughs of sines and with bounds on polynomials, not sampled (but functions of one's own). Pieces count up to and including the time
-/// at which the next one begins.
+/// A time in [0, t_end] at which f is negative beyond rounding, or -1 if there is none: proved with the minima of sines
+/// and with bounds of polynomials, not sampled (except user-defined functions). A piece counts up to and including the
+/// start of the next one.
 [[nodiscard]] double negative_at(const History& f, double t_end);
 
 }  // namespace signorini

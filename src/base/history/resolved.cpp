@@ -6,7 +6,7 @@ namespace signorini {
 
 std::size_t end_of_instant(const History& f, std::size_t from, double t_end) {
   const std::vector<double>& starts = f.starts();
-  // What has begun before the run is no matter of its clock.
+  // Pieces that began before the run need no resolution.
   if (starts[from] < 0.0) return from + 1;
   const double first = starts[from] <= rounding::of_time * t_end ? 0.0 : starts[from];
   std::size_t to = from + 1;

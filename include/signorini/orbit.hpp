@@ -139,7 +139,7 @@ struct BranchPoint {
 
 /// A branch that leaves another branch.
 struct SideBranch {
-  int number = 2, from = 1;  ///< of BranchPoint::branch
+  int number = 2, from = 1;  ///< numbers as in BranchPoint::branch
   std::string kind;          ///< "flip", "branch point"
   double parameter = 0.0;    ///< parameter at which it leaves
   std::string end;           ///< reason for its end, one sentence

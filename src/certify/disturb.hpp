@@ -7,7 +7,6 @@
 // with friction as long as it stays below its limit (moved_start.hpp). Unchanged are: times of breakpoints, the initial
 // state of touching contacts, displacements of other static starts, closed gaps, and zeros. So laws, states at the
 // start and symmetry of the matrices are those of the model. The same seed gives the same model.
-// the same model.
 #pragma once
 
 #include <cstdint>

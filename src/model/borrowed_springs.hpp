@@ -11,7 +11,7 @@
 // given to the contact as its springs L. Gaps, slips, forces and energies are those of the rigid contact for any L. L =
 // 2 sum_j |G_ij| makes L - G positive definite, and K' at most twice as stiff along B as K.
 //
-// As for any contact without mass, the solution is not unique if friction couples the normal to the tangent too
+// The solution is not unique, like that of any contact without mass, if friction couples the normal to the tangent too
 // strongly; check_unique refuses this.
 #pragma once
 

@@ -80,7 +80,7 @@ class BranchMap {
   bool autonomous_;
   Factors machine_;
   double phase_;  // machine units
-  double t_end_;  // of the scenes
+  double t_end_;  // end of the scenes' runs
   SilentLoads drive_;
   double section_ = 0.0;
   Model first_;
@@ -93,7 +93,7 @@ class BranchMap {
   [[nodiscard]] Kept make(double s) const;
   mutable std::vector<Kept> kept_;
   std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
-  mutable std::shared_ptr<StateFlow> flow_;  // of the last map that had one
+  mutable std::shared_ptr<StateFlow> flow_;  // taken from the last map that had one
 };
 
 }  // namespace signorini

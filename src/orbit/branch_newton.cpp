@@ -23,7 +23,7 @@ constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is 
 constexpr double least_left = 1e-6;     // remainder of a direction outside all families. Chosen value.
 constexpr double held_from = 0.7;       // |t_s| from which corrections hold the parameter. Chosen value.
 constexpr double least_size = 1e-3;     // lower limit for a coordinate in the norm; chosen value
-// As in shooting.cpp; the finer one is used if a correction left most of the residual.
+// Same values as in shooting.cpp; the finer one is used if a correction left most of the residual.
 constexpr double singular = 1e-9, finer_singular = 1e-12;
 constexpr double amplitudes_a_range =
     5.0;  // weight of a change of the state relative to that of the parameter in its range

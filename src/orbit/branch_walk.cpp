@@ -265,8 +265,9 @@ bool BranchWalk::keeps_going(const Corrected& here, const Corrected& next, doubl
   return false;
 }
 
-/// The walk ends at `here`: next is a point beyond, or, where the branch has been there, the last one that was found so, from
-/// which t then leads the other way: where two orbits meet and vanish the second one lies on this side only. False: none.
+/// Continues where the walk ends at `here`: next becomes a point beyond or, if the branch has been there, the last one
+/// found beyond, from which t then leads in the opposite direction: where two orbits meet and vanish, the second one is
+/// on this side only. False: none.
 bool BranchWalk::beyond(const Corrected& here, Corrected& next, Vector& t) {
   const double sign = t[t.size() - 1] < 0.0 ? -1.0 : 1.0;
   const std::string why = next.reason;

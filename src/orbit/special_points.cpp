@@ -6,7 +6,7 @@
 namespace signorini {
 namespace {
 
-constexpr int most_places = 20;         // of a search
+constexpr int most_places = 20;         // limit for a search
 constexpr double sharp_enough = 1e-10;  // limit for a test function; chosen value
 constexpr double real_enough = 1e-12;   // imaginary part of a real multiplier: rounding
 

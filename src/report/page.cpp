@@ -225,7 +225,7 @@ std::string orbit_section(const fs::path& directory) {
 
 /// `taken`: size of the page without pictures, in bytes.
 std::string pictures(const fs::path& directory, const std::string& command, std::size_t taken) {
-  constexpr std::size_t most = 2'950'000;  // of 3 MB
+  constexpr std::size_t most = 2'950'000;  // limit of the page: 3 MB
   const std::string all = figures(directory, taken < most ? most - taken : 0);
   return all.empty() ? "<p>There are none; " + html_text(command) + " draws them.</p>\n" : all;
 }

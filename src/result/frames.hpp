@@ -3,7 +3,6 @@
 //   frames.csv          t,kind,element,node,x,y,ux,uy,rz
 //   frame_contacts.csv  t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T
 //
-// kind: beam, bar or spring (two rows an element, one an end; "B-D.3" is an inner node), then node or
 // kind: beam, bar or spring (two rows per element, one for each end; "B-D.3" is an inner node), then node or support
 // (one row per named node, element empty). x, y: undeformed. The force on the body at a contact is -N n - T t. Both
 // files are created with the first frame. Errors: FileError.

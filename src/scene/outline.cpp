@@ -10,7 +10,7 @@ namespace {
 constexpr double on_the_line = 1e-9;  // relative to a product of lengths; chosen for drawings, where smaller
                                       // deviations are invisible
 
-/// Whether c lies to the left of the way from a to b.
+/// True if c is on the left of the line from a to b.
 bool turns_left(const Node& a, const Node& b, const Node& c) {
   const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
   return ux * vy - uy * vx > on_the_line * std::hypot(ux, uy) * std::hypot(vx, vy);

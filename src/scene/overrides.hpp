@@ -26,7 +26,7 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 
 /// Expansion of a path: contacts.*.KEY is itself and stops.NAME.KEY for each stop that can have the key.
 [[nodiscard]] std::vector<std::string> paths_meant(const toml::table& root, const std::string& path);
-/// How many tables a path with * chooses: "3 of [[contacts]], 6 of [[stops]]"; empty for a path
+/// Number of tables that a path with * selects: "3 of [[contacts]], 6 of [[stops]]"; empty for a path
 /// without *.
 [[nodiscard]] std::string tables_met(const toml::table& root, const std::string& path);
 /// Same for a scene file after the overrides `before`. Errors: those of read_scene for invalid TOML.

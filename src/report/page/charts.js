@@ -1,10 +1,10 @@
-// charts.js: curves over time on canvases. All of them share the times shown and the cursor, which is the player's time.
-// On paper, and on dark ground.
+// charts.js: curves over time on canvases. All charts share the time window and the cursor, which is the player's time.
+// Colours on paper, and on a dark background.
 const palette = [["#2166ac", "#6aaef0"], ["#c0182b", "#ff7b7b"], ["#1b7837", "#5fc97e"], ["#b35806", "#f0a350"],
   ["#762a83", "#c792d8"], ["#008080", "#4fd0d0"], ["#a0508a", "#f0a8dc"], ["#525252", "#b0b0b0"]];
 const darkGround = matchMedia("(prefers-color-scheme: dark)");
 
-// Round steps, about `count` of them, from low to high.
+// Round tick values from low to high, about `count` of them.
 const ticksOf = (low, high, count) => {
   const rough = (high - low) / count, ten = 10 ** Math.floor(Math.log10(rough)), digit = rough / ten;
   const step = (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10) * ten, ticks = [];
@@ -21,14 +21,14 @@ class Chart {
   constructor(charts, title, unit, series) {
     this.charts = charts;
     this.series = series.map((one) => ({ ...one }));
-    // At first those that move most.
+    // Initially the curves with the largest motion.
     const spans = this.series.map((one) => {
       let low = Infinity, high = -Infinity;
       for (const y of one.y) if (y !== null) { low = Math.min(low, y); high = Math.max(high, y); }
       return high - low;
     });
     const order = spans.map((_, k) => k).sort((a, b) => spans[b] - spans[a]), most = Math.max(...spans);
-    // Where nothing moves beyond rounding, the first ones.
+    // If nothing moves beyond rounding, the first ones.
     const sizes = this.series.map((one) => one.y.reduce((size, y) => Math.max(size, Math.abs(y ?? 0)), 0));
     const still = !(most > 1e-9 * Math.max(...sizes));
     if (still) order.sort((a, b) => sizes[b] - sizes[a] || a - b);
@@ -74,7 +74,7 @@ class Chart {
     });
     this.names.append(button);
   }
-  // A drag chooses times, a double click shows all of them; where the pointer is, there is the cursor.
+  // A drag selects a time window, a double click shows everything; the cursor follows the pointer.
   listen() {
     const timeOf = (event) => {
       const box = this.canvas.getBoundingClientRect();
@@ -137,7 +137,7 @@ class Chart {
     const ink = colour("--ink", "#000"), pale = colour("--pale", "#444"), line = colour("--line", "#bbb");
     pen.font = '12px system-ui, "DejaVu Sans", sans-serif';
     const ys = ticksOf(bottom, top, 4), step = ys.length > 1 ? ys[1] - ys[0] : 1, texts = ys.map((y) => tickText(y, step));
-    this.left = 8 + Math.max(...texts.map((text) => pen.measureText(text).width), 48);  // alike in most charts
+    this.left = 8 + Math.max(...texts.map((text) => pen.measureText(text).width), 48);  // equal in most charts
     this.right = 10;
     const below = 20, above = 6, X = (t) => this.left + (t - from) / (to - from) * (wide - this.left - this.right);
     const Y = (y) => above + (top - y) / (top - bottom) * (high - above - below);
@@ -166,7 +166,7 @@ class Chart {
       pen.lineTo(X(t), high - below);
       pen.stroke();
     }
-    // Events, as long as they are few.
+    // Events, if there are only a few.
     const events = this.charts.player.times.filter((t) => t >= from && t <= to);
     if (events.length <= 80) {
       pen.strokeStyle = pale;
@@ -189,7 +189,7 @@ class Chart {
     pen.strokeStyle = ink;
     pen.strokeRect(this.left, above, wide - this.left - this.right, high - above - below);
   }
-  // Where many rows fall on one pixel, their first, least, greatest and last.
+  // Draws the first, smallest, largest and last of the rows in one pixel.
   curve(pen, one, X, Y) {
     const { from, to } = this.charts, first = Math.max(0, rowAt(one.t, from) - 1);
     pen.strokeStyle = one.colour;
@@ -294,7 +294,7 @@ class Charts {
     byId("timesShown").textContent = `${Number(this.from.toPrecision(6))} to ${Number(this.to.toPrecision(6))} ${data.units[2]}`;
     this.read(this.player.t);
   }
-  // tells: values, too; while it plays they follow ten times a second.
+  // `tells`: also update the displayed values; during play ten times per second.
   read(t, tells = true) {
     for (const chart of this.list) chart.read(t, tells);
   }

@@ -1,4 +1,4 @@
-// filters.js: contents, the table of events by contact and type, and the beginning of all.
+// filters.js: table of contents, filters of the event table by contact and type, and start of the page.
 for (const heading of document.querySelectorAll("section > h2")) {
   const link = document.createElement("a");
   link.href = "#" + heading.parentElement.id;
@@ -29,7 +29,7 @@ const filterEvents = (player) => {
   fill("byContact", "contact");
   fill("byType", "event");
   apply();
-  // Rows are in the order of data.events, whose times have all their digits.
+  // Rows have the order of data.events, whose times have all digits.
   rows.forEach((row, k) => row.addEventListener("click", () => {
     if (k < data.events.length) player.stop(data.events[k][0]);
   }));
@@ -42,7 +42,7 @@ const filterEvents = (player) => {
   player.show(0);
 };
 
-// Times of tables go there.
+// Times in tables are links to the player.
 const linkTimes = (player) => {
   for (const cell of document.querySelectorAll("td[data-t]")) {
     cell.tabIndex = 0;

@@ -58,7 +58,7 @@ class Player {
     for (const { motion } of data.contacts) for (const g of motion.gap) this.greatestGap = Math.max(this.greatestGap, Math.abs(g));
     this.greatestLoad = data.loads.map((load) => Math.max(1e-300, ...load.f.map(Math.abs)));
   }
-  // Which colour is which state, of those that occur.
+  // Legend of the states that occur.
   legend() {
     const occurring = new Set(data.contacts.flatMap((contact) => contact.motion.state));
     data.states.forEach(([name, colour], k) => {
@@ -70,7 +70,7 @@ class Player {
       byId("legend").append(entry);
     });
   }
-  // The states of the first contacts over time, one path a state and contact.
+  // The states of the first contacts over time, one path per state and contact.
   bands() {
     const svg = byId("bands"), height = 16, shown = data.contacts.slice(0, 24);
     svg.replaceChildren();
@@ -171,8 +171,8 @@ class Player {
       const size = 70 * valueAt(load.t, load.f, this.t) / this.greatestLoad[k];
       put(this.loads[k], "d", stage.arrow(stage.place(load.node, u, m), size * load.dx, size * load.dy, false));
     });
-    // Nobody reads figures sixty times a second: while it plays they follow ten times.
-    // Of contacts at one node a closed one gives the dot its colour.
+    // During play numbers are updated only ten times per second, since faster ones cannot be read.
+    // At a node with several contacts, a closed one determines the dot's colour.
     const closed = new Set(data.contacts.filter((contact) => this.stateOf(contact) !== "open").map((contact) => contact.node));
     const now = performance.now(), tells = !this.playing || !(now - this.toldAt < 100);
     if (tells) this.toldAt = now;
@@ -187,7 +187,7 @@ class Player {
   stateOf({ motion: { t, state } }) {
     return t.length ? data.states[state[Math.max(0, rowAt(t, this.t))]]?.[0] : "open";
   }
-  // Rounding beside the greatest of its kind is zero.
+  // Rounding relative to the largest of its kind is shown as zero.
   figure(x, digits, greatest) {
     return Math.abs(x) <= 2.2e-13 * greatest ? "0" : x.toPrecision(digits);
   }
@@ -201,7 +201,7 @@ class Player {
       put(this.marks[k], "cx", x.toFixed(1));
       put(this.marks[k], "cy", y.toFixed(1));
       put(this.marks[k], "fill", colour);
-      // On the structure: -N n - T t, t = (ny, -nx); it pushes towards the node.
+      // Force on the structure: -N n - T t, t = (ny, -nx); it points to the node.
       const fx = -n * contact.nx - s * contact.ny, fy = -n * contact.ny + s * contact.nx;
       put(this.forces[k], "d", this.stage.arrow([x, y], size * fx, size * fy, false));
       put(this.forces[k], "stroke", colour);

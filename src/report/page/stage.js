@@ -1,4 +1,4 @@
-// stage.js: the structure at a time, as the shapes of one SVG. No text of the scene ever becomes markup.
+// stage.js: the structure at a time, as the shapes of one SVG. Text of the scene never becomes markup.
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 const drawn = (name, attributes, parent, text) => {
@@ -8,7 +8,7 @@ const drawn = (name, attributes, parent, text) => {
   return parent.appendChild(shape);
 };
 
-// The last index whose time is <= t, after a jump that happens at t; -1 before the first.
+// The last index whose time is <= t, after a jump at t; -1 before the first.
 const rowAt = (times, t) => {
   let low = -1, high = times.length;
   while (high - low > 1) {
@@ -17,7 +17,7 @@ const rowAt = (times, t) => {
   }
   return low;
 };
-// Row and part of the way to the next one.
+// Row, and fraction of the way to the next one.
 const between = (times, t) => {
   const row = Math.max(0, rowAt(times, t));
   const step = row + 1 < times.length ? times[row + 1] - times[row] : 0;
@@ -29,9 +29,9 @@ const valueAt = (times, values, t) => {
   return part ? values[row] + part * (values[row + 1] - values[row]) : values[row];
 };
 
-// Displacements of all nodes at a time: [ux, uy, rz] each; held ones are zero. The same arrays at every call.
+// Displacements of all nodes at a time, as [ux, uy, rz]; fixed ones are zero. The same arrays at every call.
 const moved = data ? data.nodes.map(() => [0, 0, 0]) : [];
-// Of meshes: a sum of shapes, each as large as its part at that time. A node that has a curve follows it.
+// Displacements of meshes: a sum of shapes times their parts at that time. A node with a curve follows its curve.
 const moveMesh = (t) => {
   const motion = data.mesh_motion;
   if (!motion) return;
@@ -59,7 +59,7 @@ const displacementsAt = (t) => {
   return moved;
 };
 
-// Sets an attribute where it has changed: what stays is not drawn again.
+// Sets an attribute only if it has changed: unchanged shapes are not drawn again.
 const put = (shape, key, value) => {
   const last = shape.put ??= {};
   if (last[key] !== value) shape.setAttribute(key, last[key] = value);
@@ -74,7 +74,7 @@ class Stage {
     if (data.nodes.length < 2) this.size = 1;
     const margin = 0.22 * this.size;
     const width = high[0] - low[0] + 2 * margin, height = high[1] - low[1] + 2 * margin;
-    this.wide = Math.max(300, svg.clientWidth);  // so that a unit is a pixel, and lines and letters keep their size
+    this.wide = Math.max(300, svg.clientWidth);  // one unit is one pixel, so lines and letters keep their size
     this.pixels = Math.min(this.wide / width, (data.nodes.length < 2 ? 260 : 480) / height);
     this.high = Math.max(150, height * this.pixels);
     this.mark = Math.min(26, Math.max(4, 0.3 * this.wide / (data.contacts.length + 1)));
@@ -85,7 +85,7 @@ class Stage {
   at(x, y) {
     return [this.wide / 2 + (x - this.middle[0]) * this.pixels, this.high / 2 - (y - this.middle[1]) * this.pixels];
   }
-  // A piece as a polyline, its motion magnified by m: data.shapes has what its ends do to places between them.
+  // A piece as a polyline, its motion magnified by m; data.shapes has the shape functions of its ends.
   piece(piece, u, m) {
     const a = data.nodes[piece.a], b = data.nodes[piece.b], ua = u[piece.a], ub = u[piece.b];
     const length = Math.hypot(b.x - a.x, b.y - a.y), c = (b.x - a.x) / length, s = (b.y - a.y) / length;
@@ -103,7 +103,7 @@ class Stage {
     const node = data.nodes[k];
     return this.at(node.x + m * u[k][0], node.y + m * u[k][1]);
   }
-  // From one place to another in `turns` zigzags.
+  // A zigzag line from one place to another, with `turns` turns.
   zigzag([x, y], [X, Y]) {
     const length = Math.hypot(X - x, Y - y) || 1, c = (X - x) / length, s = (Y - y) / length, turns = 8;
     let path = `M${x} ${y}`;
@@ -122,13 +122,13 @@ class Stage {
     const head = `M${tip}L${to(X - h * (c - 0.5 * s), Y - h * (s + 0.5 * c))}M${tip}L${to(X - h * (c + 0.5 * s), Y - h * (s - 0.5 * c))}`;
     return `M${to(X - c * length, Y - s * length)}L${tip}` + head;
   }
-  // What does not move: grounds of contacts, supports. A ground stands as far off as its gap, which is magnified as the motion
-  // is (m), and is as wide as its node goes.
+  // Everything at rest: grounds of contacts, supports. The distance of a ground is its gap, magnified by m like the
+  // motion, and its width is the range of its node.
   fixed(parent, m) {
     const symbols = [];
     for (const support of data.supports) {
       const node = data.nodes[support.node], kind = `${support.ux}${support.uy}${support.rz}`;
-      if (node.mesh) {  // of the nodes of a boundary as many as there is room for
+      if (node.mesh) {  // only as many boundary nodes as there is room for
         const here = this.at(node.x, node.y);
         if (symbols.some(([x, y, of]) => of === kind && Math.hypot(x - here[0], y - here[1]) < 24)) continue;
         symbols.push([...here, kind]);
@@ -146,14 +146,14 @@ class Stage {
       const foot = [x - off * nx, y - off * ny], far = m * this.pixels * this.reach(contact);
       const half = Math.min(this.wide, this.mark + far), hatches = Math.floor(half / 8);
       let path = `M${foot[0] - half * tx} ${foot[1] - half * ty}L${foot[0] + half * tx} ${foot[1] + half * ty}`;
-      const every = Math.ceil(16 / this.room(contact));  // along a seam not one over the other
+      const every = Math.ceil(16 / this.room(contact));  // along a seam, so that symbols do not overlap
       if (every > 1 && data.contacts.indexOf(contact) % every) { drawn("path", { class: "ground", d: path }, parent); continue; }
       for (let i = -hatches; i <= hatches; ++i)
         path += `M${foot[0] + 8 * i * tx} ${foot[1] + 8 * i * ty}l${-7 * nx - 5 * tx} ${-7 * ny - 5 * ty}`;
       drawn("path", { class: "ground", d: path }, parent);
     }
   }
-  // Pixels to the next contact.
+  // Distance to the next contact in pixels.
   room(contact) {
     if (!this.rooms) {
       const at = data.contacts.map((c) => c.node < 0 ? [Infinity, 0] : this.at(data.nodes[c.node].x, data.nodes[c.node].y));
@@ -162,7 +162,7 @@ class Stage {
     }
     return this.rooms.get(contact);
   }
-  // How far its node goes along the tangent. Of a mesh: by the parts at each of their times.
+  // Range of its node along the tangent; for a mesh from its parts at all times.
   reach(contact) {
     const [cx, cy] = data.nodes[contact.node].u;
     if (contact.reach === undefined && data.nodes[contact.node].mesh && data.mesh_motion) {
@@ -187,7 +187,7 @@ class Stage {
     const node = data.nodes[spring.a], [x, y] = this.at(node.x, node.y);
     return this.zigzag(end, [x - 70 * spring.dx, y + 70 * spring.dy]);
   }
-  mesh(u, m) {  // of bodies
+  mesh(u, m) {  // bodies
     const places = [];
     const text = (k) => {
       if (!places[k]) {
@@ -202,7 +202,7 @@ class Stage {
   }
   touched(contact, u, m) {
     const [x, y] = this.place(contact.node, u, m);
-    let X = 0, Y = 0;  // by their weights, whose sum is one
+    let X = 0, Y = 0;  // weighted sum; the weights add up to one
     for (const [k, part] of contact.against) {
       const place = this.place(k, u, m);
       X += part * place[0];
@@ -212,8 +212,9 @@ class Stage {
   }
 }
 
-// Puts each label at the first place around its point where it covers no other label, node or member: eight directions, then
-// farther off. Where there is none it stands where it covers least, and a contact, named elsewhere too, has none.
+// Puts each label at the first place around its point where it covers no other label, node or member: eight directions,
+// then farther away. If there is none, it is placed where it covers least; a contact, which is named elsewhere too,
+// then has none.
 const placeLabels = (stage, g, labels) => {
   const taken = [], still = data.nodes.map(() => [0, 0, 0]);
   for (const node of data.nodes) {
@@ -264,7 +265,7 @@ const placeLabels = (stage, g, labels) => {
     label.setAttribute("x", best.left.toFixed(1));
     label.setAttribute("y", best.base.toFixed(1));
     taken.push(best.box);
-    if (best.distance > 2 * far) {  // a line says whose it is
+    if (best.distance > 2 * far) {  // a line connects it to its point
       const bx = Math.min(best.box[2], Math.max(best.box[0], x)), by = Math.min(best.box[3], Math.max(best.box[1], y));
       drawn("path", { class: "leader", d: `M${x.toFixed(1)} ${y.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}` }, g);
     }

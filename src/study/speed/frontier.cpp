@@ -54,7 +54,7 @@ std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::strin
                                 : "no complete run has an error that means anything";
     return fmt::format("Of {}, none can be named cheapest: {}.", what, why);
   }
-  // Of neighbours on one line the last one is kept: it is the most accurate.
+  // Neighbours on one line are represented by the last one, the most accurate.
   std::vector<std::size_t> last;
   for (const std::size_t i : best) {
     if (!last.empty() && rows[last.back()].point.line() == rows[i].point.line()) last.pop_back();

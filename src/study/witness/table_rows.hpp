@@ -44,7 +44,7 @@ class TableRows {
   struct Size {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
-  struct Order {  // of the rows in a table
+  struct Order {  // position in a table
     void (TableSpan::*row)(const ToldRow&);
     void (TableSpan::*end)(const ToldRowReader&) const;
   };

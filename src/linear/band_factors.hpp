@@ -26,9 +26,9 @@ class BandFactors {
   [[nodiscard]] double* row(std::size_t i) { return values_.data() + i * stride_; }
   /// All entries of rows [begin, end) zero.
   void clear(std::size_t begin, std::size_t end);
-  /// Of what stands in all rows. False: it would lose more digits than it may, or is singular; then nothing is known.
+  /// Factors all rows. False: it would lose more digits than allowed, or is singular; the content then is undefined.
   [[nodiscard]] bool factor() { return factor(0, size_); }
-  /// Of what stands in rows [begin, end), after factors of those before: to the last bit what factors of all have there.
+  /// Factors rows [begin, end), after the rows before: bitwise the same as factoring all rows at once.
   [[nodiscard]] bool factor(std::size_t begin, std::size_t end);
   /// b := A^-1 b
   void solve(double* b) const;

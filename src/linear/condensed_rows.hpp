@@ -36,7 +36,7 @@ class CondensedRows {
     bool told = false;       ///< by their own rows, without accelerations
   };
 
-  /// Of what is_economical(), without contacts in force. Nothing: the band is wider.
+  /// Rows of a model with is_economical(), without contacts in force. nullopt: the band is wider.
   [[nodiscard]] static std::optional<CondensedRows> of(const Model& model, const Structure& structure,
                                                        std::size_t most_width);
 

@@ -21,7 +21,7 @@ class FactorReader {
  private:
   using Columns = TriangularFactors::Columns;
   using Long = SuiteSparse_long;
-  /// As KLU hands them out.
+  /// Factors in KLU's own format.
   struct Raw {
     std::vector<Long> start, row;
     std::vector<double> value;

@@ -25,7 +25,7 @@ class Klu {
   bool refactor(const std::vector<double>& values);
   /// b := A^-1 b.
   void solve(double* b);
-  /// Of the last factorisation that succeeded.
+  /// Factors of the last successful factorisation.
   [[nodiscard]] const TriangularFactors& factors() const;
 
   long factorisations = 0, refactorisations = 0;

@@ -16,7 +16,7 @@
 
 namespace signorini {
 
-/// Of M. Null: it is singular to working precision.
+/// Factors of M. Null: M is singular to working precision.
 [[nodiscard]] std::shared_ptr<const TriangularFactors> mass_factors(const Structure& structure);
 
 /// B of each contact: N and T in its normal row, then in its tangent row.
@@ -24,7 +24,7 @@ struct OwnForces {
   double normal_N = 1.0, normal_T = 0.0, tangent_N = 0.0, tangent_T = 1.0;
 };
 
-/// Of all contacts. Empty: a row holds an acceleration, or does not tell its force.
+/// Forces of all contacts. Empty: a row contains an acceleration, or does not determine its force.
 [[nodiscard]] std::vector<OwnForces> own_forces(const std::vector<Rows>& rows);
 
 class MassSolver {

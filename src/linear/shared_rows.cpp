@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-// What is left of a row when all others are taken out of it, of its length: that of rounding is below.
+// Relative remainder of a row after all others are removed: that of rounding is below.
 constexpr double dependent = 1e-12;
 
 }  // namespace

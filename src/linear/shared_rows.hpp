@@ -39,7 +39,7 @@ class SharedRows {
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
   /// Is it one of those?
   [[nodiscard]] bool may_share(std::size_t contact) const { return grouped_[contact]; }
-  /// Of the rows in force; empty: all are independent.
+  /// Shared forces of the rows in force; empty: all rows are independent.
   [[nodiscard]] std::vector<SharedForces> in_force(const std::vector<Rows>& rows) const;
 
  private:

@@ -24,7 +24,7 @@
 
 namespace signorini {
 
-/// What a unit of the unknown in a column means as acceleration, velocity and displacement.
+/// Acceleration, velocity and displacement per unit of the unknown in a column.
 struct Weights {
   double acceleration = 0.0, velocity = 0.0, displacement = 0.0;
 };
@@ -32,7 +32,7 @@ struct Weights {
 /// The factor of one degree of freedom in a form.
 [[nodiscard]] double component(const Combination& combination, int dof);
 
-/// Of a row of a contact, in the column of a degree of freedom with these parts of normal and tangent.
+/// Entry of a contact's row, in the column of a degree of freedom with these parts of normal and tangent.
 [[nodiscard]] inline double entry_of(const Form& f, double n, double t, const Weights& w) {
   return n * (f.gap * w.displacement + f.vn * w.velocity + f.an * w.acceleration) +
          t * (f.ut * w.displacement + f.vt * w.velocity + f.at * w.acceleration);

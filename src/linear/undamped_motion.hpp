@@ -20,7 +20,7 @@ struct UndampedMotion {
   std::vector<std::pair<int, double>> others;  ///< damped ones, and z there
 };
 
-/// What the equations of a mode are solved for.
+/// Kind of each unknown in the equations of a mode, and its undamped massless motions.
 struct MotionKinds {
   std::vector<DofKind> kinds;  ///< one a degree of freedom
   std::vector<UndampedMotion> undamped;

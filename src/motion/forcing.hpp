@@ -36,7 +36,7 @@ class Forcing {
   [[nodiscard]] const ForceLayout& layout() const { return model_->layout; }
   /// P += factor times the derivative of the given order of the load vector; length n.
   void add_load(double t, int order, double* P, double factor = 1.0) const;
-  /// What of the load on a degree of freedom does not change.
+  /// Constant part of the load on a degree of freedom.
   [[nodiscard]] double standing_load(std::size_t dof) const { return constant_.data()[dof]; }
   /// P += the rest of it at t, of those loads alone whose numbers are `wanted`.
   template <class Wanted>

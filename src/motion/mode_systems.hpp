@@ -50,7 +50,7 @@ class ModeSystems {
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
-  /// Of what is held now.
+  /// Number and size of the systems held now.
   [[nodiscard]] std::size_t held() const { return cache_.size(); }
   [[nodiscard]] std::size_t bytes() const { return cache_.bytes(); }
   /// Systems made so far.

@@ -10,7 +10,7 @@
 namespace signorini {
 namespace {
 
-/// Of the greatest entry of a column of M^-1: below, it is rounding.
+/// Relative to the largest entry of a column of M^-1: smaller entries are rounding.
 constexpr double of_nothing = rounding::eps / 16.0;
 /// Contacts up to this part of the radius away share a neighbourhood. Of the structure it is a quarter at most: chosen.
 constexpr int sharing = 4, least_gain = 4;

@@ -39,7 +39,7 @@ struct Neighbourhood {
   std::size_t number = 0;                    // in the order in which they are made
   std::vector<int> dofs;                     // in the whole, ascending
   std::vector<std::size_t> contacts, loads;  // the same
-  /// What ties row `at` here to column `dof` outside.
+  /// Coupling of row `at` here to column `dof` outside.
   struct Tie {
     int at, dof;
     double m, c, k;

@@ -14,7 +14,8 @@
 namespace signorini {
 namespace {
 
-/// Of t_end: rows of so much at most wait for parts that are behind, and an interrupted run is as far behind. Chosen.
+/// Number of parts of t_end: rows of at most one such part wait for parts that are behind, and an interrupted run is as
+/// far behind. Chosen value.
 constexpr double stages = 32.0;
 constexpr double most_waiting = 8e6;  // numbers in these rows
 constexpr std::size_t most_events =
@@ -27,7 +28,7 @@ RunSpec as_chosen(RunSpec spec, const Method& method) {
   return spec;
 }
 
-/// What pictures draw of the whole, and no more.
+/// Keeps only the curves that pictures of the whole draw.
 void keep_drawn(const Model& whole, std::vector<PartModel>& parts) {
   std::set<std::string> drawn;
   for (const Column& column : drawn_columns(whole)) drawn.insert(column.name);

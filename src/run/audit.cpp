@@ -93,7 +93,7 @@ void Auditor::bears(std::size_t contact, double t, double N, double T) {
   peak.N = std::max(peak.N, std::abs(N));
   peak.T = std::max(peak.T, std::abs(T));
   SupportLoad& load = supports_[contact];
-  // Of values that are equal to rounding the first one.
+  // The first of values that are equal up to rounding counts.
   const double same = rounding::of_elimination * std::max(peak.N, peak.T);
   if (N < load.least_N.value - same) load.least_N = {N, t};
   if (N > load.greatest_N.value + same) load.greatest_N = {N, t};

@@ -58,7 +58,7 @@ double Chebyshev::through(const Values& values, std::size_t stride, double x) {
 Chebyshev::Values Chebyshev::slopes(const Values& values, std::size_t stride) {
   const Matrix& d = derivative_of(stride);
   Values result{};
-  // Of differences, so that a constant has none: the diagonal is minus the sum of its row.
+  // Differences are used, so that a constant has the derivative zero: the diagonal is minus the sum of its row.
   for (std::size_t i = 0; i <= last; i += stride)
     for (std::size_t j = 0; j <= last; j += stride) result[i] += d[i][j] * (values[j] - values[i]);
   return result;

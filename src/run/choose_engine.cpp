@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-/// Of the fastest oscillation: see choose_engine.hpp.
+/// Relative to the fastest oscillation: see choose_engine.hpp.
 constexpr double slow = 0.2;
 
 }  // namespace

@@ -23,7 +23,7 @@ struct EngineChoice {
   std::string reason;  ///< one sentence
 };
 
-/// What run.engine says, not automatic and with the reason "as given"; never Engine::automatic.
+/// The engine of run.engine, unless it is automatic, with the reason "as given"; never Engine::automatic.
 [[nodiscard]] EngineChoice choose_engine(const Model& model, const RunSpec& run);
 
 }  // namespace signorini

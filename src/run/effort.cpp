@@ -22,7 +22,7 @@ constexpr StepTime time_of_bdf = {1e-6, 2e-8};
 // Measured on models/pipeline.toml at three finenesses: radians of omega_max a step.
 constexpr double radians_of_series = 5.3;
 constexpr StepTime time_of_series = {4e-6, 3.5e-7};
-// Of beams with 100, 300 and 1000 contacts, 3 unknowns a contact: 0.5, 1.8, 4.2 ms.
+// Beams with 100, 300 and 1000 contacts, 3 unknowns per contact: 0.5, 1.8, 4.2 ms.
 constexpr StepTime time_of_event = {1e-5, 1.5e-6};
 // Measured on models/pipeline.toml and a single mass.
 constexpr StepTime time_of_fixed_steps = {3e-7, 1.6e-8};

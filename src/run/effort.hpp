@@ -32,10 +32,10 @@ struct EffortParts {
 [[nodiscard]] Effort effort_of_bdf(const EffortParts& parts);
 [[nodiscard]] Effort effort_of_fixed_steps(const EffortParts& parts);
 
-/// Of the whole run; and of complex modes of the states that its contacts may come into.
+/// Duration of the whole run with the series; and of the complex modes of all states that its contacts may enter.
 [[nodiscard]] double seconds_of_series(const Model& model, const RunSpec& run);
 [[nodiscard]] double seconds_of_damped_states(const Model& model);
-/// Of `exact` by its series: the decision, and a series that begins anew.
+/// Duration of an event of `exact` with its series: the decision, and a series that restarts.
 [[nodiscard]] double seconds_of_event(const Model& model);
 
 }  // namespace signorini

@@ -72,7 +72,7 @@ struct EngineRow {
   /// Order and its reason. Errors: SceneError where a step is needed and not given.
   Method (*method)(const Model& model, const RunSpec& run);
   std::unique_ptr<Stepper> (*make)(const EngineParts& parts);
-  /// What the time loop will cost, by order of magnitude.
+  /// Estimated cost of the time loop, as an order of magnitude.
   Effort (*effort)(const EffortParts& parts);
 };
 

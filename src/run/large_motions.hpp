@@ -16,7 +16,7 @@ namespace signorini {
 
 class LargeMotions {
  public:
-  /// Of amplitudes of modes nothing is known here. The model must outlive it.
+  /// Amplitudes of modes (reduced models) are not examined. The model must outlive the object.
   explicit LargeMotions(const Model& model);
 
   /// At the end of a step.

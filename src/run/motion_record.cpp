@@ -126,7 +126,7 @@ void MotionRecord::keep(Track& track, const MotionRow& row) {
   length_ = std::max({length_, std::abs(row.sample.gap), std::abs(row.sample.ut)});
 }
 
-/// What is rounding beside other contacts bends nothing.
+/// A quantity of rounding size, compared with other contacts, has no bends.
 double MotionRecord::asked_by(Track& track, const MotionRow& row) const {
   double asked = std::numeric_limits<double>::infinity();
   const auto [first, second] = std::exchange(track.last, {track.last[1], row});

@@ -20,7 +20,7 @@
 
 namespace signorini {
 
-/// What a part has recorded and nobody has taken yet; contacts by their numbers in the whole.
+/// Rows that a part has recorded and that have not been taken yet; contacts by their numbers in the whole model.
 class PartRecorder final : public Recorder {
  public:
   struct Row {

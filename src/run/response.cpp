@@ -32,7 +32,7 @@ double resolved(std::size_t stride, double varies, double accuracy) {
   return varies * std::pow(accuracy / varies, power);
 }
 
-/// Of displacements and velocities alone.
+/// True if the output depends on displacements and velocities only.
 bool is_of_motion(const Output& linear) {
   return linear.a.terms.empty() && linear.forces.empty() && linear.restoring.empty();
 }

@@ -15,7 +15,7 @@ namespace signorini {
 /// Of the range. Half of a curve's first bend goes by before rows tell of it, and thinned rows leave out 0.3 %
 /// (base/thinned.hpp): chosen, "what pictures draw of contacts is the motion" moves when it does.
 inline constexpr double most_bend = 0.0045;
-/// Of the run: 26 rows a pixel of the widest picture.
+/// Relative to the run: 26 rows per pixel of the widest picture.
 inline constexpr double closest_rows = 1.0 / 32000.0;
 
 /// h of one curve; left, right: b - a and c - b, off: d. Infinite where it does not bend.

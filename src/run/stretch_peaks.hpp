@@ -20,12 +20,12 @@ struct ValueBounds {
   double least = 0.0, greatest = 0.0;
 };
 
-/// Of one function at its points.
+/// Bounds of one function at its points.
 [[nodiscard]] ValueBounds at_points(const Chebyshev::Values& values, std::size_t stride);
 /// With what lies between the points: where p rises from one and falls to the next, it stays below both tangents.
 [[nodiscard]] ValueBounds between_points(const Chebyshev::Values& values, std::size_t stride);
 
-/// Of p on the stretch; `between`: with what lies between the times.
+/// Bounds of p on the stretch; `between`: including the values between the times.
 [[nodiscard]] ValueBounds bounds_along(std::span<const Chebyshev::Values> f, std::size_t stride,
                                        bool between);
 

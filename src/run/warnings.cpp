@@ -16,7 +16,7 @@
 namespace signorini {
 namespace {
 
-// Of a load's swing in a step, rad: the impulse of a half wave is off by its square over 12, a twelfth.
+// rad of a load's oscillation in a step: the impulse of a half wave is off by its square over 12, a twelfth.
 constexpr double most_turned = 1.0;
 constexpr double much_energy = 1e-3;   // of what is exchanged, that the balance may miss without a word
 constexpr double least_energy = 1e-9;  // of the scene's scales, or of what is stored: at rest nothing is

@@ -1,6 +1,6 @@
-// conditions.hpp: by how much a contact violates its own conditions.
+// conditions.hpp: the amount by which a contact violates its own conditions.
 //
-//   (6)  g >= 0, N <= 0, g N = 0          g less the element's length where there is a spring
+//   (6)  g >= 0, N <= 0, g N = 0          g minus the element's length if there is a spring
 //   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, of the slip rate in slip
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace signorini {
 
-/// Each is positive where the condition does not hold.
+/// Each value is positive if its condition is violated.
 struct Violations {
   double tension = 0.0;      ///< N; force
   double gap = 0.0;          ///< -(g - element); length, contacts with a spring

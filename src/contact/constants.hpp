@@ -1,6 +1,6 @@
-// constants.hpp: every number and every form of a contact, whichever law it has.
+// constants.hpp: visits every constant and every form of a contact, for all laws.
 //
-// Whoever rescales, perturbs, renumbers or reduces contacts visits them here and need not know what a law is made of.
+// Code that rescales, perturbs, renumbers or reduces contacts calls these visitors and does not depend on the laws.
 #pragma once
 
 #include "base/unit.hpp"
@@ -8,7 +8,7 @@
 
 namespace signorini {
 
-/// Forms on the displacements: along the normal, along the tangent, and of the body beside a sliding point.
+/// Visits the forms on the displacements: along the normal, along the tangent, and of the body beside a sliding point.
 template <class AnyContact, class Visit>
 void visit_forms(AnyContact& contact, const Visit& visit) {
   visit(contact.normal);
@@ -16,7 +16,7 @@ void visit_forms(AnyContact& contact, const Visit& visit) {
   if (contact.shear) visit(contact.shear->body);
 }
 
-/// Stiffnesses and dashpots of a contact: visit(double&, Unit).
+/// Visits stiffnesses and dashpot constants of a contact: visit(double&, Unit).
 template <class Visit>
 void visit_stiffnesses(Contact& contact, const Visit& visit) {
   visit(contact.normal_stiffness, unit::stiffness);
@@ -27,7 +27,8 @@ void visit_stiffnesses(Contact& contact, const Visit& visit) {
   visit(contact.shear->damping, unit::damping);
 }
 
-/// All numbers that have a unit, those of its law, too; without its forms and its histories: visit(double&, Unit).
+/// Visits all constants that have a unit, including those of its law, without forms and histories: visit(double&,
+/// Unit).
 template <class Visit>
 void visit_constants(Contact& contact, const Visit& visit) {
   visit(contact.gap, unit::length);

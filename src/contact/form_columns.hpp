@@ -1,6 +1,6 @@
-// form_columns.hpp: linear forms side by side, on the degrees of freedom that they touch.
+// form_columns.hpp: linear forms as columns of a matrix, restricted to the degrees of freedom that they depend on.
 //
-//   H_ij = weight_d factor_d of form j,   d the i-th degree of freedom that any of them touches, in the order of touch
+//   H_ij = weight_d factor_d of form j,   d: i-th degree of freedom of the forms, in the order of first occurrence
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace signorini {
 
-/// Touched degrees of freedom x forms. weight: of a degree of freedom; absent: 1.
+/// Matrix H, degrees of freedom x forms. weight: of a degree of freedom; 1 if absent.
 [[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<const Combination*>& forms,
                                            const std::function<double(int)>& weight = {});
 

@@ -5,7 +5,7 @@
 namespace signorini {
 namespace {
 
-/// E_k from E_0 ... E_(k-1) and g_0 ... g_k, E = exp(g) times any constant.
+/// E_k from E_0 ... E_(k-1) and g_0 ... g_k; E = exp(g) times a constant.
 double next_of_exponential(const std::vector<double>& g, const std::vector<double>& e) {
   const std::size_t k = e.size();
   double sum = 0.0;
@@ -18,7 +18,7 @@ double next_of_exponential(const std::vector<double>& g, const std::vector<doubl
 double sliding_friction(const Contact& contact, double along) {
   const Friction& f = contact.friction;
   if (!f.varies()) return f.kinetic;
-  // Past the end of slip what rises goes on straight: the exponential would leave all bounds there.
+  // Below zero slip rate, rising friction continues as a straight line: the exponential would grow without bound there.
   if (f.rises() && along < 0.0) return f.static_ + (f.kinetic - f.static_) * along / f.rate_of_change();
   return f.kinetic + (f.static_ - f.kinetic) * std::exp(-along / f.rate_of_change());
 }

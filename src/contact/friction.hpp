@@ -1,20 +1,21 @@
-// friction.hpp: how large the friction force is, and how it changes.
+// friction.hpp: magnitude of the friction force, and its derivatives.
 //
 //   stick   |T| <= fs |N|
 //   slip s  T + s f(s p') N = 0,   f(x) = fk + (fs - fk) exp(-x / v_s)    f = fk without v_s
 //
-// fs > fk: Stribeck's friction, which falls. fs < fk: friction that rises from slow (fs) to fast (fk).
+// fs > fk: Stribeck friction, which decreases with the slip rate. fs < fk: friction that rises from slow (fs) to fast
+// (fk).
 //
-// Its tangent at a motion is dT + s f dN + f' N dvt. Along a series of the motion, with E = exp(g):
+// The tangent of the slip row at a motion is dT + s f dN + f' N dvt. Along a series of the motion, with E = exp(g):
 //   k E_k = sum_j j g_j E_(k-j),   f_k = (fs - fk) E_k,   T_k + s f_0 N_k = -s sum_(j = 1..k) f_j N_(k-j)
-// so that f_0 stands in the matrix and the rest is known when N_k and T_k are asked for.
+// Hence f_0 is a matrix entry, and the right-hand side is known before N_k and T_k are solved for.
 //
-// and with the derivatives of all that by a parameter p:
+// The derivatives of these equations with respect to a parameter p are
 //   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'
 //
-// A coefficient that depends on N: contact/friction_limit.hpp.
-// A law of friction is these functions and its constants (friction_constants); all else asks here. Units: f is a
-// number.
+// Friction whose coefficient depends on N: contact/friction_limit.hpp.
+// A friction law consists of these functions and its constants (friction_constants); all other code calls them. Units:
+// f is dimensionless.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,7 @@
 
 namespace signorini {
 
-/// Greatest |T| over |N| in stick, of all N; and over |N| in slip, of all slip rates the least.
+/// Static: greatest |T| / |N| in stick over all N. Kinetic: least |T| / |N| in slip over all slip rates.
 [[nodiscard]] inline double static_friction(const Contact& contact) {
   const Friction& f = contact.friction;
   return f.by_force() ? std::max(f.static_, f.kinetic) : f.static_;
@@ -33,11 +34,12 @@ namespace signorini {
 [[nodiscard]] inline double kinetic_friction(const Contact& contact) {
   return contact.friction.rises() ? contact.friction.static_ : contact.friction.kinetic;
 }
-/// |T| over |N| of a state that slips: of one that others hold the static coefficient. Of friction that varies the least.
+/// Ratio |T| / |N| of a slipping state; the static coefficient if other contacts hold it; for friction that varies with
+/// the slip rate the least value.
 [[nodiscard]] inline double slipping_friction(const Contact& contact, State state) {
   return is_held(state) ? static_friction(contact) : kinetic_friction(contact);
 }
-/// Greatest |T| in stick, and |T| where slip begins, at a normal force N <= 0.
+/// Greatest |T| in stick, and |T| at the beginning of slip, for a normal force N <= 0.
 [[nodiscard]] inline double sticking_limit(const Contact& contact, double N) {
   const Friction& f = contact.friction;
   return f.by_force() ? friction_limit(f, -N) : f.static_ * (0.0 - N);
@@ -46,16 +48,16 @@ namespace signorini {
   return contact.friction.by_force() ? friction_limit(contact.friction, -N)
                                      : kinetic_friction(contact) * (0.0 - N);
 }
-/// Coefficient of friction at a slip rate along the slip, s p'; smooth past zero. And its derivative by the
-/// rate.
+/// Coefficient of friction at a slip rate along the slip, s p', smooth past zero; and its derivative with respect to
+/// the slip rate.
 [[nodiscard]] double sliding_friction(const Contact& contact, double along);
 [[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 
-/// The coefficient depends on the slip rate or on N: what slips is not linear.
+/// True if the coefficient depends on the slip rate or on N: the row of a slipping contact is then not linear.
 [[nodiscard]] inline bool friction_varies(const Contact& contact) {
   return contact.friction.varies() || contact.friction.by_force();
 }
-/// In messages: of friction that varies.
+/// Name of varying friction in messages.
 [[nodiscard]] inline const char* named_friction(const Contact& contact) {
   return contact.friction.by_force() ? "friction that depends on the normal force"
                                      : "friction that depends on the slip rate";
@@ -64,26 +66,27 @@ namespace signorini {
   return friction_varies(contact) && slip_sign(state) != 0;
 }
 
-/// The row of a contact that slips in direction s with the coefficient f: T + s f N.
+/// Linear row of a contact that slips in direction s with the coefficient f: T + s f N.
 [[nodiscard]] Form sliding_row(int s, double f);
-/// The row itself, where the coefficient varies: its value at a motion, and its tangent there.
+/// Nonlinear row for a varying coefficient: its value at a motion, and its tangent there.
 [[nodiscard]] double sliding_row_value(const Contact& contact, int s, const ContactMotion& m);
 [[nodiscard]] Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m);
 
-/// Friction along a series of the motion, coefficient by coefficient.
+/// Friction along a series of the motion, one coefficient after the other.
 class FrictionRecursion {
  public:
-  /// rate: coefficient 0 of ut'.
+  /// Starts the series; rate: coefficient 0 of ut'.
   void begin(const Contact& contact, int s, double rate);
-  /// f_0, the coefficient of the row s f_0 N.
+  /// Coefficient f_0 of the row s f_0 N.
   [[nodiscard]] double first() const { return first_; }
-  /// Takes coefficient k of ut', in turn from 1 on; returns s sum_(j = 1..k) f_j N_(k-j). pressing(i): N_i.
+  /// Takes coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). pressing(i): N_i.
   template <class Pressing>
   [[nodiscard]] double next(double rate, const Pressing& pressing) {
     extend(rate);
     return known(pressing);
   }
-  /// Where ut' is an unknown of level k: what is known of it there, without that; and then the coefficient of ut'.
+  /// The same sum if ut' is an unknown of level k: without its contribution. take_rate() then gives coefficient k of
+  /// ut'.
   template <class Pressing>
   [[nodiscard]] double without_rate(const Pressing& pressing) {
     extend(0.0);
@@ -107,15 +110,15 @@ class FrictionRecursion {
   std::vector<double> exponent_, varying_;  // g_k, (fs - fk) E_k
 };
 
-/// Its derivative by a parameter, coefficient by coefficient beside the motion's. Products of series: at level k
-/// all but f_0 N_p,k is known, for x_k and x_p,k are of level k - 1.
+/// Derivative of the friction series with respect to a parameter, computed along with the motion's coefficients. At
+/// level k all products of series except f_0 N_p,k are known, since x_k and x_p,k have level k - 1.
 class FrictionTangent {
  public:
-  /// Of a contact that slips in direction s; by: of its constants, by the parameter.
+  /// Contact that slips in direction s; by: derivatives of its constants with respect to the parameter.
   FrictionTangent(const Friction& friction, const Friction& by, int s);
 
-  /// Takes coefficient k of ut' and of its derivative by p, in turn from 0 on; returns
-  /// s sum_(j = 1..k) f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j). pressing(i): N_i; moved(i): N_p,i.
+  /// Takes coefficient k of ut' and of its derivative with respect to p, for k = 0, 1, ...; returns s sum_(j = 1..k)
+  /// f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j). pressing(i): N_i; moved(i): N_p,i.
   template <class Pressing, class Moved>
   [[nodiscard]] double next(double rate, double moved_rate, const Pressing& pressing, const Moved& moved) {
     extend(rate, moved_rate);
@@ -130,7 +133,7 @@ class FrictionTangent {
   void extend(double rate, double moved_rate);
 
   double static_, kinetic_, velocity_ = 1.0;           // fs, fk, v_s
-  double by_static_, by_kinetic_, by_velocity_ = 0.0;  // by p
+  double by_static_, by_kinetic_, by_velocity_ = 0.0;  // derivatives with respect to p
   int s_;
   std::vector<double> exponent_, e_, y_, by_p_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
 };

@@ -31,7 +31,7 @@ LimitSeries::LimitSeries(const Friction& friction, double x0)
       x_{x0},
       e_{std::exp(-std::max(x0, 0.0) / force_)} {}
 
-/// E_k without -x_k E_0 / Nc.
+/// E_k without its term -x_k E_0 / Nc.
 double LimitSeries::known_exponential() const {
   const std::size_t k = x_.size();
   double sum = 0.0;

@@ -19,7 +19,7 @@ const char* to_string(State state) {
       return "slip-";
     case State::held_plus:
     case State::held_minus:
-      break;  // kinds they are not
+      break;  // impossible: kind_of() never returns these
   }
   return "?";
 }
@@ -82,7 +82,7 @@ Unit unit_of(const GuardForm& guard) {
 
 namespace {
 
-/// C(k, j) of j = 0, 1, ... in turn.
+/// Binomial coefficients C(k, j) for j = 0, 1, ... in turn.
 class Binomials {
  public:
   explicit Binomials(std::size_t k) : k_(static_cast<double>(k)) {}

@@ -1,11 +1,11 @@
-// law.hpp: the rows and the guards that a contact's state puts in force.
+// law.hpp: rows and guards of a contact in each of its states.
 //
 //   law        open            closed, stick, slip: normal   stick                        slip s
 //   compliant  N = 0, T = 0    N - kn g = 0                  T - kt (ut - p) = 0          T + s fk N = 0
 //   rigid      N = 0, T = 0    g'' = 0                       ut'' = 0                     T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
-//   with a shear element, whose sliding point has no mass:   p' = 0                       T + s fk N = 0
-//   held s, at rest at the static limit since others hold its motion:                T + s fs N = 0
+//   with a shear element, whose sliding point is massless:   p' = 0                       T + s fk N = 0
+//   held s, at rest at the static limit because other contacts prevent its motion:   T + s fs N = 0
 //   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction_limit.hpp.
 //   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
 //   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").
@@ -15,16 +15,17 @@
 //              closed  -N
 //              stick   -N, -fs N - T, -fs N + T      F in place of -fs N where friction depends on N
 //              slip s  -N, s p'
-//                      -N, s T + fs N   where a massless sliding point's friction rises: of one sign with s p'
+//                      -N, s T + fs N   if the friction of a massless sliding point rises: same sign as s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
 //              p' = ut' - s F'/kt               friction that depends on N
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
-// These are the built-in laws, contact/law/coulomb_law.hpp and the laws along the normal beside it. A law made of data has the
-// rows and guards that it names (signorini/own_law.hpp, contact/law/user_law.hpp). The interface of all: signorini/contact_law.hpp.
-// A guard is positive while its state is valid; the event is the first one to fall to zero. All are
-// smooth past their zero, so that a root finder may look a little beyond the event.
+// These are the built-in laws: contact/law/coulomb_law.hpp and the laws along the normal in the same folder. A
+// user-defined law has the rows and guards that its data give (signorini/own_law.hpp, contact/law/user_law.hpp). All
+// laws share the interface signorini/contact_law.hpp. A guard is positive while its state is valid; the event is the
+// first zero of a guard. Guards are smooth past their zero, so that a root finder may evaluate them slightly beyond the
+// event.
 // Source: Lukashevich et al. 2021, (6), (7) and (11), generalised to slip in both directions.
 #pragma once
 
@@ -38,7 +39,7 @@
 
 namespace signorini {
 
-/// What a guard stands for.
+/// Meaning of a guard.
 enum class Guard : unsigned char {
   none,
   closing,
@@ -52,39 +53,39 @@ enum class Guard : unsigned char {
   own_3
 };
 [[nodiscard]] const char* to_string(Guard guard);
-/// The limit of friction, on either side.
+/// True for a guard of the friction limit, on either side.
 [[nodiscard]] constexpr bool is_friction_limit(Guard guard) {
   return guard == Guard::slip_plus || guard == Guard::slip_minus;
 }
-/// "compliant", "slider": as in a scene file.
+/// Name of a law as in a scene file: "compliant", "slider".
 [[nodiscard]] const char* to_string(Law law);
 
-/// The unit of a form's value: that of its first term.
+/// Unit of a form's value, derived from its first term.
 [[nodiscard]] Unit unit_of(const Form& form);
 
-/// G = form + sum a b over its products: all that engines and decisions ask of a guard. Motions are given as derivatives
-/// 0, 1, ... by time, and what counts as zero in them likewise.
+/// G = form + sum a b over its products; engines and decisions evaluate guards only through these functions. Motions
+/// are given as time derivatives 0, 1, ..., and so are the sizes that count as zero in them.
 struct GuardForm {
   Guard kind = Guard::none;
   Form form;
-  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;  ///< null: it is linear
+  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;  ///< nullptr for a linear guard
 
   [[nodiscard]] bool is_linear() const { return products == nullptr; }
   [[nodiscard]] double value(const ContactMotion& m) const {
     return is_linear() ? form.value(m) : form.value(m) + derivative_of_products(&m, 0);
   }
-  /// G^(k)
+  /// Time derivative G^(k).
   [[nodiscard]] double derivative(const ContactMotion* motion, std::size_t k) const {
     const double d = k == 0 ? form.value(motion[0]) : form.rate(motion[k]);
     return is_linear() ? d : d + derivative_of_products(motion, k);
   }
-  /// Rounding of G^(k).
+  /// Rounding error of G^(k).
   [[nodiscard]] double rounding(const ContactMotion* motion, const ContactMotion* noise,
                                 std::size_t k) const {
     const double r = form.magnitude(noise[k]);
     return is_linear() ? r : r + rounding_of_products(motion, noise, k);
   }
-  /// Derivative of G by a parameter, from that of the motion.
+  /// Derivative of G with respect to a parameter, from the derivative of the motion.
   [[nodiscard]] double change(const ContactMotion& m, const ContactMotion& by) const;
 
   [[nodiscard]] bool operator==(const GuardForm& other) const;
@@ -95,10 +96,10 @@ struct GuardForm {
                                             std::size_t k) const;
 };
 
-/// The unit of a guard's value.
+/// Unit of a guard's value.
 [[nodiscard]] Unit unit_of(const GuardForm& guard);
 
-/// The two residual rows of a contact.
+/// The two rows (residuals) of a contact.
 struct Rows {
   Form normal, tangent;
 };

@@ -8,7 +8,7 @@ namespace signorini {
 namespace {
 
 constexpr int most_steps =
-    200;  // of Newton's method: each of the first is v at least, the last ones are quadratic
+    200;  // Newton steps: the first ones advance by v at least, the last ones converge quadratically
 
 }  // namespace
 
@@ -19,14 +19,14 @@ double rate_of_saturation(const Friction& friction) {
 std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
                                          double pressed) {
   const double slow = friction.static_, fast = friction.kinetic, v = friction.rate_of_change();
-  // Below slow |N| friction goes on straight (contact/friction.cpp).
+  // Below slow |N|, friction continues as a straight line (contact/friction.cpp).
   if (pull <= slow * pressed) return (pull - slow * pressed) / (damping + (fast - slow) / v * pressed);
   if (!(damping > 0.0)) {
     const double rest = (fast * pressed - pull) / ((fast - slow) * pressed);
     if (!(rest > saturated)) return std::nullopt;
     return -v * std::log(rest);
   }
-  // What is sought grows with x and is concave: from the left Newton's steps never pass the root.
+  // The residual is increasing and concave in x: started from the left, Newton steps never pass the root.
   double x = 0.0;
   for (int i = 0; i < most_steps; ++i) {
     const double fading = (fast - slow) * std::exp(-x / v) * pressed;

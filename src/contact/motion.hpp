@@ -1,16 +1,16 @@
-// motion.hpp: the motion of a contact from that of the structure.
+// motion.hpp: motion of a contact from the motion of the structure.
 //
 //   g = g0 + n . u,   ut = t . u - s,   g' = n . v,   ut' = t . v - s',   g'' = n . a,   ut'' = t . a - s''
-//   p = ut - T / kt                     what has slipped; ut itself without tangential stiffness
+//   p = ut - T / kt                     slip; equal to ut without tangential stiffness
 //
-// s: motion of the surface. u, v, a: anything that has operator[] by degree of freedom.
+// s: motion of the surface. u, v, a: any type with operator[] by degree of freedom.
 #pragma once
 
 #include "signorini/contact.hpp"
 
 namespace signorini {
 
-/// ut, of a place; ut', of a velocity.
+/// ut for a displacement u; ut' for a velocity.
 template <class U>
 [[nodiscard]] double along_surface(const Contact& contact, const U& u, double surface) {
   return contact.tangent.dot(u) - surface;
@@ -38,7 +38,7 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   m.at = contact.tangent.dot(a) - surface_acceleration;
 }
 
-/// p: where the anchor of a contact lies that sticks from now on. Of increments: that of p.
+/// Slip p: the anchor of a contact that sticks from now on. Increments give the increment of p.
 [[nodiscard]] inline double slip_of(const Contact& contact, double ut, double T) {
   const std::optional<double> kt = contact.anchor_spring();
   return kt ? ut - T / *kt : ut;
@@ -47,7 +47,7 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   return slip_of(contact, m.ut, m.T);
 }
 
-/// Of a compliance split: the motion of the surfaces that touch, without that of its springs.
+/// Compliance split: reduces m to the motion of the surfaces in contact, without the deformation of the springs.
 inline void leave_out_borrowed(const Contact& contact, State state, ContactMotion& m) {
   if (!contact.compliance_split() || is_open(state)) return;
   if (contact.tangential_stiffness) {

@@ -1,43 +1,44 @@
-// work.hpp: what the forces of a contact do along a path, and what it stores.
+// work.hpp: work of the forces of a contact along a path, and its stored energy.
 //
 //   friction  T dp     surface  -T ds     damping  cn g' dg     pressing  -N dt
 //   stored    (N - cn g')^2 / 2 kn  closed,   kn g^2 / 2  inside,   T^2 / 2 kt
 //
-// A contact that a dashpot has opened while g < 0 (inside) carries nothing: its dashpot takes what its
-// spring gives, kn (g_from^2 - g_to^2)/2, until the gap opens or it closes again.
+// A contact that a dashpot has opened while g < 0 (inside) has no force: its dashpot dissipates the energy that its
+// spring releases, kn (g_from^2 - g_to^2)/2, until the gap opens or the contact closes again.
 #pragma once
 
 #include "contact/mode.hpp"
 
 namespace signorini {
 
-/// A small piece of a contact's path, or the same by time (dt = 1): increments, and g' on it.
+/// Small increments of a contact's path, or rates (dt = 1): increments, and g' on the path.
 struct ContactPath {
   double slip = 0.0, surface = 0.0, gap = 0.0;  ///< dp, ds, dg
   double gap_rate = 0.0;                        ///< g'
   double time = 0.0;                            ///< dt
 };
 
-/// Of a law of one's own `friction` is all that it takes, stored or lost, and the path's slip is d ut.
-/// Unit: energy, but pressing: force * time. By time where the path is.
+/// For a user-defined law `friction` is the whole work, stored or dissipated, and the path's slip is d ut. Unit:
+/// energy; pressing: force * time. If the path holds rates, the works are powers.
 struct ContactWork {
   double friction = 0.0, surface = 0.0, damping = 0.0, pressing = 0.0;
 };
 
-/// N, T: on the path, of a contact in this state.
+/// Work of the forces N, T on the path, for a contact in this state.
 [[nodiscard]] ContactWork work_on(const Contact& contact, State state, double N, double T,
                                   const ContactPath& path);
 
-/// The slip rate of ContactPath::slip by time: p' of a state that slips, ut' of a law that is not Coulomb's; else 0.
+/// Rate of ContactPath::slip: p' for a slipping state, ut' for a user-defined law; otherwise 0.
 [[nodiscard]] double working_slip_rate(const Contact& contact, State state, const ContactMotion& m);
 
-/// What the dashpot of a contact that is inside takes between two gaps; 0 in any other state.
+/// Energy dissipated in the dashpot of a contact in state `inside` between two gaps; 0 in any other state.
 [[nodiscard]] double inside_loss(const Contact& contact, State state, double gap_from, double gap_to);
 
-/// Its sliding point jumps where its force does: the dashpot beside it holds no body that follows at once, or there is none.
+/// True if the sliding point jumps when its force does: it has no dashpot, or the body beside it follows
+/// instantaneously.
 [[nodiscard]] bool slides_at_once(const Contact& contact);
 
-/// Of its springs.
+/// Energy stored in the shear springs.
 [[nodiscard]] double shear_energy(const Contact& contact, double T);
 [[nodiscard]] double stored_energy(const Contact& contact, State state, const ContactMotion& m);
 

@@ -1,4 +1,4 @@
-// built_in.hpp: the laws that a scene names, one object each.
+// built_in.hpp: the built-in laws that a scene can name, one object each.
 #pragma once
 
 #include "signorini/contact_law.hpp"

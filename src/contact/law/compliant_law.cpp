@@ -26,14 +26,14 @@ class CompliantLaw : public CoulombLaw {
   [[nodiscard]] double normal_energy(const Contact& contact, State state,
                                      const ContactMotion& m) const override {
     if (state == State::inside)
-      return 0.5 * contact.normal_stiffness * m.gap * m.gap;  // as long as the gap is deep
+      return 0.5 * contact.normal_stiffness * m.gap * m.gap;  // released when the gap opens
     if (is_open(state)) return 0.0;
     const double spring = m.N - contact.normal_damping * m.vn;
     return spring * spring / (2.0 * contact.normal_stiffness);
   }
   void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
                              Violations& v) const override {
-    // The surface in contact: the element's own length, which a dashpot may leave short (inside).
+    // Deformation of the contact element; a dashpot may keep it from returning to zero length (state "inside").
     const double element = !is_open(state) ? (m.N - contact.normal_damping * m.vn) / contact.normal_stiffness
                            : state == State::inside ? m.gap
                                                     : 0.0;
@@ -42,7 +42,7 @@ class CompliantLaw : public CoulombLaw {
   }
 };
 
-/// The springs are the structure's: to whoever asks for its name the contact is rigid.
+/// The springs belong to the structure: to code that asks for its name, the contact is rigid.
 class ComplianceSplitLaw final : public CompliantLaw {
  public:
   ComplianceSplitLaw() : CompliantLaw({.normal_spring = true, .compliance_split = true}) {}

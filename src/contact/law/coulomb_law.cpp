@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-/// How far T is from the limit of friction on one side.
+/// Distance of T from the limit of friction on one side.
 Form friction_left(const Contact& contact, double side) {
   Form form;
   form.T = -side;
@@ -42,11 +42,11 @@ Form tangent_row(const Contact& contact, const ContactState& state) {
   return row;
 }
 
-/// Closing: the contact enters the friction cone at its apex, so only the directions compare.
+/// Closing: the contact enters the friction cone at its apex, so only the directions are compared.
 ContactState close(const Contact& contact, const MotionJet& jet) {
   ContactState next{state_at_rest(contact), jet.motion[0].ut};
   if (!contact.has_friction()) return next;
-  // N jumps and T does not, or the shear element has not yet come to rest: the caller's guards decide.
+  // N jumps and T does not, or the shear element is still moving: the guards that the caller checks decide.
   if (contact.normal_damping > 0.0 || contact.shear) return next;
   for (std::size_t m = 1; m < jet.motion.size(); ++m) {
     const ContactMotion& d = jet.motion[m];
@@ -54,7 +54,7 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
     const bool tangent_moves = std::abs(d.ut) > jet.noise[m].ut;
     if (!normal_moves && !tangent_moves) continue;
     const double pull = *contact.tangential_stiffness * std::abs(d.ut);
-    // At the apex friction that depends on N is that of light loads.
+    // At the apex, friction that depends on N has the coefficient of light loads.
     if (pull > contact.friction.static_ * contact.normal_stiffness * std::abs(d.gap))
       next.state = slip_along(d.ut);
     break;
@@ -110,7 +110,7 @@ ContactLaw::Guards CoulombLaw::guards(const Contact& contact, const ContactState
   } else if (const int s = slip_sign(state.state); s != 0) {
     result[1].kind = Guard::sliding;
     result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
-    if (contact.shear && contact.friction.rises()) {  // it tells the rate, and is known better
+    if (contact.shear && contact.friction.rises()) {  // the limit determines the rate and is more accurate
       result[1].form = {};
       result[1].form.N = static_friction(contact);
       result[1].form.T = s;
@@ -148,7 +148,7 @@ ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& 
 
 std::vector<ContactState> CoulombLaw::candidates(const Contact& contact, const ContactState& now,
                                                  const ContactMotion& before) const {
-  // What stuck keeps its anchor, what slipped sticks where it is.
+  // A contact that stuck keeps its anchor; a contact that slipped sticks at its current position.
   const double anchor = now.state == State::stick ? now.anchor : slip_of(contact, before);
   std::vector<ContactState> result;
   if (!capabilities.normal_force_given) result.push_back({let_go(contact, before.gap), 0.0});

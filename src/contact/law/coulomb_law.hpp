@@ -1,12 +1,13 @@
-// coulomb_law.hpp: Coulomb's friction beside any law along the normal; the base of the built-in laws.
+// coulomb_law.hpp: Coulomb friction combined with any law along the normal; base class of the built-in laws.
 //
 //   tangent row   open, closed  T = 0
-//                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 of a sliding point of its own
+//                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 of a separate sliding point
 //                 slip s        T + s fk N = 0,  held s: T + s fs N = 0,    T - s F = 0 where friction depends on N
 //   guards        stick         fs |N| -+ T
 //                 slip s        s p',  p' = ut' - T'/kt
 //
-// A law along the normal gives its row, its guards and the rate of N (compliant_law.cpp, rigid_law.cpp, slider_law.cpp).
+// A law along the normal provides its row, its guards and the rate of N (compliant_law.cpp, rigid_law.cpp,
+// slider_law.cpp).
 #pragma once
 
 #include "contact/law.hpp"
@@ -36,16 +37,16 @@ class CoulombLaw : public ContactLaw {
 
  protected:
   CoulombLaw(Law named, const LawCapabilities& of) : ContactLaw(of), law_(named) {}
-  /// While the contact is closed. While it is open N = 0.
+  /// Normal row of a closed contact; an open one has N = 0.
   [[nodiscard]] virtual Form closed_normal_row(const Contact& contact) const = 0;
-  /// Guards of g and N: g > 0 in open, -N > 0 in closed.
+  /// Guards of g and N: g > 0 if open, -N > 0 if closed.
   virtual void set_normal_guards(const Contact& contact, const ContactState& state, Guards& result) const;
-  /// N' as a form, times `factor`, added to the rate of slip of an anchor's spring.
+  /// Adds N' times `factor` to `form`, the slip rate of a contact with an anchor spring.
   virtual void add_normal_rate(const Contact& contact, double factor, Form& form) const = 0;
   /// Energy stored along the normal.
   [[nodiscard]] virtual double normal_energy(const Contact& contact, State state,
                                              const ContactMotion& m) const;
-  /// Adds by how much gap and N violate (6).
+  /// Adds the violations of (6) by gap and N.
   virtual void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
                                      Violations& v) const;
 

@@ -1,6 +1,7 @@
-// data_laws.hpp: the laws made of data that a scene can name, law = "yielding": all that the scene and its reference know of one.
+// data_laws.hpp: the laws made of data that a scene can name, such as law = "yielding", with the data that the scene
+// and its reference use.
 //
-// A new law is a file beside this one that defines a DataLaw, and its line in data_laws.cpp.
+// To add a law, define a DataLaw in a new file in this folder and add its line to data_laws.cpp.
 #pragma once
 
 #include <optional>
@@ -14,24 +15,24 @@
 
 namespace signorini {
 
-/// A constant of the law: a number > 0 that a scene with the law must give.
+/// Constant of the law: a number > 0 that is required in a scene with this law.
 struct DataLawConstant {
   std::string_view key, unit, meaning;  ///< as in scene/keys.hpp
 };
 
 struct DataLaw {
   std::string_view name;
-  std::string_view meaning;  ///< in the sentence on the key `law`
+  std::string_view meaning;  ///< part of the sentence about the key `law`
   std::vector<DataLawConstant> constants;
-  /// kn and the constants, in order, make the law.
+  /// Makes the law from kn and the constants, in their order.
   OwnLaw (*make)(double normal_stiffness, const std::vector<double>& constants);
-  /// The key whose value is impossible beside the others, and a message; nullopt: none is.
+  /// Key whose value contradicts the others, and a message; nullopt: the values are valid.
   std::optional<std::pair<std::string_view, std::string>> (*objection)(double normal_stiffness,
                                                                        const std::vector<double>& constants);
 };
 
 [[nodiscard]] std::span<const DataLaw* const> data_laws();
-/// nullptr: it is built in.
+/// Data law with this name; nullptr: the name is that of a built-in law.
 [[nodiscard]] const DataLaw* find_data_law(std::string_view name);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// A constraint along the normal:  g'' = 0 while closed. Where it closes with g' < 0 it is hit (decide/impact.hpp).
+// A constraint along the normal:  g'' = 0 while closed. Closing with g' < 0 is an impact (decide/impact.hpp).
 #include <cmath>
 
 #include "contact/conditions.hpp"
@@ -15,7 +15,7 @@ class RigidLaw final : public CoulombLaw {
  private:
   [[nodiscard]] Form closed_normal_row(const Contact& /*contact*/) const override { return {.an = 1.0}; }
   void add_normal_rate(const Contact& /*contact*/, double factor, Form& form) const override {
-    form.pressing_rate = -factor;  // a rigid contact has no kt, so nothing asks for this
+    form.pressing_rate = -factor;  // never used: a rigid contact has no kt
   }
   void add_normal_violations(const Contact& /*contact*/, State state, const ContactMotion& m,
                              Violations& v) const override {

@@ -19,7 +19,7 @@ Form with_memory(const OwnForm& own, double memory) {
   return form;
 }
 
-/// No guard holds products of forms.
+/// True if no guard contains products of forms.
 bool has_linear_guards(const OwnLaw& law) {
   for (const OwnState& state : law.states)
     for (const OwnGuard& guard : state.guards)
@@ -76,7 +76,7 @@ class UserLaw final : public ContactLaw {
     return m.vt;
   }
 
-  /// All that it takes, stored or lost, counts as friction.
+  /// Friction is the whole work done on the contact, stored or dissipated.
   [[nodiscard]] ContactWork work(const Contact& /*contact*/, State /*state*/, double N, double T,
                                  const ContactPath& path) const override {
     ContactWork work;
@@ -89,7 +89,7 @@ class UserLaw final : public ContactLaw {
                                      const ContactMotion& /*m*/) const override {
     return 0.0;
   }
-  /// Its conditions are its guards.
+  /// The conditions of a user-defined law are its guards.
   [[nodiscard]] Violations violations(const Contact& /*contact*/, State /*state*/,
                                       const ContactMotion& /*m*/) const override {
     return {};
@@ -131,7 +131,7 @@ class UserLaw final : public ContactLaw {
   std::shared_ptr<const OwnLaw> data_;
 };
 
-/// A form whose value has the unit `of`.
+/// Visits the coefficients of a form whose value has the unit `of`.
 void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& visit) {
   const auto per = [&](double& coefficient, const Unit& unit) {
     visit(coefficient, Unit{of.force - unit.force, of.length - unit.length, of.time - unit.time});

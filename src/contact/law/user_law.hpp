@@ -1,4 +1,4 @@
-// user_law.hpp: a law made of data (signorini/own_law.hpp) behind the interface of all laws.
+// user_law.hpp: a user-defined law made of data (signorini/own_law.hpp), behind the interface of all laws.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace signorini {
 
-/// The first mistake in the data of a law; empty: there is none.
+/// Message about the first error in the data of a law; empty: the data are valid.
 [[nodiscard]] std::string refusal_of(const OwnLaw& law);
-/// Does it take part along the tangent? Else its tangent rows say T = 0, and nothing depends on ut.
+/// True if the law acts along the tangent; otherwise its tangent rows are T = 0 and nothing depends on ut.
 [[nodiscard]] bool acts_along_tangent(const OwnLaw& law);
-/// A law whose numbers, with their units, were visited; the law itself may be that of other scenes, too.
+/// Law whose constants were visited with their units; the argument may be shared with other scenes.
 [[nodiscard]] std::shared_ptr<const OwnLaw> visited(OwnLaw law, const ContactLaw::VisitConstant& visit);
 
 }  // namespace signorini

@@ -1,12 +1,12 @@
-// yielding_pad.hpp: a pad that yields, law = "yielding" of scene files, as a law of one's own.
+// yielding_pad.hpp: a pad that yields, law = "yielding" of scene files, defined as a user law.
 //
 //   off       N = 0            while g - p > 0
 //   elastic   N = kn (g - p)   while -Y < N < 0
-//   crushed   N = -Y           while g' < 0;   then p <- g + Y / kn, and N stays
-//   T = 0 in all of them
+//   crushed   N = -Y           while g' < 0;   then p <- g + Y / kn, and N is continuous
+//   T = 0 in all states
 //
-// p <= 0 is the dent, a length; 0 at the start. kn: force/length, Y: force, both > 0.
-// Work that the pad has taken when it is off again: Y times the growth of the dent.
+// p <= 0 is the dent, a length; 0 at the start. kn: force/length, Y: force, both > 0. The work dissipated in the pad by
+// the time it separates is Y times the growth of the dent.
 #pragma once
 
 #include "contact/law/data_laws.hpp"
@@ -15,7 +15,7 @@ namespace signorini {
 
 [[nodiscard]] OwnLaw yielding_pad(double normal_stiffness, double yield_force);
 
-/// The law that scenes name, with its constant yield_force.
+/// The yielding law of scenes, with its constant yield_force.
 [[nodiscard]] const DataLaw& yielding_law();
 
 }  // namespace signorini

@@ -8,7 +8,7 @@
 
 namespace signorini {
 
-/// Of M on the degrees of freedom that have mass.
+/// Factors of M, restricted to the degrees of freedom that have mass.
 struct Bench::Factor {
   std::vector<int> dofs;
   Eigen::SimplicialLDLT<SparseMatrix> ldlt;
@@ -30,7 +30,7 @@ Bench::Bench(const Model& model_, const WitnessLimits& limits_)
   note_massless();
 }
 
-/// The upper triangle of K with the springs of contacts, what is off the diagonal twice: u^T K u is a sum over it.
+/// Upper triangle of K with the springs of contacts, off-diagonal entries doubled: u^T K u is a sum over it.
 SparseMatrix Bench::springs_of(const Model& model) {
   std::vector<Eigen::Triplet<double>> terms;
   const auto add = [&](int i, int j, double value) {
@@ -188,7 +188,7 @@ double Bench::swing(const InstantRecord& record, std::size_t k) const {
   const Sight after = see(c, k, record.after), before = see(c, k, record.before);
   const OwnResponse* own = own_response(k);
   if (own == nullptr) return std::max(std::abs(after.ddg), std::abs(after.ddut));
-  double n = 0.0, t = 0.0;  // what the accelerations of both sides differ by
+  double n = 0.0, t = 0.0;  // differences of the accelerations on both sides
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
     const Contact& other = model.contacts[j];
     const Sight b = see(other, j, record.before), a = see(other, j, record.after);

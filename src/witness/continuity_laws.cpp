@@ -12,7 +12,7 @@ namespace {
 
 struct ClosedRows {
   std::vector<const Combination*> forms;
-  std::vector<Vector> columns;  // M^-1 form; of what slides with its friction
+  std::vector<Vector> columns;  // M^-1 form; with its friction for a sliding contact
   std::vector<double> gaps;
 
   void add(const Combination& form, Vector column, double gap) {
@@ -37,10 +37,10 @@ struct ClosedRows {
 
 }  // namespace
 
-/// u, and T where nothing but its state's row changes. Both sides of u are rounded.
+/// Checks the continuity of u, and of T unless its row changes with the state. Both sides of u are rounded.
 void Finder::continuity() {
   const WitnessLimits& tol = bench_.limits;
-  // Sizes of u, and of v within what the time is known to, of translations and of rotations.
+  // Largest u, and largest v (multiplied below by the uncertainty of the time), for translations and rotations.
   const std::array<double, 2> of_u = bench_.greatest(*record_.before.u),
                               of_v = bench_.greatest(*record_.before.v);
   const std::array<double, 2> off_by = bench_.greatest(*record_.after.u - *record_.before.u);
@@ -75,9 +75,9 @@ void Finder::continuity() {
     if (model_.contacts[k].obeys_coulomb()) friction_continuity(k);
 }
 
-/// Where there is no mass u follows from forces, and springs of contacts make forces of its rounding: those of stiff ones
-/// bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on what has no mass. 0: it has mass there, or K
-/// is singular.
+/// Uncertainty of u at a massless degree of freedom. There u follows from forces, and springs of contacts turn its
+/// rounding into forces: stiff springs bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on
+/// massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is singular.
 double Finder::unsure_without_mass(int dof) const {
   if (bench_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
   const std::vector<int>& all = bench_.massless();
@@ -90,8 +90,9 @@ double Finder::unsure_without_mass(int dof) const {
   return std::isfinite(bent) ? bent : 0.0;
 }
 
-/// What gaps of rigid contacts, as large as their rounding, move u by where they close together by the smallest change in
-/// the norm of M, which leaves alone what sticks:  du = M^-1 G^T W^-1 (g, 0),  W = G M^-1 G^T,  G: rows (n, t).
+/// Largest change of u by closing gaps of rigid contacts that have the size of their rounding. All gaps close together
+/// by the smallest change in the norm of M that leaves sticking contacts alone:
+/// du = M^-1 G^T W^-1 (g, 0),  W = G M^-1 G^T,  G: rows (n, t).
 Vector Finder::closing() const {
   Vector most = Vector::Zero(model_.size());
   const auto close = [&](const std::vector<ContactState>& mode, bool by_impulses) {
@@ -116,12 +117,12 @@ Vector Finder::closing() const {
   };
   close(*record_.before.mode, false);
   close(*record_.after.mode, false);
-  close(*record_.after.mode, true);  // all that touch, whether they stick or not
+  close(*record_.after.mode, true);  // all contacts that touch, sticking or not
   return most;
 }
 
-/// Parts without mass follow at once where forces on them jump: by a load, where they leave a contact, and where
-/// friction drops to its kinetic value.
+/// Massless parts jump if the forces on them jump: at a jump of a load, when they leave a contact, and when friction
+/// drops to its kinetic value.
 bool Finder::lets_massless_jump() const {
   if (massless_jump_) return *massless_jump_;
   bool any = record_.breakpoint || record_.start || !record_.released.empty();
@@ -130,15 +131,15 @@ bool Finder::lets_massless_jump() const {
   return any;
 }
 
-/// Beside a dashpot it is the body that follows at once.
+/// True if the body of a contact is massless; beside a dashpot it is the body that jumps.
 bool Finder::body_follows(std::size_t k) const {
   const std::vector<std::pair<int, double>>& terms = model_.contacts[k].body_tangent().terms;
   return std::any_of(terms.begin(), terms.end(),
                      [&](const auto& term) { return !bench_.has_mass(term.first); });
 }
 
-/// It stuck at its static limit, which is above the kinetic one, and slides, or is open, or has slid and stopped at once: a
-/// row of slip from stick to stick.
+/// True if contact k stuck at its static limit, which is above the kinetic one, and now slides, is open, or has slid
+/// and stopped within the instant (an event "slip" from stick to stick).
 bool Finder::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
@@ -159,8 +160,8 @@ bool Finder::lets_go(std::size_t k) const {
   return false;
 }
 
-/// Where parts without mass jump, a contact that sticks keeps its sliding point, and one that lets go slides the way that
-/// its friction force pointed:  p = ut - T/kt,  s (p+ - p-) >= 0.
+/// Checks p if massless parts jump: a sticking contact keeps its sliding point, and a contact that lets go slides in
+/// the direction of its friction force:  p = ut - T/kt,  s (p+ - p-) >= 0.
 void Finder::slide_at_once(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
@@ -180,7 +181,7 @@ void Finder::slide_at_once(std::size_t k) {
     add(static_cast<int>(k), "continuity of friction", back, limit, seen::force, false);
 }
 
-/// T is the same on both sides though its terms be no larger than itself, and points the way that it slides.
+/// True if T is the same on both sides, up to rounding of T itself, and points in the direction of slip.
 bool Finder::shear_stays(std::size_t k) const {
   const auto at = static_cast<Eigen::Index>(model_.layout.tangent(k));
   const double before = (*record_.before.forces)[at], after = (*record_.after.forces)[at];
@@ -188,8 +189,8 @@ bool Finder::shear_stays(std::size_t k) const {
          sign_of_slip((*record_.after.mode)[k].state) * before >= 0.0;
 }
 
-/// Where |N| of what slides jumps down, T falls with it, however the contact goes on: a hit that lets N jump may turn the
-/// slip at the same instant, and what stops then sticks at its new kinetic limit.
+/// True if |N| of a sliding contact jumps down and T decreases with it, whatever the new state: a hit that makes N jump
+/// may reverse the slip at the same instant, and a contact that stops sticks at its new kinetic limit.
 bool Finder::falls_with_it(std::size_t k, const Sight& before, const Sight& after, double off_N,
                            double off_T) const {
   const Contact& c = model_.contacts[k];
@@ -199,7 +200,7 @@ bool Finder::falls_with_it(std::size_t k, const Sight& before, const Sight& afte
   return std::abs(after.T + s * friction_in(c, old, before.dut, after.N) * after.N) <= off_T;
 }
 
-/// T of a spring stays; it drops from the static limit to the kinetic one where the contact lets go.
+/// Checks that T of a spring is continuous; it drops from the static limit to the kinetic one if the contact lets go.
 void Finder::friction_continuity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
@@ -223,7 +224,7 @@ void Finder::friction_continuity(std::size_t k) {
   const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
   const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
   const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // N has dropped
-  if (lets_go || above) {                                         // to its limit, on the side that it was on
+  if (lets_go || above) {                                         // to the limit, with the same sign
     if (sign_of_slip(now.state) * b.T < 0.0 && std::abs(b.T) > limit && !moves_at_once(k))
       add(static_cast<int>(k), "continuity of friction", std::abs(a.T - b.T), limit, seen::force, false);
     return;

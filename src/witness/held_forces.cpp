@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-/// |w| |matrix| |x|
+/// Sum of |w| |matrix| |x|, without cancellation.
 double terms_of(const Vector& w, const SparseMatrix& matrix, const Vector& x) {
   double sum = 0.0;
   for (int j = 0; j < matrix.outerSize(); ++j)
@@ -19,11 +19,14 @@ double terms_of(const Vector& w, const SparseMatrix& matrix, const Vector& x) {
 
 }  // namespace
 
-/// Of all that is held just before, rows R of accelerations, and columns F of forces l, of what slides with its friction:
+/// Weights w of contact k's forces among all forces that enforce constraints just before: rows R of accelerations, and
+/// columns F of forces l, which include friction for sliding contacts:
 ///
-///     R M^-1 (f - F l) = asked,  f = P - C v - K u - springs    =>    l_k = w_k . f + ...,   w_k = M^-1 R^T A^-T e_k,  A = R M^-1 F
+///     R M^-1 (f - F l) = asked,  f = P - C v - K u - springs
+///     =>    l_k = w_k . f + ...,   w_k = M^-1 R^T A^-T e_k,  A = R M^-1 F
 ///
-/// So another contact whose rows are nearly the same makes noise of f greater, by A^-1; own rows alone would not say so.
+/// Another contact with nearly the same rows amplifies noise of f by A^-1; the rows of contact k alone would not show
+/// this.
 HeldForce Bench::held_force(const InstantRecord& record, std::size_t k) const {
   std::vector<const Combination*> forms;
   std::vector<const Vector*> rows;
@@ -68,7 +71,7 @@ HeldForce Bench::held_force(const InstantRecord& record, std::size_t k) const {
   return {weights(normal), weights(tangent)};
 }
 
-/// What dampers and dashpots of closed contacts make of velocities, on the forces w . f.
+/// Contribution of dampers, and of dashpots of closed contacts, to the forces w . f, for velocities v.
 double Bench::damped(const InstantRecord& record, const Vector& w, const Vector& v) const {
   double sum = w.dot(model.damping * v);
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
@@ -82,13 +85,13 @@ double Bench::damped(const InstantRecord& record, const Vector& w, const Vector&
   return sum;
 }
 
-/// By how much two sums of w . f differ, both of the u and v just before: the engine's, and the decision's, which takes
-/// out velocities that steps have left. That is
-///   - rounding, 1000 eps of  |w| (|M| |a| + |C| |v| + |K| |u|)  and of the terms of springs and forces of all contacts; with
-///     `ida` as many tolerances as of any other row;
+/// Difference between two sums of w . f, both from the u and v just before: the engine's, and the decision's, which
+/// removes velocities that steps have left. It consists of
+///   - rounding, 1000 eps of  |w| (|M| |a| + |C| |v| + |K| |u|)  and of the terms of springs and forces of all
+///     contacts; with `ida` as many tolerances as for any other row;
 ///   - in modes, du and dv with  du^T K du <= lost^2,  dv^T M dv <= lost^2  (Schwarz):
 ///         |w . K du| <= lost sqrt( w^T K w ),   |w . C dv| <= lost sqrt( (C w)^T M^-1 (C w) );
-///   - where steps have a given length, w . C dv of the velocities dv that captures take out, dashpots of contacts in C.
+///   - if steps have a given length, w . C dv for the velocities dv that captures remove, dashpots of contacts in C.
 double Bench::held_noise(const InstantRecord& record, const Vector& w) const {
   if (w.size() == 0) return 0.0;
   const WitnessedSide& side = record.before;

@@ -7,7 +7,7 @@
 
 namespace signorini {
 
-/// What is no normal number has no digits: a limit below all of these would be one of nothing.
+/// Adds a violation. The limit is at least the smallest normal number: smaller numbers have no digits.
 void Finder::add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave) {
   limit = std::max(limit, std::numeric_limits<double>::min());
   if (value <= limit) return;
@@ -31,7 +31,7 @@ const RecordedEvent* Finder::event_of(std::size_t k) const {
   return found == record_.events.end() ? nullptr : &*found;
 }
 
-/// Something pushes, or a velocity of what has mass differs.
+/// True if there are impulses, or a velocity of a degree of freedom with mass jumps.
 bool Finder::is_struck() const {
   if (!record_.impulses.empty()) return true;
   if (record_.captures.size() > 0 && !record_.captures.isZero(0.0)) return true;
@@ -41,7 +41,7 @@ bool Finder::is_struck() const {
   return false;
 }
 
-/// M (v+ - v-) is a sum along n and t, to the backward error of the solves that made v+.
+/// Checks that M (v+ - v-) is a sum of impulses along n and t, within the backward error of the solves for v+.
 void Finder::momentum() {
   if (!is_struck()) return;
   const Vector &before = *record_.before.v, &after = *record_.after.v;
@@ -60,7 +60,7 @@ void Finder::momentum() {
     push(model_.contacts[k].tangent, record_.captures.data()[model_.layout.tangent(k)]);
   }
   Vector jump = Vector::Zero(model_.size()), speed = jump;
-  // Velocities are known to the least normal number, and no better: below it they have no digits.
+  // Velocities are known to the smallest normal number at best: smaller numbers have no digits.
   constexpr double unknown = std::numeric_limits<double>::min() / rounding::of_elimination;
   double translation = std::max(unknown, record_.before.v_reach[0]),
          rotation = std::max(unknown, record_.before.v_reach[1]);
@@ -93,7 +93,7 @@ void Finder::momentum() {
     return worst;
   };
   if (worst_of() < 0) return;
-  // What rests has velocities as great as forces make within the resolution of the clock.
+  // A body at rest has velocities as large as its forces produce within the resolution of the clock.
   clock = of_uncertainty * record_.resolution * bench_.balance(record_.after);
   const int worst = worst_of();
   if (worst < 0) return;
@@ -102,8 +102,9 @@ void Finder::momentum() {
       true);
 }
 
-/// What no law of impact gives is no more than a contact that rests may have had. It is held still while others are
-/// stopped, and moves with them where it slides: what counts is the less of what its own capture does and of what all do.
+/// Checks that impulses which no law of impact gives are no larger than the speed of a resting contact explains. Such a
+/// contact is held while others are stopped, and moves with them if it slides: the smaller of the effect of its own
+/// capture and the effect of all captures counts.
 void Finder::captures() {
   if (record_.captures.size() == 0 || record_.captures.isZero(0.0)) return;
   Vector impulse = Vector::Zero(model_.size());
@@ -121,20 +122,20 @@ void Finder::captures() {
                t = static_cast<Eigen::Index>(model_.layout.tangent(k));
     if (record_.captures[n] == 0.0 && record_.captures[t] == 0.0) continue;
     const OwnResponse* own = bench_.own_response(k);
-    const double most = std::numeric_limits<double>::infinity();  // by itself, without the others
+    const double most = std::numeric_limits<double>::infinity();  // replaces its own effect if unknown
     const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[n]) : most;
     const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[t]) : most;
     const double speed = std::max(std::min(by_n, std::abs(c.normal.dot(change))),
                                   std::min(by_t, std::abs(c.tangent.dot(change))));
     double limit = with_slow_slips * bench_.slowest(record_, k);
-    // Between steps g' of a gap that is held swings by what a step makes of the acceleration that is held; and what comes
-    // to rest within a step is found at its end, by when it moves again. What sticks rigidly to a surface that moves
-    // follows its acceleration, and its velocity with the error of the step's rule.
+    // Between steps, g' of a closed gap oscillates by the step times the held acceleration. A contact that stops
+    // within a step is found at the end of the step and may have moved again by then. A contact that sticks rigidly to
+    // a moving surface follows its acceleration, and its velocity with the error of the step rule.
     if (bench_.limits.step > 0.0 && !is_open((*record_.before.mode)[k].state))
       limit += bench_.limits.step * bench_.swing(record_, k) + record_.before.driven[k].drift;
-    // What stops within a step of an engine that finds no instants swings on by up to the speed that it had. The limit
-    // of an engine with steps takes the accelerations of both ends and the first terms of errors in h: what is left of
-    // the series is given twice as much.
+    // With an engine that does not locate events, a contact that stops within a step overshoots by up to its former
+    // speed. The limit for an engine with steps uses the accelerations of both ends and the first terms of the errors
+    // in h; the remaining terms of the series are allowed twice as much.
     const bool grave = record_.located && speed > (bench_.limits.step > 0.0 ? of_uncertainty : 1.0) * limit;
     if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, grave);
   }
@@ -150,7 +151,7 @@ void Finder::restitution() {
     if ((closed || m.g <= 0.0) && m.dg < -rounding_of_speed)
       add(static_cast<int>(k), "penetration rate", -m.dg, rounding_of_speed, seen::velocity, true);
   }
-  double greatest = 0.0;  // impulse, those included that rounding leaves of velocities that cancel
+  double greatest = 0.0;  // largest impulse, including the rounding of velocities that cancel
   for (const RecordedImpulse& p : record_.impulses) {
     greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
     const OwnResponse* own = bench_.own_response(p.contact);
@@ -167,8 +168,8 @@ void Finder::restitution() {
   }
 }
 
-/// Each impact starts where the last one ended: v- and the impulses of earlier turns make its beginning, v+ less those of
-/// later turns its end.
+/// Velocities before and after one impact of an instant: v- plus the effect of the impulses of earlier turns, and v+
+/// minus the effect of later turns.
 Finder::Strike Finder::strike_of(const RecordedImpulse& p, const Sight& before, const Sight& after) const {
   Strike strike{before.dg, after.dg, after.dut};
   const OwnResponse* own = bench_.own_response(p.contact);
@@ -192,7 +193,7 @@ Finder::Strike Finder::strike_of(const RecordedImpulse& p, const Sight& before, 
   return strike;
 }
 
-/// 0 <= Pn _|_ g'+ + e min(g'-, 0) >= 0.
+/// Checks 0 <= Pn _|_ g'+ + e min(g'-, 0) >= 0.
 void Finder::restitution_of(const RecordedImpulse& p, const Strike& strike, double greatest) {
   const int contact = static_cast<int>(p.contact);
   const double zero = rounding::of_elimination * greatest;
@@ -202,8 +203,8 @@ void Finder::restitution_of(const RecordedImpulse& p, const Strike& strike, doub
   const double limit = bench_.slowest(record_, p.contact) + strike.unsure +
                        (own != nullptr ? rounding::of_elimination * own->nn * greatest : 0.0);
   const double asked = -c.restitution * std::min(strike.dg_before, 0.0);
-  double off = asked - strike.dg_after;                                // slower than restitution asks for
-  if (p.normal > zero) off = std::abs(off);                            // or faster than it gives
+  double off = asked - strike.dg_after;                                // slower than restitution requires
+  if (p.normal > zero) off = std::abs(off);                            // or faster than it allows
   if (asked <= limit) off = std::min(off, std::abs(strike.dg_after));  // e = 0: rest
   if (off > limit) add(contact, "restitution", off, limit, seen::velocity, true);
 }

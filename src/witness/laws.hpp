@@ -1,8 +1,8 @@
-// laws.hpp: the laws of an instant, one function each; what they share.
+// laws.hpp: the laws of an instant, one function each, and their common data.
 //
-//   W_k = (n, t)^T M^-1 (n, t) of one contact: what its own forces do to its own accelerations
+//   W_k = (n, t)^T M^-1 (n, t) of one contact: effect of its own forces on its own accelerations
 //
-// Every function adds what it finds to `found`.
+// Every function appends the violations that it finds to `found`.
 #pragma once
 
 #include <array>
@@ -12,31 +12,33 @@
 
 namespace signorini {
 
-/// Engines re-arm a guard ten tolerances from its zero, and its terms are two. Times a tolerance.
+/// Factor of a tolerance: engines re-arm a guard ten tolerances from its zero, and it has two terms.
 inline constexpr double of_tolerance = 20.0;
-/// Where no motion goes on, slip rates up to sixteen times the speeds that count as rest are taken as rest, too
+/// Factor for slip rates: if no motion continues, slip rates up to sixteen times the speeds of rest also count as rest
 /// (docs/theory.md, "Rigid contacts").
 inline constexpr double with_slow_slips = 16.0;
-/// A time is uncertain by t_uncertainty to first order; the rest of the motion's series, and a second guard at the same
-/// instant, are given as much again. Chosen.
+/// Factor of an uncertainty of a time: t_uncertainty is of first order; the same amount is allowed for the rest of the
+/// motion's series, and for a second guard at the same instant. Chosen value.
 inline constexpr double of_uncertainty = 3.0;
 
-/// States that fail, and changes without a reason, by more than this part of a guard's terms are no rounding that was
-/// taken for too small: they are grave. Chosen; four rigid contacts on a body that three hold (coupled seed 19) fail by all.
+/// Fraction of a guard's terms beyond which failing states, and changes without a reason, are grave: no underestimated
+/// rounding explains them. Chosen value; four rigid contacts on a body that three support (coupled seed 19) fail by the
+/// full size.
 inline constexpr double gross = 1e-3;
 
-/// Accelerations by unit forces of a contact, where all its degrees of freedom have mass: of the structure, and its own.
+/// Accelerations by unit forces of a contact whose degrees of freedom all have mass: of the structure, and its own.
 struct OwnResponse {
   Vector by_n, by_t;
   double nn = 0.0, nt = 0.0, tt = 0.0;
 };
 
-/// Of a contact whose forces hold accelerations: what the structure's forces f make of them is w . f. Empty: it holds none.
+/// Weights for the forces of a contact that enforce constraints: the structure's forces f give the contact force
+/// w . f. Empty: there is no such force.
 struct HeldForce {
   Vector N, T;
 };
 
-/// What laws know of the model.
+/// Data of the model that the laws use.
 class Bench {
  public:
   Bench(const Model& model, const WitnessLimits& limits);
@@ -44,39 +46,41 @@ class Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// M^-1 x on degrees of freedom with mass, 0 elsewhere. Empty: M is not regular there.
+  /// M^-1 x on degrees of freedom with mass, 0 elsewhere. Empty: M is singular there.
   [[nodiscard]] Vector per_mass(const Vector& x) const;
-  /// The greatest sqrt((M^-1)_ii), of translations and of rotations.
+  /// Largest sqrt((M^-1)_ii), for translations and for rotations.
   [[nodiscard]] const std::array<double, 2>& lightness() const;
-  /// Null: contact k acts where there is no mass.
+  /// Response to its own forces; null: contact k acts on a massless degree of freedom.
   [[nodiscard]] const OwnResponse* own_response(std::size_t k) const;
-  /// The greatest sum of the terms of M a + C v + K u and of contact forces: what forces that hold accelerations are differences of.
+  /// Largest sum of the absolute terms of M a + C v + K u and of contact forces: constraint forces are differences of
+  /// these terms.
   [[nodiscard]] double balance(const WitnessedSide& side) const;
   [[nodiscard]] bool has_mass(int dof) const { return massive_[static_cast<std::size_t>(dof)]; }
-  /// The greatest |x_i| of translations and of rotations.
+  /// Largest |x_i| of translations and of rotations.
   [[nodiscard]] std::array<double, 2> greatest(const Vector& x) const;
-  /// u^T K u, springs of contacts in K.
+  /// Twice the elastic energy, u^T K u, with springs of contacts in K.
   [[nodiscard]] double twice_energy(const Vector& u) const;
-  /// Degrees of freedom without mass, contacts that act on one, and rows of K and C as columns; empty: all have mass.
+  /// Massless degrees of freedom, contacts that act on one, and rows of K and C as columns; empty: all have mass.
   [[nodiscard]] const std::vector<int>& massless() const { return massless_; }
   [[nodiscard]] const std::vector<std::size_t>& on_massless() const { return on_massless_; }
   [[nodiscard]] const SparseMatrix& stiffness_by_rows() const { return stiffness_by_rows_; }
   [[nodiscard]] const SparseMatrix& damping_by_rows() const { return damping_by_rows_; }
-  /// The speed at most by which captures move contact k.
+  /// Upper bound of the speed that captures give contact k.
   [[nodiscard]] double moved_by(const Vector& captures, std::size_t k) const;
-  /// An acceleration of its gap that its forces may have held.
+  /// Bound of the acceleration of its gap that its force may have balanced.
   [[nodiscard]] double pull(const InstantRecord& record, std::size_t k) const;
-  /// The same along both directions, of the motions before and after.
+  /// The same bound for both directions, from the motions before and after.
   [[nodiscard]] double swing(const InstantRecord& record, std::size_t k) const;
-  /// What dampers make of the velocities that captures take out of steps: guards are located with these. Empty: nothing.
+  /// Change of accelerations by dampers, for the velocities that captures remove from steps; guards are located with
+  /// these accelerations. Empty: none.
   [[nodiscard]] Vector swung(const InstantRecord& record) const;
-  /// The velocities that captures take out of steps. Empty: none.
+  /// Velocities that captures remove from steps. Empty: none.
   [[nodiscard]] Vector captured(const InstantRecord& record) const;
-  /// The forces of contact k just before, among all that hold accelerations there.
+  /// Weights for the forces of contact k just before, among all constraint forces.
   [[nodiscard]] HeldForce held_force(const InstantRecord& record, std::size_t k) const;
-  /// What w . f is known to just before, summed twice.
+  /// Uncertainty of w . f just before, from two different sums.
   [[nodiscard]] double held_noise(const InstantRecord& record, const Vector& w) const;
-  /// Slower than this a contact that leaves may be taken as rest.
+  /// Speed below which a contact that leaves may count as at rest.
   [[nodiscard]] double slowest(const InstantRecord& record, std::size_t k) const;
 
   const Model& model;
@@ -89,7 +93,7 @@ class Bench {
   [[nodiscard]] double damped(const InstantRecord& record, const Vector& w, const Vector& v) const;
 
   std::vector<bool> massive_;
-  Vector turns_;  // 1 of rotations, else 0
+  Vector turns_;  // 1 for rotations, otherwise 0
   SparseMatrix springs_;
   std::vector<int> massless_;
   std::vector<std::size_t> on_massless_;
@@ -99,28 +103,28 @@ class Bench {
   mutable std::optional<std::array<double, 2>> lightness_;
 };
 
-/// Of a stretch, by its ends: just after one instant, just before the next, at t.
+/// Checks a stretch of motion at its two ends: just after one instant, and just before the next one, at t.
 [[nodiscard]] std::vector<Violation> stretch_laws(const Bench& bench, double t, const WitnessedSide& from,
                                                   const WitnessedSide& to);
-/// Rows with mass just after an instant; the worst one. load: P.
+/// Checks rows with mass just after an instant; reports the worst one. load: P.
 [[nodiscard]] std::vector<Violation> equilibrium_law(const Bench& bench, double t, const WitnessedSide& side,
                                                      const Vector& load);
 
-/// A row without mass whose forces, or their rates, do not balance.
+/// A massless row whose forces, or their rates, are not balanced.
 struct Unbalanced {
   int dof = 0;
   const char* law = "";
   double value = 0.0, limit = 0.0;
-  int order = 0;  ///< of the derivative
+  int order = 0;  ///< order of the derivative
 };
-/// orders: 1 forces, 2 their rates, too, 3 and the rates of these. At most one row an order.
+/// orders: 1 forces, 2 also their rates, 3 also the rates of these. At most one row is returned per order.
 [[nodiscard]] std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide& side,
                                                        int orders);
-/// Rounding of the forces of each row without mass, or of their first derivatives (order 1), n; what tolerances leave is
-/// not in it.
+/// Rounding of the forces of each massless row, or of their first derivatives (order 1); length n. Errors by the
+/// tolerances of the engine are not included.
 [[nodiscard]] Vector massless_noise(const Bench& bench, const WitnessedSide& side, int order);
 
-/// The laws at one instant.
+/// Checks the laws at one instant.
 class Finder {
  public:
   Finder(const Bench& bench, const InstantRecord& record, std::vector<Violation>& found)
@@ -139,10 +143,10 @@ class Finder {
  private:
   [[nodiscard]] bool is_struck() const;
   void add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave);
-  /// Velocities along n and t of a contact where an impact began and where it ended.
+  /// Velocities of a contact along n and t before and after an impact.
   struct Strike {
     double dg_before = 0.0, dg_after = 0.0, dut_after = 0.0;
-    double unsure = 0.0;  // what captures have moved, before or after
+    double unsure = 0.0;  // speed due to captures, before or after
   };
   [[nodiscard]] Strike strike_of(const RecordedImpulse& p, const Sight& before, const Sight& after) const;
   void restitution_of(const RecordedImpulse& p, const Strike& strike, double greatest);
@@ -170,7 +174,7 @@ class Finder {
   [[nodiscard]] double settled(const RecordedEvent& event) const;
   [[nodiscard]] bool is_released(std::size_t k) const;
   [[nodiscard]] double left_terms(const Contact& c) const;
-  /// A contact in its old state, and by how much rounding of accelerations moves its forces.
+  /// A contact in its old state, and the uncertainty of its forces due to rounding of accelerations.
   struct Old {
     Sight m;
     double unsure_N = 0.0, unsure_T = 0.0;
@@ -181,12 +185,12 @@ class Finder {
   [[nodiscard]] bool moves_at_once(std::size_t k) const;
   [[nodiscard]] double zero_of(const SeenGuard& guard, const Contact& contact) const;
   [[nodiscard]] const RecordedEvent* event_of(std::size_t k) const;
-  /// Displacements without mass may jump.
+  /// True if massless displacements may jump.
   [[nodiscard]] bool lets_massless_jump() const;
   [[nodiscard]] bool body_follows(std::size_t k) const;
   [[nodiscard]] bool lets_go(std::size_t k) const;
   void slide_at_once(std::size_t k);
-  /// Rounding of forces that hold accelerations.
+  /// Rounding of constraint forces.
   [[nodiscard]] double force_noise() const;
 
   const Bench& bench_;

@@ -1,11 +1,11 @@
-// Parts without mass: their forces balance, and so do the rates of these.
+// Massless parts: their forces are balanced, and so are the rates of these forces.
 //
 //   r   = P - C v - K u - sum ( n N + t T )          = 0    in rows of M that are empty
-//   r'  = P' - C a - K v - sum ( n N' + t T' )       = 0    where N', T' follow from u, v, a
-//   r'' = P'' - K a - sum ( n N'' + t T'' )          = 0    and where nothing damps, too
+//   r'  = P' - C a - K v - sum ( n N' + t T' )       = 0    if N', T' follow from u, v, a
+//   r'' = P'' - K a - sum ( n N'' + t T'' )          = 0    if the row also has no damping
 //
-// N' and T' are known of springs and of what is open: kn g' + cn g'', kt ut', -s fk N'; reactions that hold
-// accelerations are unknowns, and rows that have one are left out.
+// N' and T' are known for springs and for open contacts: kn g' + cn g'', kt ut', -s fk N'; constraint forces are
+// unknowns, and rows that contain one are skipped.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,19 +17,19 @@
 namespace signorini {
 namespace {
 
-// Of the terms of rates, which solves and derivatives of solves have made. Chosen: rates that are zero or left out are off
-// by all of them (tests/unit/witness/massless.cpp).
+// Relative accuracy of the terms of rates, which come from solves and their derivatives. Chosen value: a rate that is
+// zero or missing by mistake is off by its whole size (tests/unit/witness/massless.cpp).
 constexpr double of_rates = 1e-9;
 constexpr const char* names[] = {"massless equilibrium", "massless velocity", "massless acceleration"};
 
-/// N and T of a contact, or their first or second derivative, and the sizes of their terms. known: they follow from the
+/// N and T of a contact, or their first or second derivative, and the size of their terms. known: they follow from the
 /// motion.
 struct Push {
   double N = 0.0, T = 0.0, size = 0.0;
   bool known = true;
 };
 
-/// Of order 1 or 2.
+/// Derivatives of order 1 or 2.
 Push push_of(const Contact& c, const ContactState& state, const Sight& m, int order) {
   Push push;
   if (is_open(state.state) && !c.normal_force_given()) return push;
@@ -54,7 +54,7 @@ Push push_of(const Contact& c, const ContactState& state, const Sight& m, int or
   return push;
 }
 
-/// What the roundings of x are relative to, one a degree of freedom.
+/// Sizes that the rounding of x is relative to, one per degree of freedom.
 Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>& reached) {
   Vector reach = x.cwiseAbs();
   for (int i = 0; i < model.size(); ++i)
@@ -62,7 +62,7 @@ Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>
   return reach;
 }
 
-/// The sum of one order, row by row.
+/// Balance of one order, row by row.
 class Balance {
  public:
   Balance(const Bench& bench, const WitnessedSide& side, int order)
@@ -78,7 +78,7 @@ class Balance {
     const Vector rounded = noise();
     for (const int i : bench_.massless()) {
       const double limit = rounded[i] + of_tolerance * off_[i];
-      // Terms of a motion that has decayed so far have no digits: their rounding is no normal number.
+      // A decayed motion has terms below the smallest normal number, which have no digits.
       if (limit < std::numeric_limits<double>::min()) continue;
       if (known_[static_cast<std::size_t>(i)] && std::abs(sum_[i]) > limit)
         return Unbalanced{i, names[order_], std::abs(sum_[i]), limit, order_};
@@ -86,7 +86,7 @@ class Balance {
     return std::nullopt;
   }
 
-  /// Sums all rows; of each, its rounding.
+  /// Sums all rows; returns the rounding of each.
   [[nodiscard]] Vector noise() {
     structure();
     for (const std::size_t k : bench_.on_massless()) contact(k);
@@ -112,8 +112,8 @@ class Balance {
       for (; damper; ++damper) take(i, damper.value(), dx[damper.row()], of_dx[damper.row()]);
     }
   }
-  /// What places (order 0), velocities and accelerations have reached. Roundings of places make velocities as great as w
-  /// times them, and accelerations as great as w^2, w: the highest frequency. At rest that is all there is.
+  /// Sizes reached by displacements (order 0), velocities and accelerations. Rounding of displacements produces
+  /// velocities w times, and accelerations w^2 times as large, w: the highest frequency. At rest there is nothing else.
   [[nodiscard]] std::array<double, 2> reached(int order) const {
     if (order == 0) return side_.u_reach;
     std::array<double, 2> reach = side_.u_reach;
@@ -127,7 +127,7 @@ class Balance {
     sum_[i] -= factor * x;
     size_[i] += std::abs(factor) * reach;
   }
-  /// Of a displacement, or a velocity.
+  /// Tolerance of a displacement or a velocity.
   [[nodiscard]] double tolerance(int dof, double reach) const {
     const WitnessLimits& tol = bench_.limits;
     const bool turns = bench_.model.dofs[static_cast<std::size_t>(dof)].rotation;

@@ -11,13 +11,13 @@
 namespace signorini {
 namespace {
 
-/// A sum of rows without mass that tells velocities: of C v by forces, or of K v by their rates.
+/// Sum of massless rows that determines velocities: C v from forces, or K v from their rates.
 struct RateRow {
   std::vector<std::pair<int, double>> parts;  ///< place of the row, its weight
   bool by_forces = false;
 };
 
-/// The rows without mass that tell velocities, on degrees of freedom without mass alone.
+/// Massless rows that determine velocities, restricted to massless degrees of freedom.
 class RateRows {
  public:
   RateRows(const Bench& bench, const WitnessedSide& side)
@@ -36,7 +36,7 @@ class RateRows {
     if (told_) combine();
   }
 
-  /// S^T x = f; empty: S does not tell it.
+  /// Solution of S^T x = f; empty: S does not determine it.
   [[nodiscard]] Vector weights(const Combination& form, double factor, const Combination& more,
                                double factor_of_more) const {
     if (!told_) return {};
@@ -52,7 +52,7 @@ class RateRows {
     const bool solved = x.allFinite() && (transposed * x - f).norm() <= of_solve * f.norm();
     return solved ? x : Vector();
   }
-  /// Of row j, from those of forces and of their rates, one a degree of freedom.
+  /// Rounding of row j, from the rounding of forces and of their rates, one entry per degree of freedom.
   [[nodiscard]] double noise(std::size_t j, const Vector& forces, const Vector& rates) const {
     const Vector& terms = rows_[j].by_forces ? forces : rates;
     double sum = 0.0;
@@ -63,9 +63,9 @@ class RateRows {
 
  private:
   using Terms = std::vector<Eigen::Triplet<double>>;
-  // Half of the digits: a system that keeps fewer tells no velocity.
+  // Half of the digits: a system with a larger residual determines no velocity.
   static constexpr double of_solve = 1e-8;
-  // Rows that dampers couple, which are decomposed together. Chosen: more would take seconds.
+  // Limit for the number of rows that dampers couple, which are decomposed together. Chosen: more would take seconds.
   static constexpr std::size_t most_together = 300;
 
   [[nodiscard]] int at(int dof) const { return place_[static_cast<std::size_t>(dof)]; }
@@ -90,7 +90,7 @@ class RateRows {
     for (SparseMatrix::InnerIterator it(by_rows, row); it; ++it)
       add(row, static_cast<int>(it.row()), it.value(), terms);
   }
-  /// N = kn g + cn g', T = kt ut or -s fk N: their derivatives by g' and ut', or by those of g and ut.
+  /// Adds N = kn g + cn g', T = kt ut or -s fk N: derivatives with respect to g' and ut', or to g and ut for the rates.
   void add_contact(std::size_t k, const WitnessedSide& side) {
     const Contact& c = bench_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
@@ -114,7 +114,7 @@ class RateRows {
       add_force(c.tangent, c.tangent, c.tangential_stiffness.value_or(0.0), 0.0);
   }
 
-  /// Rows that share an entry of C, one list each.
+  /// Groups of rows that share an entry of C.
   [[nodiscard]] std::vector<std::vector<int>> coupled() const {
     std::vector<int> leader(static_cast<std::size_t>(size_));
     std::iota(leader.begin(), leader.end(), 0);
@@ -131,7 +131,7 @@ class RateRows {
     for (auto& [first, list] : lists) result.push_back(std::move(list));
     return result;
   }
-  /// Left vectors of C that are zero on it take their row from K, those across from C.
+  /// Left null vectors of C take their row from K; the rows of their complement come from C.
   void combine() {
     for (const std::vector<int>& rows : coupled()) {
       if (rows.size() > most_together) {
@@ -172,7 +172,7 @@ class RateRows {
   const Bench& bench_;
   std::vector<int> place_;
   Terms dampers_, springs_;
-  SparseMatrix C_, K_;  // with the contacts' own
+  SparseMatrix C_, K_;  // with the terms of contacts
   std::vector<RateRow> rows_;
   int size_ = 0;
   bool told_ = true;
@@ -184,7 +184,7 @@ double noise_of_slip_rate(const Bench& bench, const WitnessedSide& side, std::si
   if (bench.massless().empty() || bench.own_response(k) != nullptr || side.loads.empty()) return 0.0;
   const Contact& c = bench.model.contacts[k];
   const RateRows rows(bench, side);
-  // p' = s (ut' + s fk/kt N') > 0: with a spring between body and sliding point N' counts, too.
+  // p' = s (ut' + s fk/kt N') > 0: with a spring between body and sliding point, N' contributes.
   const double kt = c.tangential_stiffness.value_or(0.0);
   const double of_gap = kt > 0.0 ? c.friction.kinetic / kt * c.normal_stiffness : 0.0;
   const Vector x = rows.weights(c.tangent, sign_of_slip((*side.mode)[k].state), c.normal, of_gap);

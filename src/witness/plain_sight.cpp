@@ -15,7 +15,7 @@ double T_of(const WitnessedSide& side, std::size_t k) {
   return (*side.forces)[static_cast<Eigen::Index>(side.layout.tangent(k))];
 }
 
-/// s p' of what slips; a spring between body and sliding point lets N' count, too.
+/// True if s p' >= 0; with a spring between body and sliding point, N' contributes to p'.
 bool slides_on(const Contact& c, std::size_t k, int s, const WitnessedSide& side) {
   if (c.normal_damping > 0.0 && side.a == nullptr) return false;
   const Driven& d = side.driven[k];

@@ -10,8 +10,8 @@ bool Finder::is_released(std::size_t k) const {
   return std::find(record_.released.begin(), record_.released.end(), k) != record_.released.end();
 }
 
-/// Parts without mass that leave a contact at once do so because it could go on neither stuck nor sliding: it was closed,
-/// at the limit of its friction or about to pull, and has a gap where it stays open.
+/// Checks contacts that massless parts leave instantaneously: such a contact can continue neither in stick nor in slip.
+/// It was closed, at its friction limit or at zero compression, and if it stays open it has a gap.
 void Finder::releases() {
   for (const std::size_t k : record_.released) {
     const Contact& c = model_.contacts[k];
@@ -23,7 +23,7 @@ void Finder::releases() {
                         of_tolerance * (bench_.limits.rtol * after.place + bench_.limits.displacement);
     if (now.state == State::open && after.g < -rest)
       add(contact, "release", -after.g, rest, seen::length, true);
-    if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // the jump drove it there
+    if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // driven there by the jump
     const RecordedEvent* event = event_of(k);
     double least = std::numeric_limits<double>::infinity(), limit = 0.0;
     for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits)) {
@@ -39,9 +39,10 @@ void Finder::releases() {
   }
 }
 
-/// The terms of the gap and slip of a contact that was left. At an event a structure may pass its place at rest: its
-/// displacements are the difference of a motion and itself there, known to the rounding of what it went through, and gaps
-/// that this hides are closed, which turns and shifts the body. So none counts as less than the scene's own.
+/// Size of the terms of gap and slip of a contact whose state is continued. At an event a structure may pass its rest
+/// position: its displacements are then differences with the rounding of the whole motion before. Gaps that this
+/// rounding hides are closed, which rotates and shifts the body. So each term counts with the scene's own scale at
+/// least.
 double Finder::left_terms(const Contact& c) const {
   double sum = 0.0;
   for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
@@ -53,7 +54,7 @@ double Finder::left_terms(const Contact& c) const {
   return sum;
 }
 
-/// A run that goes on from another has its contacts where that one left them.
+/// Checks that a run which continues another one has its contacts at the positions where the former run ended.
 void Finder::continuation() {
   if (!record_.start || !record_.continues) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
@@ -70,7 +71,7 @@ void Finder::continuation() {
   }
 }
 
-/// Forces on parts without mass balance just after, and so do their rates.
+/// Checks that forces on massless parts are balanced just after, and so are their rates.
 void Finder::balance() {
   for (const Unbalanced& found : massless_balance(bench_, record_.after, 3)) {
     const bool turns = model_.dofs[static_cast<std::size_t>(found.dof)].rotation;
@@ -82,7 +83,7 @@ void Finder::rows() {
   for (const RecordedEvent& event : record_.events) row_of(event);
 }
 
-/// Rates of the surfaces that touch: rows leave out those of borrowed springs.
+/// Rates of the surfaces in contact: for a compliance split, event rows exclude the deformation of its springs.
 Sight Finder::touching(std::size_t k, const WitnessedSide& side) const {
   const Contact& c = model_.contacts[k];
   const State state = (*side.mode)[k].state;
@@ -101,14 +102,14 @@ void Finder::row_check(const RecordedEvent& event, double off, double limit, con
   if (off > limit) add(static_cast<int>(event.contact), "row", off, limit, unit, false);
 }
 
-/// By how much a guard of this row may be off zero, so that what it is of was written as zero.
+/// Allowed distance of a row's guard from zero, if the row gives its value as zero.
 double Finder::settled(const RecordedEvent& event) const {
   return of_uncertainty * std::max(event.t_uncertainty, record_.resolution) * std::abs(event.guard_rate);
 }
 
-/// N and T of springs just before: two sums of the same u and v, one of the engine, one of the decision, which takes out
-/// velocities that tolerances have left. In modes also what they lose of the energy: a spring has no more of it,
-/// kn dg^2 <= lost^2.
+/// Uncertainty of N and T of springs just before, from two sums of the same u and v: the engine's, and the decision's,
+/// which removes velocities left by tolerances. In modes, the energy that the sums lose is added: a spring has no more
+/// of it, kn dg^2 <= lost^2.
 double Finder::spring_noise_before(std::size_t k, const Sight& before) const {
   const Contact& c = model_.contacts[k];
   const WitnessLimits& tol = bench_.limits;
@@ -124,7 +125,8 @@ double Finder::spring_noise_before(std::size_t k, const Sight& before) const {
          (std::sqrt(kn) + std::sqrt(kt)) * record_.before.lost + of_captures;
 }
 
-/// Forces that hold accelerations just before, in two sums of the same u and v (held_forces.cpp). T of what slides is f N.
+/// Uncertainty of constraint forces just before, in two sums of the same u and v (held_forces.cpp). A sliding contact
+/// has T = f N.
 double Finder::held_noise_before(std::size_t k) const {
   const HeldForce held = bench_.held_force(record_, k);
   const Friction& friction = model_.contacts[k].friction;
@@ -132,17 +134,18 @@ double Finder::held_noise_before(std::size_t k) const {
                   bench_.held_noise(record_, held.T));
 }
 
-/// The error of the step in which a guard was found, where the step's length is given: h^2/12 |da| in a displacement,
-/// h/12 |d(da)| in a velocity (trapezoidal rule). Its rate may be small, or zero: t_uncertainty is then that of a higher
-/// derivative, and says nothing with the rate. No acceleration of the step is taken to be greater than those of both sides,
-/// the contact's force gone or not, so |da| <= 2 swing, |d(da)| <= 4 swing; what follows in h is given as for times.
+/// Error of the step in which a guard was located, for steps of given length: h^2/12 |da| in a displacement, h/12
+/// |d(da)| in a velocity (trapezoidal rule). The guard's rate may be small or zero; t_uncertainty then belongs to a
+/// higher derivative and cannot be combined with the rate. No acceleration in the step is assumed to exceed those of
+/// both sides, with or without the contact's force, so |da| <= 2 swing, |d(da)| <= 4 swing; higher terms in h are
+/// allowed as for times.
 double Finder::step_error(std::size_t k, double of_u, double of_v) const {
   const double h = bench_.limits.step;
   if (!(h > 0.0)) return 0.0;
   return of_uncertainty * h / 12.0 * (2.0 * h * of_u + 4.0 * of_v) * bench_.swing(record_, k);
 }
 
-/// Where states were found at the end of a step, both sides are that after.
+/// Checks N and T before. If states were found at the end of a step, both sides are the side after.
 void Finder::row_before(const RecordedEvent& event, const Sight& before, const Sight& after) {
   if (record_.start || moves_at_once(event.contact)) return;  // guessed; decided anew
   const std::size_t k = event.contact;
@@ -162,7 +165,7 @@ void Finder::row_before(const RecordedEvent& event, const Sight& before, const S
   row_check(event, off, limit, seen::force);
 }
 
-/// The gap is that after; of borrowed springs the surfaces'.
+/// Checks the gap, which is that of the side after; for a compliance split it is that of the surfaces.
 void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
   const Contact& c = model_.contacts[event.contact];
   if (!event.gap) return;
@@ -178,14 +181,14 @@ void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
   row_check(event, std::abs(*event.gap - g), limit, seen::length);
 }
 
-/// What a row of the events says of both sides is what they are. Values before are those of the decision, which takes
-/// out what tolerances have left: that is in its captures.
+/// Checks that an event row agrees with both sides. Values before are those of the decision, which removes velocities
+/// left by tolerances: these are part of its captures.
 void Finder::row_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const Sight b = touching(k, record_.before), a = touching(k, record_.after);
   const int contact = static_cast<int>(k);
-  // What forces that hold accelerations are known to is a sum over the structure: rarely asked for.
+  // The uncertainty of constraint forces is a sum over the structure, so it is computed only if needed.
   const auto check = [&](double row, double side, double limit, const Unit& unit, bool holds = false) {
     const double off = std::abs(row - side);
     if (off <= limit) return;
@@ -200,7 +203,7 @@ void Finder::row_of(const RecordedEvent& event) {
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
   const double loose = speed + bench_.moved_by(record_.captures, k);
-  if (!moves_at_once(k)) {  // those of parts without mass are decided anew
+  if (!moves_at_once(k)) {  // velocities of massless parts are decided anew
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
   }

@@ -7,7 +7,7 @@
 namespace signorini {
 namespace {
 
-/// |form| |x|, whatever the angle between them; x no less than it has reached.
+/// Bound |form| |x|, for any angle between them; |x| counts with `reach` at least.
 double size_on(const Combination& form, const Vector& x, double reach) {
   double of_form = 0.0, of_x = reach * reach;
   for (const auto& [dof, factor] : form.terms) {
@@ -17,13 +17,13 @@ double size_on(const Combination& form, const Vector& x, double reach) {
   return std::sqrt(of_form * of_x);
 }
 
-/// Of friction that depends on N: what dF/d|N| is.
+/// Slope dF/d|N| for friction that depends on N.
 double growth_of_limit(const Contact& c, double N) {
   const double x = std::max(0.0, -N) / *c.friction.force;
   return friction_at(c, 0.0, N) - (c.friction.static_ - c.friction.kinetic) * x * std::exp(-x);
 }
 
-/// kt of the spring between body and sliding point; 0: none, or with a dashpot beside it.
+/// Stiffness kt of the spring between body and sliding point; 0: no spring, or one with a dashpot in parallel.
 double shear_stiffness(const Contact& c) { return c.tangential_stiffness.value_or(0.0); }
 
 }  // namespace

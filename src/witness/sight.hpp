@@ -1,7 +1,7 @@
-// sight.hpp: a contact as the witness sees it: its motion, the guards of its states, and what rounding leaves of both.
+// sight.hpp: kinematics of a contact for the witness: its motion, the guards of its states, and the rounding of both.
 //
 //   g = g0 + n.u,  ut = t.u - s,  g' = n.v,  ut' = t.v - s',  g'' = n.a,  ut'' = t.a - s''
-//   size of a form on x: |n| |x|, x at the contact's own degrees of freedom
+//   size of a form on x: |n| |x|, x on the contact's own degrees of freedom
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-/// Units of what is seen.
+/// Units of the checked quantities.
 namespace seen {
 inline constexpr Unit force{1, 0, 0}, length{0, 1, 0}, velocity{0, 1, -1}, impulse{1, 0, 1},
     moment_impulse{1, 1, 1};
@@ -23,14 +23,14 @@ struct Sight {
   double place = 0.0, speed = 0.0, push = 0.0;
 };
 
-/// A guard, positive while its state holds, and the size of the terms that it is a sum of.
+/// A guard, positive while its state holds, and the size of its terms.
 struct SeenGuard {
   const char* law = "";
   double value = 0.0, size = 0.0;
-  double rate = 0.0;       ///< of the value, as far as the motion tells; else 0
-  double tolerance = 0.0;  ///< what the engine's tolerances make of it
+  double rate = 0.0;       ///< rate of the value if the motion determines it; otherwise 0
+  double tolerance = 0.0;  ///< contribution of the engine's tolerances
 
-  [[nodiscard]] const Unit& unit() const;  ///< of the value
+  [[nodiscard]] const Unit& unit() const;  ///< unit of the value
 };
 
 struct SeenGuards {
@@ -42,19 +42,19 @@ struct SeenGuards {
 };
 
 [[nodiscard]] Sight see(const Contact& contact, std::size_t k, const WitnessedSide& side);
-/// +1, -1 while slipping, else 0; open; sticking.
+/// Direction of slip: +1 or -1 while slipping, otherwise 0.
 [[nodiscard]] int sign_of_slip(State state);
-/// |T|/|N| while it slips at this rate under this N.
+/// |T|/|N| for slip at this rate under this N.
 [[nodiscard]] double friction_at(const Contact& c, double slip_rate, double N);
-/// The same in a state: held at its static limit it has that one.
+/// The same coefficient in a given state: the static one if the contact is held at its static limit.
 [[nodiscard]] double friction_in(const Contact& c, State state, double slip_rate, double N);
-/// The guards of a state at a motion whose forces are those of the state's own rows.
+/// Guards of a state for a motion whose forces satisfy the state's own rows.
 [[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state, const Sight& m,
                                    const WitnessLimits& limits);
-/// Another foot, or slider, may hold this one at the limit of its friction: what it slips then is rounding of what holds
-/// it.
+/// True if another foot or slider may hold this contact at the limit of its friction: its slip rate is then the
+/// rounding of the constraint that holds it.
 [[nodiscard]] bool held_beside(const Model& model, std::size_t k);
-/// The size of kn g + cn g'.
+/// Size of the terms of kn g + cn g'.
 [[nodiscard]] double size_of_normal(const Contact& contact, const Sight& m);
 
 }  // namespace signorini

@@ -10,13 +10,14 @@
 namespace signorini {
 namespace {
 
-/// Rows of rigid contacts, and the changes of their forces that hold them:  W dF = asked,  W_ij = row_i . column_j.
+/// Constraint rows of rigid contacts, and the changes of their forces that satisfy them:  W dF = asked,
+/// W_ij = row_i . column_j.
 struct HeldRows {
-  std::vector<Vector> columns;  // accelerations by a unit force; of what slides with its friction
+  std::vector<Vector> columns;  // accelerations by a unit force, with friction for a sliding contact
   std::vector<const Combination*> rows;
   std::vector<double> asked, noise;  // noise: of the accelerations along the rows
 
-  /// swung: accelerations with which a guard was seen, and that are gone; empty: none.
+  /// swung: accelerations that were present when a guard was located and have been removed since; empty: none.
   void add(const Contact& c, const ContactState& state, const OwnResponse& response, const Sight& m,
            const Vector& swung, bool hold) {
     const bool tangent = c.holds_tangent(state.state);
@@ -36,7 +37,7 @@ struct HeldRows {
     asked.push_back(hold ? -m.ddut : 0.0);
     noise.push_back(of_row);
   }
-  /// Row k holds what the others hold already: its force is not unique.
+  /// True if the other rows imply row k: its force is then not unique.
   [[nodiscard]] bool is_shared(Eigen::Index k) const {
     const auto size = static_cast<Eigen::Index>(columns.size());
     Eigen::MatrixXd W(size, size);
@@ -51,7 +52,7 @@ struct HeldRows {
   struct Change {
     Eigen::VectorXd forces, unsure;
   };
-  /// dF; push: accelerations that change besides, to which those by dF are added.
+  /// Solves for dF. push: other changes of accelerations; those by dF are added to it.
   Change solve(Vector& push) const {
     const auto size = static_cast<Eigen::Index>(columns.size());
     if (size == 0) return {};
@@ -76,7 +77,7 @@ double Finder::force_noise() const {
   return *force_noise_;
 }
 
-/// How far a guard of this instant may be from its zero.
+/// Allowed distance of a guard from zero at this instant.
 double Finder::zero_of(const SeenGuard& guard, const Contact& c) const {
   const double noise = rounding::of_elimination * guard.size + of_tolerance * guard.tolerance +
                        of_uncertainty * record_.resolution * std::abs(guard.rate);
@@ -96,7 +97,7 @@ void Finder::states() {
   }
 }
 
-/// Forces just before are those of the old state, as far as its rows say them by u and v.
+/// Checks that forces just before satisfy the rows of the old state, as far as u and v determine them.
 void Finder::old_rows(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.before.mode)[k];
@@ -104,7 +105,7 @@ void Finder::old_rows(std::size_t k) {
   const WitnessLimits& tol = bench_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const double held = c.takes_impulses() ? force_noise() : 0.0;
-  // In modes forces and displacements are two sums, each known to its round trip.
+  // In modes, forces and displacements are two different sums, each with its own round-trip error.
   const double limit =
       rounding::of_elimination * (2.0 * (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor))) +
                                   std::abs(m.N) + std::abs(m.T)) +
@@ -130,19 +131,19 @@ void Finder::old_rows(std::size_t k) {
     check("friction force", m.T - kt * (m.ut - state.anchor));
 }
 
-/// Guards of the new state, and its rows.
+/// Checks the guards and rows of the new state.
 void Finder::state_of(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
   const Sight m = see(c, k, record_.after);
   const int contact = static_cast<int>(k);
   for (const SeenGuard& guard : guards_of(c, state, m, bench_.limits)) {
-    // What finds states at ends of steps asks for the slip of a whole step.
+    // An engine that finds states at ends of steps checks the slip of a whole step.
     if (std::string_view(guard.law) == "slip direction" && (c.sliding_point() || !record_.located)) continue;
-    // And it stops for a step what goes on sliding the other way.
+    // Such an engine also stops a contact for one step if its slip reverses.
     if (std::string_view(guard.law) == "friction" && !c.tangential_stiffness && !record_.located) continue;
     double zero = zero_of(guard, c);
-    // What others hold slips by the rounding of what holds it.
+    // A contact held by others slips at the rounding of the constraints that hold it.
     const bool of_slip = std::string_view(guard.law) == "slip direction";
     if (std::string_view(guard.law) == "rest" || (of_slip && held_beside(model_, k)))
       zero += bench_.slowest(record_, k);
@@ -169,14 +170,14 @@ void Finder::state_of(std::size_t k) {
   friction_of(k, m);
 }
 
-/// T of the state's row.
+/// Checks that T satisfies the state's row.
 void Finder::friction_of(std::size_t k, const Sight& m) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
   const int s = sign_of_slip(state.state);
   double asked = 0.0, size = std::abs(m.T);
   if (s != 0) {
-    if (c.friction.varies() && c.sliding_point()) return;  // its rate follows from T, it is no datum
+    if (c.friction.varies() && c.sliding_point()) return;  // its rate follows from T and is not given
     const double f = friction_in(c, state.state, m.dut, m.N);
     asked = -s * f * m.N;
     size += std::abs(asked) + f * size_of_normal(c, m);
@@ -195,10 +196,11 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
     add(static_cast<int>(k), "friction force", off, limit, seen::force, false);
 }
 
-/// It acts where there is no mass: its velocities are those of its new state.
+/// True if the contact acts on massless degrees of freedom: its velocities are those of its new state.
 bool Finder::moves_at_once(std::size_t k) const { return bench_.own_response(k) == nullptr; }
 
-/// Contact k in its old state, with u, v+ and the new states of all others. Nothing: its old rows cannot be told.
+/// Contact k in its old state, with u, v+ and the new states of all others. nullopt: its old rows do not determine its
+/// forces.
 std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState& old = (*record_.before.mode)[k];
@@ -209,7 +211,7 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   const bool solved_N = c.takes_impulses() && !is_open(old.state), solved_T = c.holds_tangent(old.state);
   const double N = m.N, T = m.T;
   const auto sliding = [&] { return -sign_of_slip(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N; };
-  // What its old rows say of its forces directly, and what that does to accelerations.
+  // Forces given directly by the old rows, and their effect on accelerations.
   if (!solved_N)
     m.N = c.normal_force_given() ? -m.q
           : is_open(old.state)   ? 0.0
@@ -248,14 +250,14 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   return result;
 }
 
-/// Its own g', ut', N or T jump: what it did before does not tell what it was led to.
+/// True if its own g', ut', N or T jumps: the motion before does not determine its guard after the jump.
 bool Finder::jumps(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
   const double speed = rounding::of_elimination * a.speed + of_tolerance * bench_.limits.velocity;
   const double force = rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
                        of_tolerance * (bench_.limits.force + c.normal_stiffness * bench_.limits.displacement);
-  const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;  // N = kn g goes with u
+  const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;  // N = kn g is continuous, as u is
   return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
          (may_jump && std::abs(a.N - b.N) > force);
 }
@@ -277,7 +279,8 @@ void Finder::transitions() {
   }
 }
 
-/// What stuck rigidly slides after a hit that its friction could not hold, however slowly: |Pt| = fk Pn.
+/// True if a rigidly sticking contact slides, however slowly, after a hit that its friction could not withstand:
+/// |Pt| = fk Pn.
 bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& after) const {
   const Contact& c = model_.contacts[k];
   if (kind_of(old.state) != State::stick || c.tangential_stiffness) return false;
@@ -290,13 +293,13 @@ bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& 
       greatest = std::max({greatest, std::abs(other.normal), std::abs(other.tangent)});
     return std::abs(p.tangent) >= c.friction.kinetic * p.normal - rounding::of_elimination * greatest;
   }
-  return true;  // a slider: it takes none
+  return true;  // a slider, which takes no impulse
 }
 
 namespace {
 
-/// N on both sides; where a dashpot makes it jump, also by that alone, since u goes on: N is known to the rounding of
-/// kn u, cn (g'+ - g'-) to that of velocities.
+/// True if N jumps. With a dashpot its part of the jump is tested alone, since u is continuous: N is known to the
+/// rounding of kn u, cn (g'+ - g'-) to that of velocities.
 bool force_jumps(const Contact& c, const Sight& before, const Sight& after) {
   const double of_N = rounding::of_many * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
   const double of_rate = rounding::of_many * (before.speed + after.speed);
@@ -306,22 +309,22 @@ bool force_jumps(const Contact& c, const Sight& before, const Sight& after) {
 
 }  // namespace
 
-/// The least guard of the old state, with v+, is above its rounding: nothing asked for another state.
+/// Reports a violation if every guard of the old state, with v+, is above its rounding: the change had no reason.
 void Finder::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (!c.forces_follow_motion() || (moves_at_once(k) && record_.breakpoint)) return;
   const Sight before = see(c, k, record_.before), after = see(c, k, record_.after);
   if (c.normal_force_given() && (is_open(old.state) || is_open(now.state)))
-    return;  // as the compression asks
+    return;  // the compression decides
   const double rest = rounding::of_elimination * after.speed;
   if (is_pushed_off(k, old, after)) return;
-  // Thrown off: beside a hit, however slowly.
+  // A contact thrown off in a hit, however slowly.
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
     return;
-  // T stays where N jumps: what slid sticks at it until its limit is reached anew. What jumps far away makes it jump by
-  // however little reaches the contact.
+  // T stays if N jumps: a contact that slid sticks with this T until its limit is reached again. A distant jump makes N
+  // jump as well, however little reaches the contact.
   if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && force_jumps(c, before, after)) return;
   if (its_own_falls(k, old, before)) return;
   const std::optional<Old> before_it = as_before(k);
@@ -338,7 +341,7 @@ void Finder::necessity(std::size_t k) {
       zero +=
           of_uncertainty * event->t_uncertainty * std::max(std::abs(event->guard_rate), std::abs(guard.rate));
     if (guard.value <= zero) return;
-    const bool leaves = is_open(old.state) || is_open(now.state);  // by its first guard; by its last one else
+    const bool leaves = is_open(old.state) || is_open(now.state);  // first guard; otherwise the last
     if (nearest != nullptr && leaves) continue;
     nearest = &guard;
     limit = zero;
@@ -348,7 +351,7 @@ void Finder::necessity(std::size_t k) {
       nearest->value > gross * nearest->size);
 }
 
-/// It came to its own limit, though what others do at this instant would have kept it from it.
+/// True if a guard of its own was zero before, although changes of other contacts at this instant would have lifted it.
 bool Finder::its_own_falls(std::size_t k, const ContactState& old, const Sight& before) const {
   const Contact& c = model_.contacts[k];
   const RecordedEvent* event = event_of(k);
@@ -358,7 +361,7 @@ bool Finder::its_own_falls(std::size_t k, const ContactState& old, const Sight& 
   return false;
 }
 
-/// The guard that fell is zero at the time of its event, in the motion just before.
+/// Checks that the guard of an event is zero at its time, in the motion just before.
 void Finder::guard_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
@@ -370,7 +373,7 @@ void Finder::guard_of(const RecordedEvent& event) {
   const SeenGuard* which = nullptr;
   const SeenGuards guards = guards_of(c, old, m, bench_.limits);
   for (const SeenGuard& guard : guards) {
-    // It was located by u and v themselves: no tolerance is left in it.
+    // The zero was located with u and v themselves: no tolerance of the engine remains.
     const double zero = zero_of(guard, c) - of_tolerance * guard.tolerance +
                         of_uncertainty * event.t_uncertainty * std::abs(event.guard_rate);
     if (which != nullptr && std::abs(guard.value) / zero >= std::abs(least) / limit) continue;

@@ -1,7 +1,7 @@
-// What both ends of a stretch say, without its motion.
+// Laws that relate the two ends of a stretch of motion, without the motion between.
 //
-//   states+ of one instant = states- of the next            s (p- - p+) >= 0 of what slides,  p = ut - T/kt
-//   ut- = ut+ of what sticks rigidly,  g- = g+ of what is closed rigidly        where no tolerance lets them drift
+//   states+ of one instant = states- of the next            s (p- - p+) >= 0 for sliding contacts,  p = ut - T/kt
+//   ut- = ut+ for rigid stick,  g- = g+ for rigid closed contacts        unless a tolerance lets them drift
 //   M a + C v + K u + sum ( n N + t T + t (-N - N_carried) ut / R ) = P         just after; R: of a pendulum
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,19 @@
 namespace signorini {
 namespace {
 
-/// Both ends of a stretch, of one contact.
+/// The two ends of a stretch, for one contact.
 struct StretchEnds {
   Sight from, to;
   [[nodiscard]] double place() const { return from.place + to.place; }
 };
 
-/// How far the sliding point has gone.
+/// Displacement of the sliding point.
 double slid(const Contact& c, const StretchEnds& ends) {
   const double by_force = c.tangential_stiffness ? (ends.to.T - ends.from.T) / *c.tangential_stiffness : 0.0;
   return ends.to.ut - ends.from.ut - by_force;
 }
 
-/// Rounding, and tolerances, of slid(). What is held moves by the rounding of the scene's displacements.
+/// Uncertainty of slid() by rounding and tolerances. A fixed point moves by the rounding of the scene's displacements.
 double slid_noise(const Contact& c, const StretchEnds& ends, const WitnessLimits& tol, double scale) {
   const double by_force =
       c.tangential_stiffness ? (std::abs(ends.to.T) + std::abs(ends.from.T)) / *c.tangential_stiffness : 0.0;
@@ -35,7 +35,7 @@ double slid_noise(const Contact& c, const StretchEnds& ends, const WitnessLimits
 class RowSums {
  public:
   explicit RowSums(int size) : sum(Vector::Zero(size)), terms(sum) {}
-  /// size: of x, or what its roundings are relative to.
+  /// size: of x, or the size that its rounding is relative to.
   void add(const SparseMatrix& matrix, const Vector& x, const std::array<double, 2>& reach,
            const Model& model) {
     for (int j = 0; j < matrix.outerSize(); ++j) {
@@ -102,14 +102,14 @@ std::vector<Violation> equilibrium_law(const Bench& bench, double t, const Witne
     rows.add(c.tangent, m.T, size);
     const Bowl* bowl = c.curved_surface();
     if (bowl == nullptr) continue;
-    // A pendulum's bowl drives it back by what it carries beside the weight that stands in K.
+    // The curved surface of a pendulum acts by N minus the weight that K contains.
     const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
     rows.add(c.body_tangent(), (-m.N - bowl->carried) * slope,
              (size + bowl->carried) * m.place / bowl->radius);
   }
   rows.sum -= load;
   rows.terms += load.cwiseAbs();
-  // Solves leave what they leave to the greatest row: of forces, of moments.
+  // Residuals of solves are relative to the largest row, separately for forces and for moments.
   const std::array<double, 2> greatest = bench.greatest(rows.terms);
   std::optional<Violation> worst;
   for (int i = 0; i < model.size(); ++i) {

@@ -95,7 +95,7 @@ std::vector<Violation> Witness::between(double t, const WitnessedSide& now) cons
     if (found.size() == before ||
         (model.contacts[k].normal_spring() && model.contacts[k].tangential_stiffness))
       continue;
-    found.resize(before);  // rarely: what its forces are known to takes a sum over the structure
+    found.resize(before);  // rarely reached: the uncertainty of constraint forces is a sum over the structure
     contact(t, k, (*now.mode)[k], m, now.a != nullptr, parts_->bench.balance(now), found);
   }
   for (const Unbalanced& off : massless_balance(parts_->bench, now, 2)) {

@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-/// x; nothing: it is not touched on the way.
+/// Position x on the way at which the gap closes; nullopt: it does not close on the way.
 std::optional<double> touched_at(const Model& model, const MasslessWay& way, const Failure& f) {
   if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
   const Contact& contact = model.contacts[f.contact];

@@ -1,8 +1,9 @@
-// at_once.hpp: parts without mass that move at once while states are decided: what they touch first, and where they stop.
+// at_once.hpp: massless parts that move instantaneously while states are decided: their first touch, and where they
+// stop.
 //
-//   u(x) = (1 - x) u_from + x u_to,   0 <= x <= 1:   a gap closes at (1 - x) g + x g' = 0
+//   u(x) = (1 - x) u_from + x u_to,   0 <= x <= 1:   a gap closes at (1 - x) g_from + x g_to = 0
 //
-// No time passes on such a way. The states of what it passes are told by where on it that is.
+// No time passes on such a way. The states of contacts that it passes are determined by the position on it.
 #pragma once
 
 #include <optional>
@@ -21,20 +22,21 @@ struct MasslessWay {
 struct TouchOnWay {
   std::size_t contact;
   double part;  ///< x
-  double ut;    ///< its ut there, less that at the end of the way
+  double ut;    ///< its ut at this position, relative to the end of the way
 };
 
-/// The contact that the way closes first; of the failures those of contacts that it closes later are dropped: after
-/// the first one it is another way. Nothing: it closes none.
+/// Contact that the way closes first. Removes from `failed` the contacts that it closes later: after the first touch
+/// the way is a different one. nullopt: the way closes no contact.
 [[nodiscard]] std::optional<TouchOnWay> first_touch(const Model& model, const MasslessWay& way,
                                                     std::vector<Failure>& failed);
 
-/// Another contact of parts without mass fails by more than the instant: they are on their way to where the states that are
-/// tried balance. How fast the rest of them slides is told where they arrive; its failures are dropped.
+/// If another contact of massless parts fails in the value of a guard, these parts are still on their way to the
+/// equilibrium of the tried states. Their slip rates are known only at its end, so failures of slip rates are removed
+/// from `failed`.
 void leave_sliding_for_later(const Model& model, std::vector<Failure>& failed);
 
-/// A part without mass that friction has let go has slid at once, along its slip, and stops where it has come to, held there by
-/// the dashpot beside it. noise: of its ut.
+/// True if friction has let a massless part go, and the part has slid instantaneously along its slip and stops at the
+/// end of the way, where the dashpot beside it holds it. noise: of its ut.
 [[nodiscard]] bool stops_on_way(const Contact& contact, const Failure& failure, State slip,
                                 const MasslessWay& way, double noise);
 

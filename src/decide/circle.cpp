@@ -9,7 +9,7 @@
 
 namespace signorini {
 
-/// All combinations of states of a block, where no other way leads to one that holds.
+/// Tries all combinations of states of a block, if no other method finds a consistent one.
 Refusal CircleExit::enumerate(std::size_t block, DecisionCourse& course) {
   Enumeration enumeration(systems_, jets_);
   std::vector<Enumeration::Choice> choices;
@@ -46,8 +46,8 @@ Refusal CircleExit::enumerate(std::size_t block, DecisionCourse& course) {
   return {};
 }
 
-/// No combination of states holds: what is without mass may leave the contact in question. False: it cannot, or
-/// has before.
+/// Lets massless parts leave the failing contact if no combination of states is consistent. False: they cannot, or
+/// already have.
 bool CircleExit::release(std::size_t block, DecisionCourse& course) {
   std::vector<std::size_t> circling;
   for (const Failure& f : course.failed)
@@ -67,8 +67,9 @@ bool CircleExit::release(std::size_t block, DecisionCourse& course) {
   return true;
 }
 
-/// Where modes repeat: zeros were told by one sample of rounding, and by the clock, perhaps too sharply; then
-/// sliders may have to be decided together; then rounding cannot tell, and all combinations are weighed.
+/// Continues a decision whose modes repeat, in three steps. First, zeros are blurred: one sample of rounding, and the
+/// clock, may have separated them too sharply. Second, sliders are decided together with the other contacts. Third,
+/// rounding cannot decide, and all combinations are weighed.
 Refusal CircleExit::leave(DecisionCourse& course) {
   if (course.make_blurred()) {
     course.seen.clear();

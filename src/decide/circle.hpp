@@ -1,9 +1,9 @@
-// circle.hpp: ways on where the modes of a decision repeat.
+// circle.hpp: continues a decision whose modes repeat.
 //
-//   blurred zeros -> sliders with the others -> all combinations of states of a block -> without mass: let go
+//   blurred zeros -> sliders with the others -> all combinations of states of a block -> massless parts let go
 //
-// Guards that fail in turns are zeros that rounding has told too sharply. Where no combination of states holds either, the
-// decision is refused.
+// Guards that fail in turns are zeros that rounding has separated too sharply. If no combination of states is
+// consistent either, the decision is refused.
 #pragma once
 
 #include "decide/course.hpp"
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// Contacts that are decided together, and the block of each.
+/// Groups of contacts that are decided together, and the block of each contact.
 struct ContactBlocks {
   explicit ContactBlocks(const Model& model) : all(coupled_contacts(model)), of(model.contacts.size()) {
     for (std::size_t b = 0; b < all.size(); ++b)
@@ -24,11 +24,11 @@ struct ContactBlocks {
 
 class CircleExit {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive the object.
   CircleExit(ModeSystems& systems, JetMaker& jets, const ContactBlocks& blocks)
       : model_(systems.model()), systems_(systems), jets_(jets), blocks_(blocks) {}
 
-  /// One way further. A refusal says that there is none.
+  /// Takes the next step. A refusal means that there is none.
   [[nodiscard]] Refusal leave(DecisionCourse& course);
 
  private:

@@ -17,13 +17,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// How far a solution may miss its conditions, of the problem's size.
+// Tolerance for the conditions of a solution, relative to the size of the problem.
 constexpr double misses = rounding::of_elimination;
-// Responses that differ by less, of the problem's size, are the same; or by what the condition of their own
-// equations makes of `misses`. Chosen: far below what differs in Painleve's paradox.
+// Responses are equal if they differ by less, relative to the size of the problem, or by `misses` times the condition
+// of their own equations. Chosen value: far below the differences in Painleve's paradox.
 constexpr double same_solution = 1e-9;
-// At most this, whatever the condition. Chosen: tests/unit/base/complementarity.cpp needs 1e-4 at a margin of
-// 1e-10, motions of Painleve's paradox differ by the size itself.
+// Upper limit of this difference for any condition. Chosen value: tests/unit/base/complementarity.cpp needs 1e-4 at a
+// margin of 1e-10; motions of Painleve's paradox differ by the size itself.
 constexpr double most_alike = 1e-3;
 
 /// The problem in units that make the diagonal of W one.
@@ -31,7 +31,7 @@ struct Scaled {
   VectorXd unit;  // response / unit, force * unit
   MatrixXd W;
   VectorXd b;
-  std::vector<double> ratio;  // unit of the normal over that of the tangent: f l is a force along t
+  std::vector<double> ratio;  // unit of the normal divided by that of the tangent: f l is a force along t
 };
 
 Scaled scaled(const CoulombProblem& p) {
@@ -48,11 +48,12 @@ Scaled scaled(const CoulombProblem& p) {
   return s;
 }
 
-/// Ways that Lemke's method is led. With W semidefinite every one ends in a solution but for rounding: of many contacts that
-/// share few motions one may end in a ray. Chosen: of 150 seams four need a second (tests/unit/base/complementarity.cpp).
+/// Number of covering vectors tried with Lemke's method. With W semidefinite each one gives a solution except for
+/// rounding: with many contacts that share few motions the method may end in a ray. Chosen value: of 150 seams four
+/// need a second vector (tests/unit/base/complementarity.cpp).
 constexpr int most_ways = 12;
 
-/// The vector that covers: ones, then numbers from 1 to 2 without a pattern (multiples of the golden section).
+/// Covering vector d: ones, then numbers from 1 to 2 without a pattern (multiples of the golden section).
 VectorXd cover_of(Index size, int way) {
   VectorXd d = VectorXd::Ones(size);
   for (Index i = 0; way > 0 && i < size; ++i) {
@@ -62,14 +63,14 @@ VectorXd cover_of(Index size, int way) {
   return d;
 }
 
-/// The linear complementarity problem: forces = F z, given ones apart; w = rows of response, or of cones.
+/// Solves the linear complementarity problem: forces = F z plus given ones; w = rows of responses, or of cones.
 std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const std::vector<bool>& kinetic,
                                  int way) {
   Index size = 0;
   for (const CoulombItem& item : p.items)
     size += item.kind == Kind::frictional ? 4 : item.kind == Kind::pressed ? 3 : 1;
   const Index n = s.b.size();
-  MatrixXd F = MatrixXd::Zero(n, size);  // forces of a unit of each variable
+  MatrixXd F = MatrixXd::Zero(n, size);  // forces per unit of each variable
   MatrixXd G = MatrixXd::Zero(size, n);  // w = G response + H z + h
   MatrixXd H = MatrixXd::Zero(size, size);
   VectorXd h = VectorXd::Zero(size), given = VectorXd::Zero(n);
@@ -106,7 +107,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
         H(at, at + 2) = H(at + 1, at + 2) = 1.0;
         H(at + 2, at) = H(at + 2, at + 1) = -1.0;
         if (item.kind == Kind::pressed) {
-          // The given l acts already in b; only its cone counts here.
+          // The given l is part of b already; only its cone enters here.
           h[at + 2] = f * item.pressing * s.unit[ni];
         }
         at += 3;
@@ -122,7 +123,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   return VectorXd(F * *z * size_of_q);
 }
 
-/// What an item may do, for trying all states. sign: of slipping.
+/// States of an item in the enumeration. sign_of: direction of slip.
 enum class Try : unsigned char { open, stick, slip_plus, slip_minus };
 
 int sign_of(Try state) { return state == Try::slip_plus ? 1 : state == Try::slip_minus ? -1 : 0; }
@@ -130,7 +131,7 @@ int sign_of(Try state) { return state == Try::slip_plus ? 1 : state == Try::slip
 std::vector<Try> choices(const CoulombItem& item) {
   switch (item.kind) {
     case Kind::normal:
-      return {Try::open, Try::stick};  // stick: closed
+      return {Try::open, Try::stick};  // stick means closed
     case Kind::sliding:
       return {Try::open, item.sign > 0 ? Try::slip_plus : Try::slip_minus};
     case Kind::frictional:
@@ -138,12 +139,12 @@ std::vector<Try> choices(const CoulombItem& item) {
     case Kind::pressed:
       return {Try::stick, Try::slip_plus, Try::slip_minus};
     case Kind::limit:
-      return {Try::stick, Try::slip_plus};  // slip_plus: along its own sign
+      return {Try::stick, Try::slip_plus};  // slip_plus means slip along its own sign
   }
   return {};
 }
 
-/// The equations of one combination of states: one unknown or none a row; A x = c with x the 2m forces.
+/// Equations of one combination of states: at most one unknown per row; A x = c with x the 2m forces.
 struct Equations {
   MatrixXd A;
   VectorXd c;
@@ -180,8 +181,8 @@ Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vect
   return e;
 }
 
-/// The forces (scaled) of one combination of states, and by how much of the problem's size they miss a
-/// condition at worst.
+/// Forces (scaled) of one combination of states, and their largest violation of a condition, relative to the size of
+/// the problem.
 struct Attempt {
   VectorXd force;
   double miss = 0.0;
@@ -225,7 +226,7 @@ CoulombSolution finished(const CoulombProblem& p, const Scaled& s, const VectorX
   return solution;
 }
 
-/// Does x (scaled) fulfil all conditions? Lemke's method ends with a basis that may have come of a tie.
+/// True if x (scaled) satisfies all conditions. Lemke's method may end with the basis of a tie, which does not.
 bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
@@ -249,13 +250,13 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
   return true;
 }
 
-/// By how many times its size what a combination misses may move its solution.
+/// Factor by which a residual of a combination, relative to its size, may change the solution.
 double amplification(const MatrixXd& equations) {
   const VectorXd values = singular_values(equations);
   return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
 }
 
-/// Items that slip although their coefficient is still the static one.
+/// Marks items that slip with the static coefficient; true if there are any.
 bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
@@ -285,11 +286,11 @@ Enumerated all_solutions(const CoulombProblem& p) {
     combinations *= options.back().size();
   }
   double least = std::numeric_limits<double>::infinity();
-  std::vector<double> conditions;  // of those found
+  std::vector<double> conditions;  // conditions of the solutions found
   std::vector<Try> states(p.items.size());
   for (std::size_t code = 0; code < combinations; ++code) {
     std::size_t rest = code;
-    // What slips has the kinetic coefficient, what sticks the static one.
+    // A slipping item has the kinetic coefficient, a sticking item the static one.
     std::vector<bool> kinetic(p.items.size(), false);
     for (std::size_t i = 0; i < states.size(); ++i) {
       states[i] = options[i][rest % options[i].size()];
@@ -300,7 +301,8 @@ Enumerated all_solutions(const CoulombProblem& p) {
     least = std::min(least, tried.miss);
     if (tried.miss > misses) continue;
     CoulombSolution solution = finished(p, s, tried.force, kinetic);
-    // Two at the limit of friction are one motion: close to Painleve's limit what they miss moves them far.
+    // Two solutions at the limit of friction are the same motion: close to Painleve's limit their residuals separate
+    // them.
     const double condition = amplification(equations_of(p, s, states, kinetic).A);
     bool known = false;
     for (std::size_t k = 0; k < found.size() && !known; ++k) {
@@ -321,10 +323,10 @@ Enumerated all_solutions(const CoulombProblem& p) {
 std::optional<CoulombSolution> solve(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   std::vector<bool> kinetic(p.items.size(), false);
-  for (int way = 0; way < most_ways;) {  // ends: each round marks one more item, or goes another way
+  for (int way = 0; way < most_ways;) {  // ends: each round marks one more item, or changes d
     const auto x = by_lemke(p, s, kinetic, way);
     if (!x || !fulfils(p, s, *x, kinetic)) {
-      // Few contacts are enumerated, which tells Painleve's paradox from rounding.
+      // A few contacts are enumerated, which distinguishes Painleve's paradox from rounding.
       way = p.items.size() > most_enumerated ? way + 1 : most_ways;
       continue;
     }
@@ -340,7 +342,7 @@ double condition_of(const CoulombProblem& p) { return amplification(scaled(p).W)
 bool may_have_many(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   const auto m = static_cast<Index>(p.items.size());
-  MatrixXd nt(m, m);  // what friction at its limit does to the normal responses
+  MatrixXd nt(m, m);  // normal responses to friction at its limit
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) {
       const auto at = static_cast<std::size_t>(j);

@@ -13,10 +13,10 @@ namespace {
 using Kind = CoulombItem::Kind;
 
 constexpr double noise_of_solution =
-    2.0;  // over that which its right side passes on: it has as much of its own
+    2.0;  // relative to the noise of the right-hand side: the solution adds as much again
 
-/// Forces that answer to a response of zero, and what a unit of each does; a slipping contact's k goes with
-/// its l.
+/// Forces whose responses are zero, and the responses to a unit of each; k of a slipping contact is proportional to its
+/// l.
 struct Acting {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd columns;

@@ -1,9 +1,9 @@
-// coulomb_reading.hpp: what the solution of a Coulomb problem says within its noise.
+// coulomb_reading.hpp: values of a Coulomb problem's solution that are significant within its noise.
 //
-//   df = |A^-1| db,   dr = db + |W_A| df       A: rows and columns of W of the forces that act, |.| entrywise
+//   df = |A^-1| db,   dr = db + |W_A| df       A: rows and columns of W of the acting forces, |.| entrywise
 //
-// db: of the right side. At least what a contact alone would make of it, and the rounding of the problem's
-// greatest entry in units that make the diagonal of W one. Units: those of forces and responses.
+// db: noise of the right-hand side. Each df is at least the noise for the contact alone, and at least the rounding of
+// the problem's largest entry, in units that make the diagonal of W one. Units: those of forces and responses.
 #pragma once
 
 #include "decide/coulomb_problem.hpp"
@@ -12,20 +12,21 @@ namespace signorini {
 
 class CoulombReading {
  public:
-  /// Both must outlive it. noise: of problem.b, >= 0.
+  /// Problem and solution must outlive the object. noise: of problem.b, >= 0.
   CoulombReading(const CoulombProblem& problem, const CoulombSolution& solution,
                  const Eigen::VectorXd& noise);
 
   [[nodiscard]] const CoulombItem& item(std::size_t i) const { return problem_.items[i]; }
   [[nodiscard]] double force(Eigen::Index row) const { return solution_.force[row]; }
   [[nodiscard]] double response(Eigen::Index row) const { return solution_.response[row]; }
-  /// Compression of item i, and its coefficient of friction by the solution.
+  /// Compression of item i, and its coefficient of friction in the solution.
   [[nodiscard]] double pressing(std::size_t i) const;
   [[nodiscard]] double friction(std::size_t i) const;
 
   [[nodiscard]] double zero_force(Eigen::Index row) const;
   [[nodiscard]] bool is_zero_response(Eigen::Index row) const;
-  /// Friction clearly inside its cone answers to rest, whatever rounding has left of that.
+  /// True if friction is clearly inside its cone: the contact is then at rest, whatever rounding is left in its
+  /// response.
   [[nodiscard]] bool is_inside_cone(std::size_t i) const;
 
  private:

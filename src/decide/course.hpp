@@ -1,6 +1,6 @@
-// course.hpp: one decision on its way from the states before to those after.
+// course.hpp: state of one decision while it is computed.
 //
-//   look at the guards of `mode` -> `failed` -> the next mode -> ...       until none fails
+//   check the guards of `mode` -> `failed` -> the next mode -> ...       until none fails
 #pragma once
 
 #include <optional>
@@ -12,36 +12,37 @@
 
 namespace signorini {
 
-/// Times noise and resolution, where decisions go in circles, or an engine and a decision contradict.
+/// Factor of noise and resolution if modes repeat, or if an engine and a decision disagree.
 inline constexpr double unlucky = 16.0;
 
-/// One decision under way.
+/// A decision in progress.
 struct DecisionCourse {
   Instant instant;
   const Forcing& after;
   Decision decision;
-  Mode mode;                    // tried last
-  std::vector<MotionJet> jets;  // in it
-  std::vector<Failure> failed;  // there
-  std::vector<Mode> seen;       // for recognising a circle
+  Mode mode;                    // the mode tried last,
+  std::vector<MotionJet> jets;  // its motion,
+  std::vector<Failure> failed;  // and its failed guards
+  std::vector<Mode> seen;       // modes tried so far, for recognising repetition
   std::vector<ContactMotion> noise_before;
   Findings found;
-  std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states stay
+  std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states are kept
   bool blurred = false;
-  Vector given = {};                       // at a start: u as it is given, before parts without mass move
-  std::vector<MotionJet> so_far = {};      // up to the instant; empty where no limit has rested
-  std::optional<TouchOnWay> touched = {};  // in this round, by parts without mass that move at once
-  std::vector<std::size_t> slid = {};      // contacts that have slid at once and stopped
+  Vector given = {};                       // at the start: given u, before massless parts move
+  std::vector<MotionJet> so_far = {};      // motion up to the instant; empty if no limit has rested
+  std::optional<TouchOnWay> touched = {};  // first touch of massless parts in this round
+  std::vector<std::size_t> slid = {};      // contacts that have slid instantaneously and stopped
   std::optional<std::vector<std::size_t>> open =
-      {};                            // contacts whose guards are not all clearly positive; else: any
-  const Forcing* forcing = nullptr;  // under which the mode tried last was evaluated,
-  double blur = 0.0;                 // how blurred
-  Eigen::VectorXd held = {};         // what holds the mode tried last; Decision::captures
+      {};  // contacts with a guard that is not clearly positive; nullopt: any contact
+  const Forcing* forcing = nullptr;  // of the last evaluation
+  double blur = 0.0;                 // Instant::blur of the last evaluation
+  Eigen::VectorXd held = {};         // constraint impulses of the mode tried last; Decision::captures
 
-  /// Where parts without mass begin that move at once.
+  /// Displacements from which massless parts move instantaneously.
   [[nodiscard]] const Vector& comes_from() const { return instant.start ? given : instant.u; }
 
-  /// Zeros were told by one sample of rounding, and by the clock, perhaps too sharply. False: they were blurred before.
+  /// Increases noise and resolution: one sample of rounding, and the clock, may have separated zeros too sharply.
+  /// False: this was done before.
   bool make_blurred() {
     if (std::exchange(blurred, true)) return false;
     instant.blur = unlucky;

@@ -20,7 +20,7 @@
 namespace signorini {
 namespace {
 
-/// How a guard passed through zero, from the motion in the mode that it ended.
+/// Derivatives of a guard at its zero, from the motion in the mode that ends there.
 Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   Crossing result{guard, {}, guard.rounding(jet.motion.data(), jet.noise.data(), 0)};
   for (std::size_t k = 1; k < jet.motion.size(); ++k)
@@ -28,7 +28,8 @@ Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   return result;
 }
 
-/// Its guard did not fall: it was above its rounding just before, and another contact's new state let it jump below zero.
+/// True if the guard did not reach zero continuously: it was above its rounding just before, and another contact's new
+/// state made it jump below zero.
 bool is_pushed(const Failure& f, const Instant& instant, const ContactMotion& before,
                const ContactMotion& noise) {
   return f.sign.order == 0 && !instant.has_fired(f.contact, f.guard) &&
@@ -41,8 +42,8 @@ std::vector<std::size_t> every_contact(const Model& model) {
   return all;
 }
 
-/// The number of contacts that stick rigidly in the block that has most of them: the rows of two may be dependent. Contacts
-/// that take impulses are decided together even when there is only one; then the number is the greatest of its type.
+/// Largest number of rigidly sticking contacts in a block: the rows of two may be dependent. A contact that takes
+/// impulses is always decided with its block; the result is then the largest number of the type.
 std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& blocks) {
   std::size_t most = 0;
   for (const Block& block : blocks.all) {
@@ -56,7 +57,7 @@ std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& block
   return most;
 }
 
-/// Why a mode has no system: what holds its contacts, or nothing of theirs.
+/// Refusal for a mode without a system: dependent rows of its contacts, or a singular structure.
 Refusal no_system(const Model& model, const Mode& mode) {
   std::vector<std::size_t> held;
   for (std::size_t c = 0; c < mode.size(); ++c)
@@ -78,7 +79,7 @@ Refusal no_system(const Model& model, const Mode& mode) {
       {}};
 }
 
-/// What makes forces unique. Only sliders may have a tangential_stiffness without a normal one.
+/// Stiffnesses that make the forces unique. Only sliders may have a tangential_stiffness without a normal one.
 std::string what_makes_unique(const Model& model, const std::vector<std::size_t>& contacts) {
   const bool sliders = std::any_of(contacts.begin(), contacts.end(),
                                    [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
@@ -118,7 +119,7 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, 
   if (!near_->possible()) near_.reset();
 }
 
-/// The motion in a mode. False: its rows are dependent.
+/// Computes the motion in a mode. False: its rows are dependent.
 bool Decider::evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& course) {
   systems_.tell_held(mode, forcing, course.instant.t);
   Decision& d = course.decision;
@@ -163,7 +164,7 @@ std::vector<BodySlide> Decider::slides(const Forcing& forcing, const Decision& d
   return result;
 }
 
-/// The motion just before, in the old mode under the old forcing, and the states that the forcing asks for.
+/// Computes the motion just before, in the old mode under the old forcing, and the states that follow from the forcing.
 Refusal Decider::begin(const Forcing& before, DecisionCourse& course) {
   Instant& instant = course.instant;
   Decision& d = course.decision;
@@ -176,8 +177,8 @@ Refusal Decider::begin(const Forcing& before, DecisionCourse& course) {
   }
   if (!instant.rested.empty()) course.so_far = course.jets;
   d.slides_before = slides(before, d);
-  // What sticks rigidly moves with its surface, what touches rigidly has no gap: an integrator's drift must
-  // not decide what comes next.
+  // A rigidly sticking contact moves with its surface, and a rigid contact that touches has no gap: integration drift
+  // must not influence the decision.
   if (instant.start) course.given = instant.u;
   instant.u = d.u;
   instant.v = d.v;
@@ -185,7 +186,7 @@ Refusal Decider::begin(const Forcing& before, DecisionCourse& course) {
   course.mode = instant.mode;
   if (!instant.jump) return {};
   follow_forcing(model_, instant, before, course.after, d.before, course.mode);
-  do {  // ends: each round one more sticks
+  do {  // ends: each round one more contact sticks
     if (!evaluate(course.after, course.mode, course)) return no_system(model_, course.mode);
   } while (turn_back(model_, d.before, course.jets, course.mode));
   return {};
@@ -195,7 +196,7 @@ bool Decider::held_by_others(std::size_t c, const DecisionCourse& course) const 
   return systems_.may_share(c) && systems_.held_by_others(c, course.mode, course.after, course.instant.t);
 }
 
-/// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
+/// Finds the guards that fail in the evaluated mode. before: it is the mode of the motion up to the instant.
 void Decider::look(DecisionCourse& course, bool before) {
   course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known,
                            course.so_far, course.open ? *course.open : every_);
@@ -214,7 +215,8 @@ void Decider::look(DecisionCourse& course, bool before) {
   listener_(round);
 }
 
-/// What stops on its way is held where it has come to, not where it came from. Once a contact: then it is another way.
+/// Keeps a contact that stops on the way of massless parts where it stopped, not where it started. This is done once
+/// per contact, since the way is a different one afterwards.
 void Decider::stop_there(const Failure& f, DecisionCourse& course) const {
   std::vector<std::size_t>& before = course.slid;
   if (!stops_on_way(model_.contacts[f.contact], f, course.mode[f.contact].state,
@@ -226,7 +228,7 @@ void Decider::stop_there(const Failure& f, DecisionCourse& course) const {
   course.seen.clear();
 }
 
-/// Contacts that decide alone take their next states. Returns the blocks that must be decided together.
+/// Gives their next states to contacts that are decided separately. Returns the blocks that must be decided together.
 std::vector<Block> Decider::react(DecisionCourse& course) const {
   Findings& found = course.found;
   std::vector<bool> jointly(blocks_.all.size(), false);
@@ -236,14 +238,14 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
   const auto touched = [&](std::size_t c) { return course.touched && course.touched->contact == c; };
   if (course.touched && model_.contacts[course.touched->contact].normal_damping > 0.0)
     course.instant.u = way.from + course.touched->part * (way.to - way.from);
-  if (course.decision.rounds >= 2 && !course.blurred) {  // once: in a circle all are asked
+  if (course.decision.rounds >= 2 && !course.blurred) {  // once: if modes repeat, all contacts are decided
     leave_sliding_for_later(model_, course.failed);
     if (!found.sliders) leave_pushed_for_later(model_, course.decision.visited, blocks_.of, course.failed);
   }
   for (const Failure& f : course.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
-    // What is touched on the way is touched at a time that others give.
+    // The time of a touch on the way is that of another contact's event.
     if (!course.decision.visited[c] && !touched(c) &&
         !is_pushed(f, course.instant, course.decision.before[c], course.noise_before[c]))
       course.decision.crossings.insert_or_assign(c, crossing(f.form, course.jets[c]));
@@ -252,22 +254,22 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
     const bool slips = is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
     if (!contact.takes_impulses() && !joins) {
-      // Its slip rate has come to zero, to its rounding: it is zero, whatever its next state is.
+      // Its slip rate is zero up to rounding, so it is zero in any next state.
       if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
       stop_there(f, course);
       course.mode[c] = next_state(contact, course.mode[c], f.guard, course.jets[c]);
-      if (touched(c))  // elastic first; its limit decides whether it slips
+      if (touched(c))  // elastic first; its limit decides about slip
         course.mode[c] = {state_at_rest(contact), course.jets[c].motion[0].ut + course.touched->ut};
       continue;
     }
     jointly[blocks_.of[c]] = true;
-    // It was to leave, but in the mode that came of it g' is nothing; or it fell and g' was nothing.
+    // The contact was expected to leave, but g' is zero in the resulting mode; or its gap closed with g' zero.
     if (f.guard == Guard::closing && f.sign.order > 1 &&
         (found.known[c].touches || course.instant.has_fired(c, Guard::closing)))
       found.stays[c] = true;
-    // It was left at its static limit, and that falls.
+    // It was at its static limit, which is now exceeded.
     if (slips && found.decided[c]) (held_by_others(c, course) ? found.bears_limit : found.kinetic)[c] = true;
     if (f.guard == Guard::sliding && found.decided[c] &&
         starts_at_zero(f.form, course.jets[c], course.instant))
@@ -283,8 +285,7 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
   return result;
 }
 
-/// Sliders that turn do so from rest: what locating has left of their slip rates would outlive what comes
-/// after.
+/// Stops sliders that reverse: the slip rate left by the location of the event would otherwise persist.
 void Decider::stop(const std::vector<std::size_t>& turning, DecisionCourse& course) const {
   if (turning.empty()) return;
   const ModeSystemPtr system = systems_.of(course.mode);
@@ -298,7 +299,7 @@ void Decider::stop(const std::vector<std::size_t>& turning, DecisionCourse& cour
   course.found.capture(with_reactions(model_, *system, turning, impulses));
 }
 
-/// How what fell with others, by the rounding of its gap, passed through zero.
+/// Records the crossings of gaps that closed together with others, up to rounding.
 void Decider::note_hits(DecisionCourse& course) const {
   Decision& d = course.decision;
   if (d.rounds > 1) return;
@@ -308,7 +309,7 @@ void Decider::note_hits(DecisionCourse& course) const {
           c, crossing(guards(model_.contacts[c], course.instant.mode[c])[0], course.jets[c]));
 }
 
-/// The next mode, from the guards that failed in the last one.
+/// Proposes the next mode from the guards that failed in the last one.
 Refusal Decider::propose(DecisionCourse& course) {
   Decision& d = course.decision;
   const std::vector<Block> jointly = react(course);
@@ -322,7 +323,7 @@ Refusal Decider::propose(DecisionCourse& course) {
       return why;
     }
   }
-  if (course.found.hit) course.seen.clear();  // other velocities: the same states mean something else
+  if (course.found.hit) course.seen.clear();  // the velocities are new, so modes may recur
   const bool again = std::find(course.seen.begin(), course.seen.end(), course.mode) != course.seen.end();
   if (again && !(course.instant.start && d.rounds == 1))
     if (Refusal why = circles_.leave(course)) return why;
@@ -330,8 +331,8 @@ Refusal Decider::propose(DecisionCourse& course) {
   return {};
 }
 
-/// The next mode, and its motion. A slider that has come to rest beside what sticks need not stick: where the
-/// rows of both are dependent they are decided together.
+/// Proposes the next mode and computes its motion. A slider that stops beside sticking contacts need not stick: if the
+/// rows are dependent, they are decided together.
 Refusal Decider::try_next(DecisionCourse& course) {
   const Mode last = course.mode;
   if (Refusal why = propose(course)) return why;
@@ -339,7 +340,7 @@ Refusal Decider::try_next(DecisionCourse& course) {
   if (!course.found.hit && !std::exchange(course.found.sliders, true)) {
     course.seen.pop_back();
     course.mode = last;
-    // The decision of several sliders reads all orders of their motions.
+    // The joint decision of several sliders needs all orders of their motions.
     if (!evaluate(course.after, course.mode, course)) return no_system(model_, course.mode);
     if (Refusal why = propose(course)) return why;
     if (evaluate(course.after, course.mode, course)) return {};
@@ -355,7 +356,7 @@ Refusal Decider::go(const Forcing& before, DecisionCourse& course) {
   course.seen.push_back(course.mode);
   look(course, true);
   if (course.failed.empty() && !course.instant.fired.empty() && !course.instant.jump) {
-    course.make_blurred();  // an engine saw a guard fall: what holds it up may be rounding
+    course.make_blurred();  // the engine located a zero of a guard: its positive value may be rounding
     look(course, true);
   }
   Decision& d = course.decision;
@@ -371,7 +372,7 @@ Refusal Decider::go(const Forcing& before, DecisionCourse& course) {
   return {};
 }
 
-/// Does it stick at its limit from this instant on, and no derivative says for how long?
+/// True if the contact sticks at its limit from this instant on, for a time that no derivative determines.
 bool Decider::rests_at_limit(const DecisionCourse& course, std::size_t c, const GuardStart& guard) {
   const bool limit = is_friction_limit(guard.kind);
   const bool asked =
@@ -380,8 +381,8 @@ bool Decider::rests_at_limit(const DecisionCourse& course, std::size_t c, const 
          std::abs(course.jets[c].motion[0].T) > guard.noise;
 }
 
-/// Does it stop at its static limit, to rounding, where kinetic friction is less? Beyond it slips at once, and not by some
-/// roundings. At a start the way of the loads led to the limit, not beyond it.
+/// True if the contact stops at its static limit, up to rounding, and kinetic friction is lower. Beyond the limit it
+/// slips immediately, by much more than rounding. At a start the loads lead to the limit, not beyond it.
 bool Decider::meets_static_limit(const DecisionCourse& course, std::size_t c, const GuardStart& guard) const {
   const bool asked = course.decision.visited[c] || course.found.decided[c];
   return model_.contacts[c].friction.drops() && is_friction_limit(guard.kind) && asked &&
@@ -389,12 +390,13 @@ bool Decider::meets_static_limit(const DecisionCourse& course, std::size_t c, co
          std::abs(course.jets[c].motion[0].T) > guard.noise;
 }
 
-/// All its guards are positive at order 0.
+/// True if all its guards are positive at order 0.
 bool Decider::clearly_holds(const DecisionCourse& course, std::size_t c) {
   return course.open && !std::binary_search(course.open->begin(), course.open->end(), c);
 }
 
-/// Of a guard that is not clearly positive: does it start at zero, and what does it do then?
+/// For a guard that is not clearly positive: determines whether it starts at zero, and the order of its first nonzero
+/// derivative.
 void Decider::look_at_start(DecisionCourse& course, std::size_t c, const GuardForm& guard,
                             GuardStart& start) const {
   Decision& d = course.decision;
@@ -414,12 +416,12 @@ void Decider::look_at_start(DecisionCourse& course, std::size_t c, const GuardFo
   const double value = guard.value(jet.motion[0]);
   if (rests || (known.zeros == 0 && meets_static_limit(course, c, start)))
     d.at_limit.push_back({c, value, start.noise});
-  // What the decision took for zero is rounding to an engine, too.
+  // A value that the decision took as zero is rounding for the engine, too.
   if (start.at_zero && (start.leading < 0 || base != nullptr))
     start.noise = std::max(start.noise, std::abs(value));
 }
 
-/// What an engine and the log want to know of the new mode.
+/// Fills in the data about the new mode that engine and log need.
 void Decider::finish(DecisionCourse& course) {
   Decision& d = course.decision;
   d.consistent = true;
@@ -439,7 +441,7 @@ void Decider::finish(DecisionCourse& course) {
     const bool clear = clearly_holds(course, c);
     for (const GuardForm& guard : guards_.of(c, course.mode[c])) {
       GuardStart& start = d.guards.emplace_back();
-      // Others may hold its slip rate at zero, whatever rounding makes of it: then it has none.
+      // Other contacts may hold its slip rate at zero, except for rounding: the guard is then absent.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, course))) continue;
       start.kind = guard.kind;
       start.noise =
@@ -452,7 +454,8 @@ void Decider::finish(DecisionCourse& course) {
   note_left(course, d);
 }
 
-/// Enumeration may find what release() would: a contact at its limit of friction opens, and its force drops to zero.
+/// Enumeration may give the same result as release(): a contact at its limit of friction opens, and its force drops to
+/// zero.
 void Decider::note_left(const DecisionCourse& course, Decision& d) const {
   const Instant& now = course.instant;
   if (now.jump || now.start || !d.released.empty()) return;
@@ -464,8 +467,8 @@ void Decider::note_left(const DecisionCourse& course, Decision& d) const {
   }
 }
 
-/// What slips at a rate that is zero with all its derivatives is at rest. Where others that stick hold it there
-/// its own row adds nothing to theirs, and its force need not be the limit that it was left at.
+/// Refuses a slipping contact whose slip rate is zero with all its derivatives if sticking contacts hold it: its own
+/// row is then dependent on theirs, and its force need not stay at the limit.
 Refusal Decider::held_at_rest(const DecisionCourse& course) const {
   const Decision& d = course.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
@@ -505,13 +508,14 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   const Refusal::Kind kind = first.decision.refusal.kind;
   if (kind == Refusal::Kind::none) return std::move(first.decision);
   if (first.grounded) {
-    // What chatters towards a state without continuation flies on until the clock resolves no more of it.
+    // A flight of a chattering contact is computed until the clock resolves no more, if resting has no consistent
+    // state.
     Instant flying = instant;
     flying.low_flights = true;
     if (Attempt a = attempt(flying, before, after); !a.decision.refusal) return std::move(a.decision);
   }
-  // Then its slip rates are as small as the flights that were taken as rest: hits that are left out would
-  // change them, and they end with the chatter.
+  // Otherwise slip rates as small as the flights taken as rest count as rest: hits that are left out would change them,
+  // and the slip ends with the chatter.
   const bool painleve = kind == Refusal::Kind::ambiguous || kind == Refusal::Kind::paradox;
   if (!painleve || !(first.slowest > 0.0)) return std::move(first.decision);
   instant.slow = unlucky * first.slowest;

@@ -2,14 +2,13 @@
 //
 //   every guard g of the new states:  g, g', g'', ...  is lexicographically not negative
 //
-// Never a flipped flag: the next states are those whose guards hold on the solution to their right.
-// Contacts whose guard fails take their next state (contact/transition.hpp), the jet is expanded again
-// in the new mode, until all guards hold. Rigid contacts are decided together (decide/touching.hpp):
-// velocities first where one closes with g' < 0, then accelerations and their derivatives. Sliders without
-// tangential stiffness join them if their own states repeat, or if several of them may hold one motion. Where rounds
-// go in circles, there are ways on (decide/circle.hpp). If no mode is consistent the decision says so; where a flight
-// was taken as rest for nothing but its height, it is made once more with that flight flown, then with slip rates as
-// small as such flights at rest, too.
+// States are never simply switched: the next states are those whose guards hold on the solution after the instant. A
+// contact whose guard fails takes its next state (contact/transition.hpp), and the jet is expanded again in the new
+// mode, until all guards hold. Rigid contacts are decided together (decide/touching.hpp): velocities first if one
+// closes with g' < 0, then accelerations and their derivatives. Sliders without tangential stiffness join them if their
+// own states repeat, or if several of them may hold one motion. If modes repeat, decide/circle.hpp continues. If no
+// mode is consistent, the decision is refused. If a flight was taken as rest because of its height only, the decision
+// is made once more with that flight, then with slip rates as small as such flights at rest, too.
 #pragma once
 
 #include "decide/circle.hpp"
@@ -17,32 +16,32 @@
 
 namespace signorini {
 
-/// Friction limits that are zero with all their derivatives, from here to where they are seen to fall.
+/// Friction limits that are zero with all their derivatives, from now until they are found to fail.
 [[nodiscard]] std::vector<Fired> resting(const Decision& decision);
 
 class Decider {
  public:
-  /// capture_velocity: of rigid contacts that have none of their own. whole_jets: somebody reads Decision::jet beyond
+  /// capture_velocity: for rigid contacts without a value of their own. whole_jets: Decision::jet is used beyond
   /// accelerations and the rates of forces.
   Decider(ModeSystems& systems, int max_rounds, double capture_velocity, bool whole_jets = true);
 
-  /// `before` and `after`: the forcing on both sides of the instant.
+  /// Decides the states just after an instant. `before`, `after`: the forcing on both sides of it.
   [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after);
-  /// Takes the states of `mode` as they are, from an engine that finds states itself and no instants:
-  /// forces and accelerations that follow from them, the same before and after.
+  /// Adopts the states of `mode` from an engine that finds states and no instants: computes their forces and
+  /// accelerations, which are the same before and after.
   [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing);
 
-  /// Why a run ends whose instants take no time, the last of them decided like this.
+  /// Reason for ending a run whose events take no time, after the decision `last`.
   [[nodiscard]] Refusal standstill(const Decision& last, std::vector<std::size_t> contacts,
                                    std::string reason);
 
-  /// Hears of every mode that is tried.
+  /// Sets a listener that is called with every mode tried.
   void trace(RoundListener listener) { listener_ = std::move(listener); }
 
  private:
   struct Attempt {
     Decision decision;
-    bool grounded = false;  // Findings
+    bool grounded = false;  // Findings::grounded
     double slowest = 0.0;
   };
   [[nodiscard]] Attempt attempt(const Instant& instant, const Forcing& before, const Forcing& after);
@@ -72,15 +71,15 @@ class Decider {
   const Model& model_;
   ModeSystems& systems_;
   JetMaker jets_;
-  std::optional<NearJets> near_;          // nothing: jets are made of the whole structure
-  const std::vector<std::size_t> every_;  // contact
+  std::optional<NearJets> near_;          // nullopt: jets use the whole structure
+  const std::vector<std::size_t> every_;  // all contacts
   int max_rounds_;
   Touching touching_;
   GuardsInForce guards_;
   ContactBlocks blocks_;
   CircleExit circles_;
-  bool each_alone_ = false;      // no contact is decided with others, but where a decision goes in circles
-  std::vector<MotionJet> room_;  // of the last decision, for the next one
+  bool each_alone_ = false;      // contacts are decided separately, except if modes repeat
+  std::vector<MotionJet> room_;  // memory of the last decision, reused by the next one
   RoundListener listener_;
 };
 

@@ -1,4 +1,4 @@
-// decision.hpp: what comes after an instant: states, motion, and how sharply they are known.
+// decision.hpp: result of a decision: states and motion after an instant, and their accuracy.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@
 
 namespace signorini {
 
-/// How one guard starts that is in force after the decision.
+/// Value of a guard just after the decision.
 struct GuardStart {
   Guard kind = Guard::none;
   bool at_zero = false;  ///< starts at zero and rises
-  int leading = 0;       ///< order of its first derivative that is not zero; -1: none is known
-  double noise = 0.0;    ///< rounding of its value at the start; no less than what was taken for zero
-  std::array<double, 2> loose{};  ///< leading < 0: rounding of its second and third derivative
+  int leading = 0;       ///< order of its first nonzero derivative; -1: none is known
+  double noise = 0.0;    ///< rounding of its value at the start; at least the value that was taken as zero
+  std::array<double, 2> loose{};  ///< leading < 0: rounding of its second and third derivatives
 
-  /// How far rounding of what nothing tells may have taken it after a time h: a body at rest beside a wall drifts.
-  /// Beyond the range of numbers nothing does.
+  /// Possible drift of the guard by rounding after a time h if no derivative determines it: a body at rest beside a
+  /// wall drifts. 0 if the drift is beyond the range of numbers.
   [[nodiscard]] double drift(double h) const {
     const double far = h * h * (loose[0] / 2.0 + h * loose[1] / 6.0);
     return std::isfinite(far) ? far : 0.0;
@@ -37,55 +37,55 @@ struct Crossing {
   double noise = 0.0;                                       ///< rounding of its value
 };
 
-/// A contact that sticks from an instant on, where rounding cannot tell whether it does.
+/// A contact that sticks from an instant on, while rounding leaves open whether it slips.
 struct AtLimit {
   std::size_t contact = 0;
-  double below = 0.0;  ///< the limit of friction less |T|, as computed; force
-  double noise = 0.0;  ///< rounding of that
+  double below = 0.0;  ///< limit of friction minus |T|, as computed; force
+  double noise = 0.0;  ///< rounding of that difference
 };
 
 struct Decision {
   bool consistent = false;
-  Refusal refusal;  ///< why not
+  Refusal refusal;  ///< reason if there are no consistent states
   Mode mode;
-  ModeSystemPtr system;  ///< of `mode`; engines go on with it
+  ModeSystemPtr system;  ///< system of `mode`; engines continue with it
   Vector u, v;
   Jet jet;
-  std::vector<ContactMotion> before, after;  ///< one a contact
+  std::vector<ContactMotion> before, after;  ///< one entry per contact
   std::vector<BodySlide> slides_before, slides_after;
-  std::vector<GuardStart> guards;             ///< guards_per_contact a contact
-  GuardForms forms;                           ///< of these, and of those that are none
-  std::map<std::size_t, Crossing> crossings;  ///< of contacts visited
-  std::vector<bool> visited;                  ///< contacts that changed state in between, one a contact
-  std::vector<bool> jumped;                   ///< contacts whose N or T jumps
-  std::vector<std::size_t> released;          ///< contacts that parts without mass left at once (release.hpp)
-  std::vector<Impulse> impulses;              ///< one a contact, where rigid contacts were hit; else empty
-  std::vector<Blow> blows;                    ///< those that the impulses are the sums of, turn by turn
-  std::vector<double> departures;             ///< Findings::departures
-  double impact_loss = 0.0;                   ///< energy that the impacts dissipate
-  double impact_surface_work = 0.0;           ///< that moving surfaces do in them
-  bool impact_gains = false;                  ///< an impact gained energy (Newton's law with friction)
-  /// Rounding could not tell: the states that fail least were taken, or rest goes on at the limit of
-  /// friction.
+  std::vector<GuardStart> guards;             ///< guards_per_contact entries per contact
+  GuardForms forms;                           ///< forms of these guards, including absent ones
+  std::map<std::size_t, Crossing> crossings;  ///< of visited contacts
+  std::vector<bool> visited;          ///< contacts that changed state in between, one entry per contact
+  std::vector<bool> jumped;           ///< contacts whose N or T jumps
+  std::vector<std::size_t> released;  ///< contacts that massless parts left instantaneously (release.hpp)
+  std::vector<Impulse> impulses;      ///< one entry per contact if rigid contacts were hit; otherwise empty
+  std::vector<Blow> blows;            ///< single impacts, turn by turn, whose sums are `impulses`
+  std::vector<double> departures;     ///< Findings::departures
+  double impact_loss = 0.0;           ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;   ///< work of moving surfaces in the impacts
+  bool impact_gains = false;          ///< an impact gained energy (Newton's law with friction)
+  /// True if rounding left the decision open: the states with the smallest violation were taken, or rest continues at
+  /// the limit of friction.
   bool undecided = false;
-  /// Those that rest there, or whose friction drops to the kinetic one if they do not.
+  /// Contacts that rest there, or whose friction drops to the kinetic value if they do not.
   std::vector<AtLimit> at_limit;
-  /// A flight faster than capture_velocity was taken as rest, since the clock does not resolve it, or as landed, since
-  /// it is lower than the rounding of its data.
+  /// True if a flight faster than capture_velocity was taken as rest because the clock does not resolve it, or as
+  /// landed because it is lower than the rounding of its data.
   bool unresolved = false;
-  double forgiven = 0.0;  ///< by how many of their roundings those states fail
+  double forgiven = 0.0;  ///< violation of those states, in multiples of their rounding
   int rounds = 0;
-  /// Impulses along n and t, slots as those of forces, that no law of impact knows: what stays is set to rest, and what
-  /// rounding and tolerances have left of velocities that are zero is taken out. Empty: none.
+  /// Impulses along n and t, indexed like forces, that no law of impact gives: they stop contacts that stay, and remove
+  /// the velocities that rounding and tolerances leave where zero is exact. Empty: none.
   Eigen::VectorXd captures = {};
 
-  /// In force.
+  /// Guard after the decision.
   [[nodiscard]] const GuardForm& guard(std::size_t slot) const {
     return forms[contact_of_guard(slot)][guard_within(slot)];
   }
-  /// Of a guard that is linear.
+  /// Form of a linear guard.
   [[nodiscard]] const Form& form(std::size_t slot) const { return guard(slot).form; }
-  /// Null: no guard of the contact failed, or it did not fall.
+  /// Crossing of a contact's guard; null: no guard failed, or it did not reach zero continuously.
   [[nodiscard]] const Crossing* crossing(std::size_t contact) const {
     const auto found = crossings.find(contact);
     return found != crossings.end() ? &found->second : nullptr;

@@ -9,9 +9,9 @@
 namespace signorini {
 namespace {
 
-constexpr double same_value = 1e-12;  // of two pieces of a history where they meet smoothly
+constexpr double same_value = 1e-12;  // relative difference of two pieces of a history that meet smoothly
 
-/// The terms of a form on what a run has left: each is known relative to the greatest of its kind.
+/// Size of the terms of a form for the final data of a run: each is accurate relative to the largest of its kind.
 double left_size(const Model& model, const Combination& form, const Vector& x, double own,
                  double own_turning) {
   double greatest[2] = {own, own_turning}, sum = 0.0;
@@ -38,7 +38,7 @@ std::vector<Fired> fell_at_start(const Model& model, const Vector& u, const Vect
     const double gap_terms =
         std::abs(contact.gap) + left_size(model, contact.normal, u, scales.displacement, scales.rotation);
     const double rate_terms = left_size(model, contact.normal, v, scales.velocity, scales.angular_velocity);
-    // It closes at g = 0, and opens at N = kn g + cn g' = 0.
+    // The contact closes at g = 0, and opens at N = kn g + cn g' = 0.
     const double off = was_open ? kn * gap + cn * gap_rate(contact, v) : kn * gap;
     const double zero =
         rounding::of_many * kn * gap_terms + (was_open ? rounding::of_many * cn * rate_terms : 0.0);
@@ -59,7 +59,7 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
     ContactMotion m;
     set_place(contact, u, forcing.surface(c, t, 0), m);
     set_velocity(contact, v, forcing.surface(c, t, 1), m);
-    // A rigid contact that touches is decided together with the others.
+    // A touching rigid contact is decided together with the others.
     const bool carries =
         contact.normal_force_given() ? !forcing.lifted(c) : contact.normal_spring() && m.gap < 0.0;
     if (carries) {
@@ -113,7 +113,7 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
       s = {State::open, 0.0};
       continue;
     }
-    // Smooth tables meet to the rounding of their pieces: no jump.
+    // Smooth tables meet up to the rounding of their pieces: no jump.
     const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
     if (std::abs(surface_jump) <= same_value * (speed + model.scales.velocity)) surface_jump = 0.0;
@@ -127,7 +127,7 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
     }
     const int sign = slip_sign(s.state);
     if (contact.tangential_stiffness) {
-      // T is continuous when the compression jumps up: below its new limit the contact sticks.
+      // T is continuous if the compression jumps up: below its new limit the contact sticks.
       const double now = after.pressing(c, t, 0), then = before.pressing(c, t, 0);
       if (sign != 0 && now - then > same_value * (std::abs(now) + std::abs(then)))
         s = {State::stick, slip_of(contact, m.ut, motion[c].T)};

@@ -16,12 +16,12 @@
 namespace signorini {
 namespace {
 
-// Accelerations that differ by less than this part of the greatest that any combination makes are equal: half
-// of the digits, since forces of a block of any condition that can be decided at all (1e8) share it. Compared
-// with each other two that are the rounding of rest would differ.
+// Accelerations are equal if they differ by less than this fraction of the largest in any combination: half of the
+// digits, since this is the accuracy of forces in a block with the worst condition that can still be decided (1e8).
+// Relative to each other, two that are the rounding of rest would differ.
 constexpr double same_acceleration = 1e-8;
 
-/// The combination of a number, one digit a choice.
+/// Applies the combination with this number, one digit per choice.
 void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mode& mode) {
   for (const Enumeration::Choice& choice : choices) {
     mode[choice.contact] = choice.states[code % choice.states.size()];
@@ -29,7 +29,8 @@ void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mo
   }
 }
 
-/// Between static and kinetic friction what sticks may slip as well: that is the law, and it sticks.
+/// True if the modes differ by the gap between static and kinetic friction only: a sticking contact may then also slip,
+/// and by the law it sticks.
 bool differ_by_law(const Model& model, const Mode& one, const Mode& other) {
   for (std::size_t c = 0; c < one.size(); ++c) {
     if (one[c] == other[c]) continue;
@@ -41,7 +42,7 @@ bool differ_by_law(const Model& model, const Mode& one, const Mode& other) {
   return true;
 }
 
-/// "'first' stick, 'second' slip+": of the contacts in question.
+/// States of the contacts in question, as text: "'first' stick, 'second' slip+".
 std::string named_states(const Model& model, const std::vector<Enumeration::Choice>& choices,
                          const Mode& mode) {
   std::string text;
@@ -79,7 +80,7 @@ Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state
   return {c, contact.law->candidates(contact, state, before)};
 }
 
-/// Nothing: the rows of the mode are dependent.
+/// nullopt: the rows of the mode are dependent.
 std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, const Forcing& forcing,
                                                        const Block& block,
                                                        const std::vector<KnownGuards>& known,
@@ -102,7 +103,7 @@ std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, c
 }
 
 double Enumeration::condition(const std::vector<std::size_t>& contacts, Mode mode) {
-  std::vector<Eigen::Index> rows;  // those of forces that there are
+  std::vector<Eigen::Index> rows;  // rows of existing forces
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model_.contacts[contacts[i]];
     if (contact.takes_impulses()) rows.push_back(normal_place(i));
@@ -128,7 +129,7 @@ std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& insta
   std::size_t combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.states.size();
   std::optional<Best> best;
-  std::vector<std::pair<Mode, Vector>> holding;  // those that need no forgiveness
+  std::vector<std::pair<Mode, Vector>> holding;  // modes without any violation
   double greatest = 0.0;
   for (std::size_t code = 0; code < combinations; ++code) {
     Mode tried = mode;
@@ -140,7 +141,7 @@ std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& insta
     if (best && weighed->forgiveness >= best->forgiveness) continue;
     best = Best{std::move(tried), weighed->forgiveness, 1.0, {}};
   }
-  // Two that hold must go on alike; the first of them is the best.
+  // Consistent modes must have the same accelerations; the first one is the best.
   for (std::size_t i = 1; i < holding.size() && best->rival.empty(); ++i)
     if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
         !differ_by_law(model_, holding[0].first, holding[i].first))

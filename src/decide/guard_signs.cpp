@@ -10,7 +10,7 @@
 namespace signorini {
 namespace {
 
-/// A guard, or a linear one by a QuickForm of it.
+/// Derivatives and noise of a guard, or of a linear one by its QuickForm.
 double derivative(const GuardForm& guard, const MotionJet& jet, std::size_t k) {
   return guard.derivative(jet.motion.data(), k);
 }
@@ -24,7 +24,7 @@ double noise_of(const QuickForm& form, const MotionJet& jet, std::size_t k) {
   return form.magnitude(jet.noise[k]);
 }
 
-/// Below this derivative k is zero.
+/// Size below which derivative k is zero.
 template <class F>
 double zero_of(const F& guard, const MotionJet& jet, double blur, double resolution, std::size_t k) {
   double zero = blur * noise_of(guard, jet, k) + std::numeric_limits<double>::min();
@@ -35,20 +35,20 @@ double zero_of(const GuardForm& guard, const MotionJet& jet, const Instant& inst
   return zero_of(guard, jet, instant.blur, instant.resolution, k);
 }
 
-/// Do the first `orders` orders tell the sign?
+/// True if the first `orders` orders determine the sign.
 template <class F>
 bool told_by_orders(const F& guard, const MotionJet& jet, std::size_t first, std::size_t orders, bool fell,
                     double blur, double resolution) {
   for (std::size_t k = first; k < orders; ++k) {
     const double d = derivative(guard, jet, k);
     if (!(std::abs(d) > zero_of(guard, jet, blur, resolution, k)) || (fell && k == 1 && d > 0.0)) continue;
-    // One that fails is asked for all that it leads to.
+    // A guard that fails is evaluated to all orders.
     return !(d < 0.0 && orders == 1);
   }
   return false;
 }
 
-/// The guard of a contact that fails soonest.
+/// The guard of a contact that fails first.
 std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const MotionJet& jet,
                                   const ContactState& state, const Instant& instant, bool before,
                                   const KnownGuards& known, const MotionJet* so_far) {
@@ -56,8 +56,8 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
   std::optional<Failure> soonest;
   for (const GuardForm& guard : all) {
     if (guard.kind == Guard::none) continue;
-    // What the integrator located is zero, also where the last rounding leaves it positive; and it fell, so
-    // that a rate which is positive all the same is what an integrator's rounding has made of zero.
+    // A guard that the integrator located is zero even if the last rounding is positive. It also decreases, so a
+    // positive rate is the integrator's rounding of zero.
     const bool fell = before && instant.has_fired(c, guard.kind);
     Known guard_known = known.of(guard.kind);
     if (fell && guard.value(jet.motion[0]) > 0.0)
@@ -68,13 +68,13 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
       sign = sign_of_guard(guard, jet, instant, guard_known);
     }
-    // The guard that fails soonest counts: a friction limit exceeded at once before a compression that
-    // will end. At a tie separation, the first: with N = 0 the friction limit is zero too.
+    // The guard that fails first counts: a friction limit exceeded now takes precedence over a compression that ends
+    // later. In a tie, separation (the first guard) counts: with N = 0 the friction limit is zero, too.
     if (sign.sign >= 0 || (soonest && sign.order >= soonest->sign.order)) continue;
     soonest = Failure{c, guard.kind, guard, sign};
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
-  // Friction limit and compression vanish together in a vertical lift-off: one separation.
+  // In a vertical lift-off, friction limit and compression vanish together: one separation.
   if (is_friction_limit(soonest->guard)) {
     const GuardForm& separation = all[0];
     if (separation.kind == Guard::separation && starts_at_zero(separation, jet, instant) &&
@@ -136,12 +136,12 @@ const GuardsOfState& GuardsInForce::of(std::size_t c, const ContactState& state)
 bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
              const Instant& instant, const KnownGuards& known, double most_blur) {
   if (orders == MotionJet::orders) return true;
-  // Differences to another motion count where a limit has rested: rested().
+  // If a limit has rested, differences to another motion count: rested().
   if (instant.has_rested(c, Guard::slip_plus) || instant.has_rested(c, Guard::slip_minus)) return false;
   const double blur = most_blur * instant.blur, resolution = most_blur * instant.resolution;
   for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
-    // What fell is zero, and a rate that rises is as well: failure_of().
+    // A located guard is zero, and so is a positive rate: failure_of().
     const bool fell = instant.has_fired(c, guard.kind);
     const std::size_t first = std::max<std::size_t>(fell ? 1 : 0, known.of(guard.kind).zeros);
     if (!(guard.is_linear()

@@ -1,9 +1,9 @@
-// guard_signs.hpp: which guards of a mode fail just after an instant.
+// guard_signs.hpp: finds guards of a mode that fail just after an instant.
 //
 //   g, g', g'', ...  lexicographically not negative, each entry zero within its rounding
 //
-// A derivative also counts as zero when the next one would undo it within the resolution of the clock. What a
-// decision has set to zero is zero, whatever an elimination has left of it.
+// A derivative also counts as zero if the next one would compensate it within the resolution of the clock. A quantity
+// that a decision has set to zero is zero, whatever rounding an elimination leaves in it.
 #pragma once
 
 #include <algorithm>
@@ -17,21 +17,21 @@
 
 namespace signorini {
 
-/// What a decision knows of a guard: derivatives below `zeros` vanish, and whether the next one is positive.
+/// Known signs of a guard: derivatives below order `zeros` vanish; `rises`: the next one is positive.
 struct Known {
   std::size_t zeros = 0;
   bool rises = false;
 
-  /// Zero to the last known derivative: no rounding of it tells more.
+  /// Zero with all available derivatives.
   [[nodiscard]] static Known at_limit() { return {MotionJet::orders, false}; }
 };
 
-/// Of the guards of one contact that is decided together with others.
+/// Known signs of the guards of one contact that is decided together with others.
 struct KnownGuards {
   bool touches = false;  ///< g = 0
   Known closing, separation, slip_plus, slip_minus, sliding;
 
-  /// What holds whatever the states are: g, g' and the slip rate that were set to zero.
+  /// The part that holds in any state: g, g' and the slip rate that were set to zero.
   [[nodiscard]] KnownGuards of_motion() const {
     KnownGuards result;
     result.touches = touches;
@@ -64,51 +64,52 @@ struct KnownGuards {
 
 struct Sign {
   int sign = 0;         // -1, 0, +1
-  int order = 0;        // of the derivative that decides; past the last one when all vanish
-  double excess = 0.0;  // that derivative's magnitude over what counts as zero
+  int order = 0;        // order of the derivative that decides; number of orders if all vanish
+  double excess = 0.0;  // magnitude of that derivative relative to the size that counts as zero
 };
 
-/// so_far, the motion of the contact up to the instant, where the guard has rested and has not risen since; else null. Of
-/// the slip rate of a state that slips, p' = -(fs |N| - T)' / kt: where the limit has rested that it left.
+/// Returns so_far, the motion of the contact up to the instant, if the guard has rested and has not risen since;
+/// otherwise null. The slip rate of a slipping state, p' = -(fs |N| - T)' / kt, counts as rested if the limit that the
+/// contact left has rested.
 [[nodiscard]] const MotionJet* rested(const Contact& contact, std::size_t c, const ContactState& state,
                                       const GuardForm& guard, const MotionJet& so_far,
                                       const Instant& instant);
-/// Sign of the first derivative of the form, from `first` on, that is not zero to working precision.
-/// base: a motion in which the form is zero, whatever rounding has left of it; what counts is the difference.
+/// Sign of the first derivative of the form, from order `first` on, that is not zero to working precision. base: a
+/// motion in which the form is exactly zero; the difference to it counts.
 [[nodiscard]] Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                               std::size_t first, const MotionJet* base = nullptr);
 [[nodiscard]] bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant);
-/// How many times its rounding must be forgiven for the form not to be lexicographically negative; 0: none.
+/// Factor of its rounding that makes the form lexicographically nonnegative; 0: it is nonnegative.
 [[nodiscard]] double forgiveness(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  std::size_t first);
-/// Sign of a guard of which something is known: one that rises is only asked whether it clearly does not.
+/// Sign of a guard with known signs; a guard that is known to rise is tested only for a clear contradiction.
 [[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
 using GuardsOfState = std::array<GuardForm, guards_per_contact>;
 
-/// Do the noises of the first `orders` orders tell all that a decision asks of a contact that is decided alone: the signs
-/// of its guards, of which something may be known, though zeros be blurred `most_blur` times?
+/// True if the first `orders` orders determine the signs of all guards of a contact that is decided separately, with
+/// their known signs, even if zeros are blurred by `most_blur`.
 [[nodiscard]] bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
                            std::size_t orders, const Instant& instant, const KnownGuards& known,
                            double most_blur);
 
-/// The guards of every contact; whoever keeps them shares those of contacts whose states have not changed since.
+/// The guards of every contact; copies share those of contacts whose states have not changed since.
 using GuardForms = SharedVector<GuardsOfState>;
 
-/// Guards of contacts in the states that they were last asked for in: most have not changed since.
+/// Cache of the guards of contacts in their last states, most of which have not changed.
 class GuardsInForce {
  public:
-  /// Must outlive it.
+  /// The model must outlive the object.
   explicit GuardsInForce(const Model& model)
       : model_(model), states_(model.contacts.size()), forms_(model.contacts.size()) {}
   [[nodiscard]] const GuardsOfState& of(std::size_t contact, const ContactState& state);
-  /// All, as they were last asked for.
+  /// All guards in the cache.
   [[nodiscard]] const GuardForms& all() const { return forms_; }
 
  private:
   const Model& model_;
-  std::vector<std::optional<ContactState>> states_;  // nothing: never asked for
+  std::vector<std::optional<ContactState>> states_;  // nullopt: not yet in the cache
   GuardForms forms_;
 };
 
@@ -119,9 +120,9 @@ struct Failure {
   Sign sign = {};
 };
 
-/// The guard that fails soonest of each contact of which one fails. before: the mode is that of the motion
-/// up to the instant, so what the engine located is zero. known: one a contact. so_far: the motion up to the
-/// instant, one a contact, needed where limits have rested. asked: contacts that may fail, ascending.
+/// The guard that fails first, for each contact with a failing guard. before: the mode is that of the motion up to the
+/// instant, so located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one entry
+/// per contact, needed if limits have rested. asked: contacts that may fail, ascending.
 [[nodiscard]] std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
                                             const Mode& mode, const Instant& instant, bool before,
                                             const std::vector<KnownGuards>& known,

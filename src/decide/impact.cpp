@@ -16,11 +16,11 @@
 namespace signorini {
 namespace {
 
-// Of the greatest of the energies in question: what rounding of velocities and impulses leaves is below, what
-// Newton's law gains is not. Chosen.
+// Fraction of the largest energy involved: the rounding of velocities and impulses is below it, an energy gain by
+// Newton's law is not. Chosen value.
 constexpr double no_gain = 1e-9;
 
-/// All that could sticks rigidly let go: only then does the system's matrix say what an impulse does.
+/// Lets all contacts go that can stick rigidly: only then does the system's matrix give the effect of an impulse.
 Mode released(const Model& model, Mode mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (const Contact& contact = model.contacts[c]; contact.takes_impulses() || contact.sticks_rigidly())
@@ -72,7 +72,7 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
     item.static_friction = static_friction(contact);
     item.kinetic_friction = kinetic_friction(contact);
-    // What rises with the slip rate is in a hit what it was just before.
+    // In a hit, friction that rises with the slip rate keeps its value from just before.
     if (contact.friction.rises())
       item.static_friction = item.kinetic_friction =
           sliding_friction(contact, std::abs(hit.before[tangent_place(i)]));
@@ -81,7 +81,8 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
   return hit;
 }
 
-/// Velocities after; rebounds slower than capture_velocity are none. False: there is no solution.
+/// Computes the velocities after the impact; rebounds slower than capture_velocity are suppressed. False: there is no
+/// solution.
 bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const {
   const Eigen::Index m = hit.restitution.size();
   hit.rebound = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::quiet_NaN());
@@ -109,7 +110,7 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
   return true;
 }
 
-/// Velocities that the solution makes known are exact.
+/// Makes velocities exact that the solution determines.
 void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<std::size_t>& touching,
                            Hit& hit, Impact& impact) const {
   const CoulombReading reading(hit.problem, *hit.solution, rounding::of_many * hit.size);
@@ -131,7 +132,7 @@ void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<s
   impact.settled = settle(hit.d, fixed, impact.v);
 }
 
-/// Impulses and energies.
+/// Computes impulses and energies.
 void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
                       const std::vector<std::size_t>& touching, const Hit& hit, Impact& impact) const {
   double greatest = 0.0;

@@ -1,4 +1,4 @@
-// impact.hpp: what happens to velocities where rigid contacts close.
+// impact.hpp: velocities after an impact of rigid contacts.
 //
 //   M (v+ - v-) = sum_k ( n_k Pn_k + t_k Pt_k )      over all rigid contacts with g = 0
 //   0 <= Pn  _|_  vn+ + e min(vn-, 0) >= 0           Newton's restitution
@@ -6,8 +6,8 @@
 //   loss = -sum ( Pn (vn- + vn+) + Pt (vt- + vt+) )/2           vt relative to the surface
 //
 // M couples all contacts, so they are solved together (decide/coulomb_problem.hpp). A rebound slower than
-// capture_velocity is solved again with e = 0 for that contact: it rests, and a ball that would bounce for
-// ever comes to its end. Sliders and contact elements take no impulse.
+// capture_velocity is solved again with e = 0 for that contact: it rests, and infinitely many bounces of a ball end
+// after a finite number. Sliders and contact elements take no impulse.
 // Source: Newton 1687; Moreau 1988 for the simultaneous problem; Glocker 2001, chapter 8.
 #pragma once
 
@@ -21,16 +21,16 @@
 
 namespace signorini {
 
-/// What an impact does at one contact. Unit: force * time.
+/// Sum of the impulses on one contact at an instant. Unit: force * time.
 struct Impulse {
-  bool hit = false;  ///< it was open and takes an impulse; closed contacts may take one too
+  bool hit = false;  ///< the contact was open and takes an impulse; closed contacts may take one, too
   double normal = 0.0, tangent = 0.0;
   bool rests = false, sticks = false;  ///< vn+ = 0, vt+ = 0 by the solution
-  /// Its rebound over capture_velocity; less than one: it was captured. NaN: it has none.
+  /// Rebound velocity divided by capture_velocity; less than one: it was captured. NaN: no rebound.
   double rebound = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What one contact that touches takes of one impact. Impacts of an instant come one after the other: turn 1, 2, ...
+/// Impulse on one touching contact in one impact. Impacts of an instant are successive: turn 1, 2, ...
 struct Blow {
   std::size_t contact = 0;
   int turn = 1;
@@ -38,13 +38,13 @@ struct Blow {
 };
 
 struct Impact {
-  Refusal refusal;                ///< why there is none
-  Vector v;                       ///< after
-  std::vector<Impulse> impulses;  ///< one a contact of the model
-  double loss = 0.0;              ///< energy that it dissipates
+  Refusal refusal;                ///< reason if there is no solution
+  Vector v;                       ///< velocities after the impact
+  std::vector<Impulse> impulses;  ///< one entry per contact of the model
+  double loss = 0.0;              ///< dissipated energy
   double surface_work = 0.0;      ///< work of moving surfaces
-  bool gains = false;             ///< the loss is negative: Newton's law with friction does that at times
-  /// Impulses that make known velocities exact, rows as those of Delassus; empty: none.
+  bool gains = false;             ///< the loss is negative: possible for Newton's law with friction
+  /// Impulses that make known velocities exact, rows as in Delassus; empty: none.
   Eigen::VectorXd settled = {};
 };
 
@@ -53,19 +53,19 @@ class Impacts {
   Impacts(ModeSystems& systems, double capture_velocity)
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
-  /// u with the gaps of all that touch closed, by the smallest change in the norm of M; mode: of all others.
+  /// u with closed gaps of all touching contacts, by the smallest change in the norm of M; mode: of all other contacts.
   [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching, Vector u);
-  /// v: before; touching: contacts with g = 0, rigid ones; mode: of all others.
+  /// Solves an impact. v: velocities before; touching: rigid contacts with g = 0; mode: of all other contacts.
   [[nodiscard]] Impact solve(const Forcing& forcing, double t, const Mode& mode,
                              const std::vector<std::size_t>& touching, const Vector& v);
 
  private:
-  /// What all that touch bring along, and what becomes of it; rows as those of Delassus.
+  /// Velocities of all touching contacts before and after the impact, and the problem between; rows as in Delassus.
   struct Hit {
     Delassus d;
     CoulombProblem problem;
-    Eigen::VectorXd before, size, after, restitution;  // size: sum of the terms of `before`
-    Eigen::VectorXd rebound;                           // Impulse::rebound, one a contact that touches
+    Eigen::VectorXd before, size, after, restitution;  // size: sum of the absolute terms of `before`
+    Eigen::VectorXd rebound;                           // Impulse::rebound, one entry per touching contact
     std::optional<CoulombSolution> solution;
   };
   [[nodiscard]] Hit meet(const Forcing& forcing, double t, const ModeSystem& system,
@@ -78,11 +78,11 @@ class Impacts {
 
   const Model& model_;
   ModeSystems& systems_;
-  double capture_velocity_;  // where a contact has none of its own
+  double capture_velocity_;  // for contacts without a value of their own
 };
 
-/// States during an impact: whoever takes an impulse is closed, sticks or slides by it; of the contacts with impulses
-/// nobody else holds anything. impulses: one a contact.
+/// States during an impact: a contact that takes an impulse is closed, sticks or slides according to it; all other
+/// contacts that could take one are open. impulses: one entry per contact.
 [[nodiscard]] Mode mode_of_impact(const Model& model, Mode mode, const std::vector<Impulse>& impulses);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// instant.hpp: what a decision starts from: the motion just before, and what happened.
+// instant.hpp: input of a decision: the motion just before an instant, and the guards that triggered it.
 #pragma once
 
 #include <algorithm>
@@ -16,27 +16,27 @@ namespace signorini {
 struct Fired {
   std::size_t contact = 0;
   Guard guard = Guard::none;
-  bool unseen = false;  ///< it began at zero, and was never seen above its rounding
+  bool unseen = false;  ///< zero at the beginning, and never observed above its rounding
 };
 
 struct Instant {
   double t = 0.0;
-  double resolution = 0.0;  ///< events closer than this in time are one instant
+  double resolution = 0.0;  ///< events closer than this in time count as one instant
   Vector u, v;
   Mode mode;  ///< just before
   std::vector<Fired> fired;
-  /// Friction limits that were zero with all their derivatives when the integrator set out, and that it has not
-  /// seen fall since: zero under the forcing up to here, whatever the rounding of the way has left of them.
+  /// Friction limits that were zero with all their derivatives at the start of the integrator, and that it has not
+  /// found to fail since: they are zero under the forcing up to now, whatever rounding has accumulated in them.
   std::vector<Fired> rested = {};
-  /// When each contact was last at g = 0, the start where it never was; empty: not known.
+  /// Last time at which each contact had g = 0, the start if it never had; empty: unknown.
   std::vector<double> touched = {};
   bool jump = false;   ///< the forcing is not smooth here
-  double blur = 1.0;   ///< times the noise of a jet, below which its entries are zero
-  bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
-  /// Flights lower than the rounding of their gaps are known: a series begins with g = 0 (Stepper).
+  double blur = 1.0;   ///< factor of a jet's noise below which its entries are zero
+  bool start = false;  ///< start of the run: touching rigid contacts are decided even if no guard fails
+  /// True if flights lower than the rounding of their gaps are known: a series begins with g = 0 (Stepper).
   bool knows_low_flights = false;
-  double slow = 0.0;  ///< slip rates up to this one are rest, whatever their rounding
-  /// Flights are flown that would be taken as rest, since they are slower than capture_velocity or not known.
+  double slow = 0.0;  ///< slip rates up to this one count as rest, in addition to rounding
+  /// True if flights are computed that otherwise count as rest, being slower than capture_velocity or unknown.
   bool low_flights = false;
 
   [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const { return has(fired, contact, guard); }
@@ -51,7 +51,7 @@ struct Instant {
   }
 };
 
-/// "'first' (compression) and 'second' (gap)": of anything with a contact and a guard.
+/// Names of contacts and guards as text, from any list with both: "'first' (compression) and 'second' (gap)".
 template <class Guarded>
 [[nodiscard]] std::string names_of(const Model& model, const std::vector<Guarded>& list) {
   std::vector<std::string> names;

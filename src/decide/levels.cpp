@@ -17,11 +17,11 @@ namespace {
 
 using Kind = CoulombItem::Kind;
 
-constexpr std::size_t most_compared = 5;  // contacts up to which all solutions are looked for
+constexpr std::size_t most_compared = 5;  // largest number of contacts for which all solutions are compared
 
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
-/// The normal of what is at its limit is a row in force already: what an elimination leaves of it is zero.
+/// Removes the normal of an item at its limit: it is a constraint row already, and an elimination leaves only rounding.
 void hold_normals(CoulombProblem& p) {
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     if (p.items[i].kind != Kind::limit) continue;
@@ -32,14 +32,14 @@ void hold_normals(CoulombProblem& p) {
   }
 }
 
-enum class Verdict : unsigned char { open, limit, decided };  // open: an open question
+enum class Verdict : unsigned char { open, limit, decided };  // open: not decided yet
 
 void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
   state.state = slip_along(sign);
   guards.sliding = {order + 1, true};
 }
 
-/// A contact whose friction is at its limit: back into the cone, slip, or still undecided.
+/// Decides a contact whose friction is at its limit: back into the cone, slip, or still undecided.
 Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, ContactState& state,
                     KnownGuards& guards) {
   const int sign = r.item(i).sign;
@@ -54,7 +54,7 @@ Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, C
   return Verdict::decided;
 }
 
-/// Friction of a contact that presses and has not slipped before.
+/// Decides the friction of a contact that presses and has not slipped before.
 Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
                         ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
@@ -67,14 +67,14 @@ Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t 
   }
   const bool two = item.static_friction != item.kinetic_friction;
   if ((two && !who.bears_limit) || std::abs(r.force(t)) <= r.zero_force(t)) return Verdict::decided;
-  // At its limit: with one coefficient the next derivative decides; with two it sticks until the
-  // guard of the static limit falls, and bears that limit from there on if others hold it.
+  // At its limit: with one coefficient the next derivative decides. With two the contact sticks until the guard of the
+  // static limit fails; from then on it bears that limit if other contacts hold it.
   who.sign = -sign_of(r.force(t));
   state.state = slip_along(who.sign);
   return Verdict::limit;
 }
 
-/// A force that is not zero answers to a response of zero, whatever rounding has left of that.
+/// Decides a contact. If its force is not zero, its response is zero, whatever rounding is left in it.
 Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
                        ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
@@ -102,7 +102,7 @@ Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i
   return settle_friction(r, order, i, who, state, guards);
 }
 
-/// Those whose rows are in force.
+/// Contacts whose rows are constraints.
 std::vector<std::size_t> in_force(const std::vector<Participant>& participants, const Mode& mode) {
   std::vector<std::size_t> result;
   for (const Participant& who : participants)
@@ -178,7 +178,7 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
   return result;
 }
 
-/// Items, right side and its noise, from the motion under the forces decided so far.
+/// Fills in items, right-hand side and its noise, from the motion under the forces decided so far.
 void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
                   const std::vector<MotionJet>& jets, Level& level) const {
   const auto size = place_count(level.entries.size());
@@ -199,7 +199,7 @@ void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vec
   }
 }
 
-/// The problems of the given levels (order, block) for all that are undecided. False: rows in force are
+/// Sets up the problems of the given levels (order, block) for all undecided contacts. False: constraint rows are
 /// dependent.
 bool Levels::pose(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
                   const Mode& mode, std::vector<Level>& levels) {
@@ -225,7 +225,7 @@ bool Levels::pose(const Instant& instant, const Forcing& forcing, const std::vec
   return true;
 }
 
-/// No solution and no refusal: nothing acts at this order.
+/// No solution and no refusal: all right-hand sides are zero at this order.
 Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
   CoulombProblem& problem = level.problem;
   const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
@@ -239,7 +239,8 @@ Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& soluti
   for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
   share_fairly(problem, may_share, *solution);
   if (level.entries.size() > most_compared || !may_have_many(problem)) return {};
-  // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
+  // A contact between static and kinetic friction that sticks may also slip; by the law it sticks, so this is not a
+  // paradox.
   CoulombProblem settled = problem;
   for (std::size_t i = 0; i < settled.items.size(); ++i) {
     CoulombItem& item = settled.items[i];
@@ -249,7 +250,7 @@ Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& soluti
   return all.solutions.size() > 1 ? refusal(level, all) : Refusal{};
 }
 
-/// Takes over what the solution decides. True: it decides somebody.
+/// Takes over the decisions of the solution. True: at least one contact was decided.
 bool Levels::settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
                     Mode& mode, std::vector<KnownGuards>& known) const {
   const CoulombReading reading(level.problem, solution, level.noise);
@@ -281,7 +282,7 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
     for (const Participant& who : participants)
       if (levels.empty() || levels.back().block != who.block)
         levels.push_back({order, who.block, {}, {}, {}, {}, {}});
-    // An order of a block is solved again as long as it decides somebody: with the great forces in force the
+    // An order of a block is solved again as long as it decides a contact: with the large forces as constraints the
     // small ones stand out from the rounding.
     while (!levels.empty()) {
       if (!pose(instant, forcing, entries, mode, levels)) return dependent_rows(in_force(participants, mode));
@@ -295,11 +296,11 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
       levels = std::move(again);
     }
   }
-  // No known derivative says more: what touches stays as it was, what is at its limit sticks.
+  // No derivative decides the rest: touching contacts keep their states, contacts at their limit stick.
   for (const Entry& entry : entries) {
     if (entry.standing == Standing::limit &&
         systems_.held_by_others(entry.who.contact, mode, forcing, instant.t)) {
-      known[entry.who.contact].sliding = Known::at_limit();  // it bears its limit at rest
+      known[entry.who.contact].sliding = Known::at_limit();  // bears its limit at rest
     } else if (entry.standing == Standing::limit) {
       mode[entry.who.contact].state = State::stick;
       KnownGuards& guards = known[entry.who.contact];

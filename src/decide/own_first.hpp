@@ -1,9 +1,10 @@
-// own_first.hpp: in which order contacts change their states where several do at one instant.
+// own_first.hpp: order of state changes if several contacts change at one instant.
 //
-//   p' = 0: it comes to rest   ->   |T| <= f|N| in stick?   no: it slips the other way, or on
+//   p' = 0: it stops   ->   |T| <= f|N| in stick?   no: it slips, in the other direction or in the same
 //
-// While one that has come to rest is tried as sticking it pulls at others, with a force that it turns out not to have. What
-// only this pushes beyond a limit has no reason of its own to change: it is asked again when the other's state is known.
+// While a stopped contact is tried as sticking, it pulls at others with a force that is later found not to exist.
+// Contacts that only this force pushes beyond a limit have no reason to change: they are decided after the state of the
+// stopped contact is known.
 #pragma once
 
 #include <vector>
@@ -13,8 +14,9 @@
 
 namespace signorini {
 
-/// Where a contact that was asked before lies beyond the limit of rigid friction: failures of others of its block that were
-/// not, of values and not of rates, are dropped. visited: one a contact; block_of: its block.
+/// If a contact that was decided before is beyond the limit of rigid friction, removes failures of other contacts of
+/// its block that were not decided before: failures of values, not of rates. visited: one entry per contact; block_of:
+/// its block.
 void leave_pushed_for_later(const Model& model, const std::vector<bool>& visited,
                             const std::vector<std::size_t>& block_of, std::vector<Failure>& failed);
 

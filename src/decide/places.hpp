@@ -1,6 +1,6 @@
-// places.hpp: where a contact of a list stands in vectors that have l, k or rn, rt of each in turn.
+// places.hpp: index of a listed contact in vectors that contain l, k or rn, rt of each contact in turn.
 //
-//   (n_1, t_1, n_2, t_2, ...)         the list: those that touch, those that are undecided, those that turn
+//   (n_1, t_1, n_2, t_2, ...)         the list: touching, undecided, or reversing contacts
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace signorini {
 
-/// From a contact of the list to the next: n, and one tangent.
+/// Entries per listed contact: n, and one tangent.
 inline constexpr Eigen::Index places_per_contact = 2;
 
 template <class Integer>

@@ -1,8 +1,8 @@
-// plain_form.hpp: values of a form, most of which hold no more than six terms.
+// plain_form.hpp: fast values of a form with at most six terms, as most forms are.
 //
-//   f = c + N N + T T + gap g + ut ut + vn g' + vt ut'        what else a form may hold is zero in it
+//   f = c + N N + T T + gap g + ut ut + vn g' + vt ut'        other terms of the form are zero
 //
-// To the last bit as Form, of finite motions: a sum does not change by the zeros that are left out.
+// The values agree with Form to the last bit, for finite motions: omitting zeros does not change a sum.
 #pragma once
 
 #include <cmath>

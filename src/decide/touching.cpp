@@ -16,10 +16,11 @@
 namespace signorini {
 namespace {
 
-/// Of the scale of velocities: motions that differ by more are not one that rounding has split. sqrt(eps): no flow of
-/// an engine loses half of its digits.
+/// Fraction of the scale of velocities: motions that differ by more were not separated by rounding alone. sqrt(eps): no
+/// flow of an engine loses half of its digits.
 constexpr double half_of_digits = 0x1p-26;
-/// Turns of hits at one instant; capture_velocity ends a sequence of rebounds long before, unless e is nearly one.
+/// Limit for successive hits at one instant; capture_velocity ends a sequence of rebounds long before, unless e is
+/// almost one.
 constexpr int most_turns = 1000;
 
 double norm_of(const Combination& form) {
@@ -28,8 +29,8 @@ double norm_of(const Combination& form) {
   return std::sqrt(squared);
 }
 
-/// The rounding of a form of the velocities, |form| |v| whatever the angle between them. Where all of them are
-/// held at zero, what is left of them is the rounding of corrections, square against the motion of the rest.
+/// Rounding of a form of the velocities, |form| |v| for any angle between them. If all of these velocities are held at
+/// zero, they contain the rounding of corrections, which is relative to the whole motion.
 double rounding_of(const Combination& form, const Vector& v) {
   const double rest = rounding::eps * v.norm();
   double v_squared = 0.0;
@@ -37,7 +38,7 @@ double rounding_of(const Combination& form, const Vector& v) {
   return rounding::of_many * norm_of(form) * (std::sqrt(v_squared) + rest);
 }
 
-/// The size of all velocities; rotations are of another unit, and left out.
+/// Norm of all velocities; rotations have another unit and are omitted.
 double speed_of(const Model& model, const Vector& v) {
   double squared = 0.0;
   for (Eigen::Index i = 0; i < v.size(); ++i)
@@ -45,7 +46,8 @@ double speed_of(const Model& model, const Vector& v) {
   return std::sqrt(squared);
 }
 
-/// -sum of impulse times mean velocity, of what was captured since `before`. twice: velocities before and after, added.
+/// Energy loss: -sum of impulse times mean velocity, for captures since `before`. twice: velocities before plus
+/// velocities after.
 double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd& before,
                const Eigen::VectorXd& now, const Vector& twice) {
   double loss = 0.0;
@@ -85,8 +87,8 @@ Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity
       impacts_(systems, capture_velocity),
       levels_(systems, jets) {}
 
-/// The rounding of t.v less the velocity of the surface, and what rests besides; at the start no less than that of
-/// the scene's velocities.
+/// Rounding of t.v minus the velocity of the surface, plus slip rates that count as rest; at the start at least the
+/// rounding of the scene's velocities.
 double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
   const double given = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
   return given + rounding_of(model_.contacts[c].tangent, instant.v) +
@@ -98,16 +100,16 @@ double Touching::slowest_flight(std::size_t c) const {
   return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
 }
 
-/// A contact with g = 0 that is pulled back stays where its flight would be shorter than the clock resolves.
-/// It is low where the lift is below capture_velocity, or the flight lower than the rounding of its gap and
-/// nobody knows such flights. fell: its acceleration towards the ground before; where all that touch fall freely
-/// together nothing seems to pull it back.
+/// Decides whether a contact with g = 0 leaves. It stays if its flight would be shorter than the resolution of the
+/// clock. It is low if its speed is below capture_velocity, or if the flight is lower than the rounding of its gap and
+/// the engine does not know such flights. Its acceleration towards the ground just before also counts as a pull: if all
+/// touching bodies fall freely together, no force seems to pull it back.
 Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, double fell,
                                         const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &m = free.motion[0], &noise = free.noise[0];
   const double pull = std::max(-m.an, fell);
-  // What stands still moves by the rounding of its equilibrium, not of its velocity.
+  // A body at rest moves by the rounding of its equilibrium, not of its velocity.
   const double rounding =
       instant.blur * noise.vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
   if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::How::stays : Departure::How::leaves};
@@ -119,22 +121,22 @@ Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, do
   return {m.vn <= rounding + low ? Departure::How::low : Departure::How::leaves, ratio};
 }
 
-/// Does a dashpot let the compression of a contact jump up, by n . (v+ - v-)? What a solve leaves of the velocities
-/// of those that no impulse reaches is rounding of all that jump.
+/// True if a dashpot makes the compression of a contact jump up, by n . (v+ - v-). For velocities that no impulse
+/// reaches, the solve leaves rounding relative to all jumps.
 bool Touching::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
   const Contact& contact = model_.contacts[c];
   if (!(contact.normal_damping > 0.0)) return false;
-  // Of an elimination: what a hit does far from it, 0.3 of the last node's at each node of a beam, is no jump where it is
-  // that small.
+  // Rounding of an elimination: the effect of a hit decays by a factor of 0.3 per node of a beam, and is no jump once
+  // it is that small.
   const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
                           4.0 * rounding::of_elimination * norm_of(contact.normal) *
                               (speed_of(model_, before) + speed_of(model_, after));
   return gap_rate(contact, after) - gap_rate(contact, before) < -rounding;
 }
 
-/// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot lets
-/// |N| jump up T stays continuous, below its new limit: the element sticks at it. Where |N| jumps down T follows its
-/// limit; where N does not jump the slip goes on as long as its own guard holds.
+/// Adapts states to the velocities after an impact: sliders that stick rigidly slip as soon as their slip rate is not
+/// zero. If a dashpot makes |N| jump up, T is continuous and below its new limit: the element sticks. If |N| jumps
+/// down, T follows its limit; if N does not jump, the slip continues as long as its own guard holds.
 void Touching::follow_velocity(const Instant& instant, const Vector& before, const Forcing& after,
                                const Block& block, const std::vector<ContactMotion>& motion,
                                Mode& mode) const {
@@ -144,7 +146,7 @@ void Touching::follow_velocity(const Instant& instant, const Vector& before, con
       mode[c] = {State::stick, slip_of(contact, motion[c])};
     if (!contact.holds_tangent_only() || mode[c].is_open()) continue;
     const double vt = along_surface(contact, instant.v, after.surface(c, instant.t, 1));
-    // As in presses_harder: what stuck is at rest but for what the solve has left of all that jumps.
+    // Same rounding as in presses_harder: a contact that stuck is at rest up to the rounding of all jumps.
     const double of_jump =
         slip_sign(mode[c].state) == 0
             ? rounding::of_elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
@@ -153,8 +155,8 @@ void Touching::follow_velocity(const Instant& instant, const Vector& before, con
   }
 }
 
-/// What counts as zero becomes zero, for all contacts at once: setting one to zero moves the others.
-/// False: they were zero already.
+/// Sets velocities that count as zero to zero, for all contacts at once: setting one to zero moves the others. False:
+/// they were zero already.
 bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
                               const Met& met, Findings& found) const {
   std::vector<Fixed> fixed;
@@ -177,7 +179,7 @@ bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const Mo
   return true;
 }
 
-/// Where others were set to zero a contact may slide the other way. True: one of them rests now.
+/// Updates the direction of slip after other velocities were set to zero. True: one more contact rests.
 bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,
                           Findings& found) const {
   bool rests = false;
@@ -195,11 +197,12 @@ bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const 
   return rests;
 }
 
-/// What rounding has carried into g and g'. da, that of g'', gives dv = t da in all velocities since the
-/// beginning and du = t^2/2 da in displacements. When the contact touched last g and g' were known exactly;
-/// since then, for the time s, dv has moved g, da g', and du both through the stiffness of the structure: by
-/// du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency. That is a bound, and where it is of no use, in
-/// stiff structures after long times, velocities that differ by half_of_digits of their scale are others all the same.
+/// Rounding accumulated in g and g'. The error da of g'' gives dv = t da in all velocities since the beginning, and
+/// du = t^2/2 da in displacements. At the last touch g and g' were known exactly. In the time s since then, dv has
+/// changed g, da has changed g', and du has changed both through the stiffness of the structure:
+/// by du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency. This is an upper bound, useless for stiff
+/// structures after long times: velocities that differ by half_of_digits of their scale therefore count as different in
+/// any case.
 Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& instant) const {
   if (instant.touched.empty()) return {};
   const double t = instant.t, s = t - instant.touched[c], w = model_.omega_max, du = 0.5 * t * t * da;
@@ -208,8 +211,8 @@ Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& 
   return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
 }
 
-/// A flight begins with g = 0, so what it has risen since is known to the sum that g is, of data that are doubles;
-/// where it never touched the data themselves are known to some roundings.
+/// Rounding of a gap. A flight begins with g = 0, so its gap is accurate to the rounding of the sum that g is. For a
+/// contact that never touched, the data of the sum have errors of a few roundings.
 double Touching::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
   const bool flew = !instant.touched.empty() && instant.touched[c] > 0.0;
   const Contact& contact = model_.contacts[c];
@@ -221,7 +224,7 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
-  // Given motions that are nothing but rounding tell no more of a gap than those of the scene's size.
+  // Given motions of rounding size determine a gap no better than motions of the scene's size.
   const double given = instant.start ? rounding::of_few * model_.scales.displacement : 0.0;
   const double given_rate = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
   Met met;
@@ -233,11 +236,10 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
     const bool open = mode[c].is_open();
     const Carried carried = carried_by(c, noise.an, instant);
     const double known = rounding_of_gap(c, noise.gap, instant) + given;
-    // Whatever has been carried there, what closes faster than a rebound that would not rest is a hit.
+    // Whatever has accumulated, closing faster than a rebound that would not rest is a hit.
     const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
     Approach a{c, 0.0, m.vn, noise.vn + given_rate + slowest_flight(c), noise.vn + unsure + given_rate, open};
-    // One whose gap has become negative touches, too: it fell with others, within the resolution of the
-    // clock.
+    // A contact whose gap has become negative touches, too: it closed with others, within the resolution of the clock.
     const bool fell =
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
     const bool touches = !open || instant.has_fired(c, Guard::closing) || std::abs(m.gap) <= known;
@@ -252,7 +254,7 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
     met.approaches.push_back(a);
     met.apart = met.apart || m.gap != 0.0;
     met.hit = met.hit || a.closes();
-    // Hit together by what its data are known to: they do not tell whether it is.
+    // These contacts are hit together within the accuracy of their data, which do not determine the order.
     const double own = rounding::of_few * (model_.contacts[c].normal.magnitude(instant.u) +
                                            std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
     if (!a.closes() || a.gap > 0.0) continue;
@@ -263,7 +265,7 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
   return met;
 }
 
-/// Does it move like one that falls now, but for what rounding may have made of both? Or not at all?
+/// True if the contact moves like one that closes now, up to the rounding of both, or does not move.
 bool Touching::lands_alike(const Approach& a, const Instant& instant, const std::vector<MotionJet>& jets,
                            const std::vector<Failure>& failed, const Block& block) const {
   if (std::abs(a.rate) <= a.rest) return true;
@@ -277,7 +279,7 @@ bool Touching::lands_alike(const Approach& a, const Instant& instant, const std:
   });
 }
 
-/// Turn by turn, until none closes.
+/// Computes hits turn by turn, until no contact closes.
 Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                          Findings& found, Decision& decision, Mode& mode) {
   std::vector<Approach> all = met.approaches;
@@ -293,7 +295,7 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
       if (!(a.rate > a.rest)) continue;
       mode[a.contact] = {State::open, 0.0};
       a.open = true;
-      // One that had come to rest is thrown off; how one that rebounds itself was hit stays as it is.
+      // A contact that had stopped is thrown off; the record of a contact's own rebound is kept.
       if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
     }
   }
@@ -305,7 +307,7 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
       met.contacts};
 }
 
-/// One turn.
+/// Computes one turn.
 Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
                               const Block& block, Findings& found, Decision& decision, Mode& mode) {
   const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.v);
@@ -335,7 +337,7 @@ Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Bl
   return {};
 }
 
-/// Those that do not leave. free: the motion without forces at all that touch.
+/// Adds contacts that do not leave. free: the motion without forces at all touching contacts.
 void Touching::add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
                            const std::vector<MotionJet>& free, const Decision& decision,
                            Findings& found) const {
@@ -369,7 +371,7 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
   }
 }
 
-/// What others that rest hold rests with them, whatever rounding has left of its slip: feet of one body.
+/// Sets contacts to rest that resting contacts hold, whatever rounding is left in their slip: feet of one body.
 void Touching::rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode,
                              Findings& found) const {
   Mode held = mode;
@@ -388,7 +390,7 @@ void Touching::rest_together(const Instant& instant, const Forcing& forcing, con
   }
 }
 
-/// Of those that hold one motion with others, of which one has let go or has come to rest: all that are at rest.
+/// Contacts at rest among those that share one motion, if one of these has let go or stopped.
 std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing& forcing, const Mode& mode,
                                            const Decision& decision) const {
   std::vector<std::size_t> at_rest;
@@ -404,7 +406,7 @@ std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing
                                   : 0.0;
       return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);
     };
-    for (int round = 0; round < 2; ++round)  // what has stopped holds others
+    for (int round = 0; round < 2; ++round)  // a stopped contact holds others
       for (const std::size_t c : group)
         if (model_.contacts[c].normal_force_given() && !mode[c].is_open() && stops(c))
           held[c].state = State::stick;
@@ -415,7 +417,8 @@ std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing
   return at_rest;
 }
 
-/// Sliders whose friction has let go or has stopped them, where they join; and those that a hit has stopped.
+/// Adds sliders whose friction has let go or has stopped them, if sliders take part, and sliders that a hit has
+/// stopped.
 void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                            const Mode& mode, const Decision& decision, Findings& found) const {
   const std::vector<std::size_t> together = sharing(instant, forcing, mode, decision);
@@ -437,7 +440,7 @@ void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const
   }
 }
 
-/// Sliders that stick rigidly and would be held besides: what must be found may need them to let go. False:
+/// Adds sliders that stick rigidly and would otherwise be kept: a consistent state may need them to let go. False:
 /// there are none.
 bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, Findings& found) const {
   std::vector<Participant> all;
@@ -462,8 +465,8 @@ bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, 
   return some;
 }
 
-/// Where no motion goes on, several do, or rows are dependent, as long as sliders beside are held, they are
-/// decided with the rest.
+/// Decides the levels. If keeping sliders in stick gives no motion, several motions or dependent rows, these sliders
+/// are decided with the rest.
 Refusal Touching::solve_levels(const Instant& instant, const Forcing& forcing,
                                const std::vector<Block>& blocks, const Mode& old, Findings& found,
                                Mode& mode) {
@@ -524,7 +527,7 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
     add_sliders(instant, forcing, all[b], blocks[b], mode, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }
-  // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
+  // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: its energy is lost.
   decision.impact_loss += loss_of(model_, touching, captured, found.captures, moving + instant.v);
   Refusal refusal = solve_levels(instant, forcing, blocks, old, found, mode);
   for (const Participant& who : found.participants) {

@@ -1,13 +1,13 @@
-// touching.hpp: rigid contacts that touch, from velocities to states.
+// touching.hpp: states of touching rigid contacts, from velocities and accelerations.
 //
 //   hit:     g = 0, g' < 0        impact (decide/impact.hpp), then
 //   leaves:  g' > 0               open
 //   stays:   g' = 0               decided with all others that stay (decide/levels.hpp)
 //
-// What is slower than an acceleration undoes within the resolution of the clock is zero. The acceleration is
-// known only once a state has been tried, so what is zero is found out in the course of a decision.
+// A velocity counts as zero if an acceleration compensates it within the resolution of the clock. The acceleration is
+// known only after a state has been tried, so these zeros are found in the course of a decision.
 //
-// Blocks of contacts that nothing couples are decided each on its own, at the price of one motion for all.
+// Uncoupled blocks of contacts are decided separately, with one common motion.
 #pragma once
 
 #include <limits>
@@ -19,10 +19,10 @@
 
 namespace signorini {
 
-/// Contacts that move each other through M, C, K and contacts, ascending.
+/// Contacts coupled through M, C, K and contacts, ascending.
 using Block = std::vector<std::size_t>;
 
-/// What is known at an instant of the contacts whose forces may jump; lists: one entry a contact.
+/// Data found at an instant about contacts whose forces may jump; lists: one entry per contact.
 struct Findings {
   explicit Findings(std::size_t n)
       : decided(n, false),
@@ -32,32 +32,32 @@ struct Findings {
         rests(n, false),
         departures(n, std::numeric_limits<double>::quiet_NaN()),
         known(n) {}
-  bool hit = false;                ///< the last decision began with an impact
-  bool sliders = false;            ///< sliders that stick rigidly take part
-  bool grounded = false;           ///< a flight was taken as rest for its height alone
-  bool unresolved = false;         ///< Decision::unresolved
-  double slowest = 0.0;            ///< the greatest speed of leaving that was taken as rest
-  std::vector<bool> decided;       ///< took part
-  std::vector<bool> kinetic;       ///< its slip has begun: the static coefficient is gone
-  std::vector<bool> bears_limit;   ///< others hold it: it stays at its static limit
+  bool hit = false;               ///< the last decision began with an impact
+  bool sliders = false;           ///< sliders that stick rigidly take part
+  bool grounded = false;          ///< a flight was taken as rest because of its height only
+  bool unresolved = false;        ///< Decision::unresolved
+  double slowest = 0.0;           ///< largest speed of leaving that was taken as rest
+  std::vector<bool> decided;      ///< the contact took part
+  std::vector<bool> kinetic;      ///< the contact has begun to slip: the static coefficient no longer applies
+  std::vector<bool> bears_limit;  ///< other contacts hold it: it stays at its static limit
   std::vector<bool> stays, rests;  ///< vn, vt count as zero
-  /// The speed of leaving over that below which a contact stays; NaN: nobody asked.
+  /// Speed of leaving divided by the speed below which a contact stays; NaN: not computed.
   std::vector<double> departures;
   Eigen::VectorXd captures;  ///< Decision::captures; empty: none so far
-  /// Adds impulses of rows 2 i, 2 i + 1 of the i-th of these contacts; empty: none.
+  /// Adds impulses of rows 2 i, 2 i + 1 for the i-th of these contacts; empty: none.
   void capture(const Model& model, const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
-  /// The same, of all contacts.
+  /// Adds impulses of all contacts.
   void capture(const Eigen::VectorXd& impulses);
-  std::vector<KnownGuards> known;         ///< of those that touch
+  std::vector<KnownGuards> known;         ///< one entry per contact; of touching ones
   std::vector<Participant> participants;  ///< of the last decision
 };
 
 class Touching {
  public:
-  /// capture_velocity: of contacts that have none of their own.
+  /// capture_velocity: for contacts without a value of their own.
   Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity);
 
-  /// Impacts where there are any, then the states of the given blocks. failed: the guards that led here.
+  /// Computes impacts if there are any, then the states of the given blocks. failed: the guards that led here.
   [[nodiscard]] Refusal decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
                                const std::vector<Failure>& failed, const std::vector<Block>& blocks,
                                Findings& found, Decision& decision, Mode& mode);
@@ -66,14 +66,14 @@ class Touching {
   /// Rigid contacts of a block with g = 0.
   struct Met {
     Block contacts;
-    std::vector<Approach> approaches;  // one of each
+    std::vector<Approach> approaches;  // one per contact
     bool hit = false, apart = false;   // one closes; a gap is not exactly zero
     bool unresolved = false;           // one flies, but lower than the rounding of its data
   };
   struct Carried {
     double gap = 0.0, rate = 0.0;
   };
-  /// Of a contact: a rebound below this speed rests.
+  /// Speed below which a rebound of the contact counts as rest.
   [[nodiscard]] double slowest_flight(std::size_t contact) const;
   [[nodiscard]] double rounding_of_gap(std::size_t contact, double of_data, const Instant& instant) const;
   [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
@@ -106,9 +106,9 @@ class Touching {
   [[nodiscard]] Refusal solve_levels(const Instant& instant, const Forcing& forcing,
                                      const std::vector<Block>& blocks, const Mode& old, Findings& found,
                                      Mode& mode);
-  /// What becomes of a contact with g = 0 by its g', and that over the greatest with which it would stay.
+  /// Fate of a contact with g = 0, and g' relative to the largest value with which it would stay.
   struct Departure {
-    enum class How : unsigned char { stays, low, leaves } how;  // low: it would, but below its rounding
+    enum class How : unsigned char { stays, low, leaves } how;  // low: it leaves, but below its rounding
     double ratio = std::numeric_limits<double>::quiet_NaN();    // NaN: no speed is too low
   };
   [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, double fell,

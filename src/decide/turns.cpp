@@ -16,7 +16,7 @@ std::vector<std::size_t> next_turn(std::vector<Approach>& all) {
   for (Approach& a : all) {
     const bool rests = a.gap == 0.0 && a.rate <= a.rest;
     const double gap = rests ? 0.0 : a.gap + a.rate * soonest;
-    a.gap = gap > rounding::of_few * a.gap ? gap : 0.0;  // a product and a difference
+    a.gap = gap > rounding::of_few * a.gap ? gap : 0.0;  // rounding of a product and a difference
     if (a.gap == 0.0 && (a.closes() || a.rate <= a.rest)) struck.push_back(a.contact);
   }
   return struck;

@@ -13,8 +13,8 @@
 namespace signorini {
 namespace {
 
-/// Of the greatest force. Noise is what counts as zero, 64 times 4 to 8 eps of the terms times the condition: above a
-/// condition of some 1e10 it pays to look. Chosen; the singular value decides.
+/// Fraction of the largest force. The noise is the size that counts as zero: 64 times 4 to 8 eps of the terms times the
+/// condition. A check is worthwhile above a condition of about 1e10. Chosen value; the singular value decides.
 constexpr double suspicious = 1e-3;
 
 bool holds(const Contact& contact, const ContactState& state) {
@@ -22,7 +22,7 @@ bool holds(const Contact& contact, const ContactState& state) {
   return contact.sticks_rigidly() && state.state == State::stick;
 }
 
-/// Rows of accelerations that are held, and what the forces in force do to them.
+/// Matrix A: constraint rows of accelerations, and their response to the constraint forces.
 Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vector<std::size_t>& contacts,
                           const Eigen::MatrixXd& W) {
   std::vector<Eigen::Index> rows;
@@ -39,8 +39,8 @@ Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vecto
   return effect(rows, rows);
 }
 
-/// Feet of one body that share a motion have shares that are unique: s z z' stands where they do nothing
-/// (linear/shared_rows.hpp).
+/// Adds the terms that make shares unique for feet of one body that share a motion: s z z' for directions z without
+/// effect (linear/shared_rows.hpp).
 void add_shares(const ForceLayout& layout, const std::vector<SharedForces>& shared,
                 const std::vector<std::size_t>& contacts, Eigen::MatrixXd& W) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
@@ -79,7 +79,7 @@ bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
       contacts.push_back(c);
       free[c] = {State::open, 0.0};
     }
-  if (contacts.size() < 2) return true;  // normal and tangent of one contact are two directions
+  if (contacts.size() < 2) return true;  // normal and tangent of one contact are independent
   const ModeSystemPtr system = systems.of(free);
   if (!system) return true;
   Eigen::MatrixXd W = delassus(model, *system, contacts).W;
@@ -87,7 +87,7 @@ bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
     add_shares(model.layout, held->factorised().shared, contacts, W);
   Eigen::MatrixXd a = held_part(model, mode, contacts, W);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
-  if (!(size.minCoeff() > 0.0)) return true;  // Painleve's: another matter
+  if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
   for (Eigen::Index i = 0; i < a.rows(); ++i)
     for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) /= size[i] * size[j];
   const Eigen::VectorXd singular = singular_values(a);

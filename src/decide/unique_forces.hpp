@@ -1,9 +1,9 @@
-// unique_forces.hpp: do the rows of a mode determine the forces of its rigid contacts?
+// unique_forces.hpp: checks that the rows of a mode determine the forces of its rigid contacts.
 //
-//   A = H^T M^-1 (H - s f T),   H: normals of what is closed, tangents of what sticks;  A_ij / sqrt(A_ii A_jj)
+//   A = H^T M^-1 (H - s f T),   H: normals of closed contacts, tangents of sticking ones;  A_ij / sqrt(A_ii A_jj)
 //
-// An elimination of dependent rows ends in a pivot that is rounding, and may not notice: what it yields then are
-// forces of any size and sign, with a noise of the same size.
+// An elimination of dependent rows ends with a pivot of rounding size, and may not detect it: the computed forces then
+// have any size and sign, with noise of the same size.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,11 @@
 
 namespace signorini {
 
-/// The noise of a force of a rigid contact exceeds a thousandth of the greatest force: they may be.
+/// True if the noise of a rigid contact's force exceeds a thousandth of the largest force: the forces may then not be
+/// unique.
 [[nodiscard]] bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets);
 
-/// False: the least singular value is what rounding leaves of zero.
+/// False if the smallest singular value is the rounding of zero.
 [[nodiscard]] bool forces_are_unique(ModeSystems& systems, const Mode& mode);
 
 }  // namespace signorini

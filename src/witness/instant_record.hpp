@@ -39,8 +39,8 @@ struct WitnessedSide {
   /// Largest displacement and velocity of the run so far (translations; rotations): the accuracy of sums over modes,
   /// and of solves, is relative to these. 0: use the values of this side.
   std::array<double, 2> u_reach = {0.0, 0.0}, v_reach = {0.0, 0.0};
-  std::array<double, 2> a_reach = {0.0,
-                                   0.0};  ///< largest terms of sums over modes, for this side's accelerations
+  /// Largest terms of the sums over modes that give this side's accelerations.
+  std::array<double, 2> a_reach = {0.0, 0.0};
   /// Difference between two sums over modes of the same motion, as the root of twice its energy. 0: no sum over modes.
   double lost = 0.0;
   /// One entry per contact: largest velocity that the energies of the run's displacements could produce. Null: unknown.

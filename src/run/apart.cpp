@@ -17,18 +17,18 @@ namespace {
 /// Number of parts of t_end: rows of at most one such part wait for parts that are behind, and an interrupted run is as
 /// far behind. Chosen value.
 constexpr double stages = 32.0;
-constexpr double most_waiting = 8e6;  // numbers in these rows
+constexpr double most_waiting = 8e6;  // limit for the numbers in these rows
 constexpr std::size_t most_events =
-    2000;  // that wait, less than a megabyte: with more the next stage is shorter
+    2000;  // waiting events, less than a megabyte: the next stage is shorter if there are more
 
-/// The way of the whole: its flow is not chosen again.
+/// Run data with the flow chosen for the whole model, so that parts do not choose again.
 RunSpec as_chosen(RunSpec spec, const Method& method) {
   if (engine_row(spec.engine).can.closed_flow)
     spec.flow = method.flow == "modal" ? Flow::modal : Flow::taylor;
   return spec;
 }
 
-/// Keeps only the curves that pictures of the whole draw.
+/// Keeps only the curves that are drawn in pictures of the whole model.
 void keep_drawn(const Model& whole, std::vector<PartModel>& parts) {
   std::set<std::string> drawn;
   for (const Column& column : drawn_columns(whole)) drawn.insert(column.name);
@@ -66,7 +66,7 @@ class Apart {
     for (const auto& loop : loops_) loop->begin();
     see_stops();
     const double longest = longest_stage();
-    double length = longest / stages;  // how dense events are, nobody knows yet
+    double length = longest / stages;  // short at first: the density of events is not known yet
     while (told_ < spec_.t_end && !over()) {
       const std::size_t found = stage(told_ + length < spec_.t_end ? told_ + length : spec_.t_end);
       length = found > most_events ? 0.5 * length : std::min(longest, 2.0 * length);
@@ -92,7 +92,7 @@ class Apart {
 
   [[nodiscard]] bool over() const { return interrupted_ || stopped_ != nullptr; }
 
-  /// Returns how many events it passed on.
+  /// Returns the number of events passed on.
   std::size_t stage(double until) {
     const double from = told_;
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
@@ -104,7 +104,7 @@ class Apart {
     return over() ? 0 : rows_.pass_on(until == spec_.t_end ? until : reached(), until == spec_.t_end);
   }
 
-  /// The time to which all have come.
+  /// Time that all parts have reached.
   [[nodiscard]] double reached() const {
     double t = spec_.t_end;
     for (const auto& loop : loops_) t = std::min(t, loop->t());
@@ -123,7 +123,7 @@ class Apart {
     stopped_ = &parts_[i];
   }
 
-  /// A step may have gone far beyond the stage in which it found that its part stops.
+  /// Advances all parts to the end. A step may have gone far beyond the stage in which its part was found to stop.
   void catch_up() {
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
       loops_[i]->advance_to(end_);
@@ -157,12 +157,12 @@ class Apart {
     return result;
   }
 
-  /// Nothing was refused at the start. Where something is, there are no rows.
+  /// True if no part was refused at the start; otherwise there are no rows.
   [[nodiscard]] bool begun() const {
     return std::all_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop->begun(); });
   }
 
-  /// A part once more, to an earlier end: what it has found until then, without its rows.
+  /// Runs a part again, to an earlier end, and returns its results without rows.
   [[nodiscard]] RunEnd until(double end, PartModel& part, PartRecorder& recorder) const {
     RunSpec spec = spec_;
     spec.t_end = end;
@@ -199,8 +199,8 @@ class Apart {
   std::size_t columns_ = 0;
   std::vector<std::unique_ptr<PartRecorder>> recorders_;
   std::vector<std::unique_ptr<Loop>> loops_;
-  double told_ = 0.0;                                     // of progress
-  double end_ = std::numeric_limits<double>::infinity();  // where the first part stops
+  double told_ = 0.0;                                     // of the reported progress
+  double end_ = std::numeric_limits<double>::infinity();  // time at which the first part stops
   const PartModel* stopped_ = nullptr;
   bool interrupted_ = false;
 };

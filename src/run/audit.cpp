@@ -16,8 +16,8 @@ void raise(Extreme& extreme, double value, double t, int contact = -1) {
   if (value > extreme.value) extreme = {value, t, contact};
 }
 
-/// Energies of shears that drop, one a contact. A shear element keeps its own while its point slides: nothing but a share
-/// of what others release is lost there.
+/// Energies of shear springs whose force drops, one entry per contact. A shear element keeps its own energy while its
+/// point slides, and loses only a share of the energy that others release.
 struct Drops {
   std::vector<double> own;
   std::vector<bool> any;
@@ -93,7 +93,7 @@ void Auditor::bears(std::size_t contact, double t, double N, double T) {
   peak.N = std::max(peak.N, std::abs(N));
   peak.T = std::max(peak.T, std::abs(T));
   SupportLoad& load = supports_[contact];
-  // The first of values that are equal up to rounding counts.
+  // If values are equal up to rounding, the first one counts.
   const double same = rounding::of_elimination * std::max(peak.N, peak.T);
   if (N < load.least_N.value - same) load.least_N = {N, t};
   if (N > load.greatest_N.value + same) load.greatest_N = {N, t};
@@ -163,7 +163,7 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
   for (const Impulse& impulse : decision.impulses)
     if (impulse.normal > 0.0 && !impulse.hit) ++audit_.impulses_on_closed;
   const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
-  // Where parts without mass jump under loads that stay, these work, too.
+  // If massless parts jump under constant loads, the loads do work.
   const bool any_jumps =
       std::find(decision.jumped.begin(), decision.jumped.end(), true) != decision.jumped.end();
   const double driven =
@@ -183,9 +183,9 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
     double loss = 0.0;
     if (!massless_) {
       loss = drops.own[k];
-    } else if (load_jumps) {  // parts without mass move at once; what slips does so at its limit
+    } else if (load_jumps) {  // massless parts jump; a sliding contact is at its limit
       loss = a.T * (slip_of(contact, a) - slip_of(contact, b));
-    } else if (drops.any[k]) {  // parts without mass follow: friction takes all that is released
+    } else if (drops.any[k]) {  // massless parts follow: friction dissipates all released energy
       loss = drops.own[k] + (released - drops.sum) / drops.count;
     } else if (drops.count == 0 && contact.tangential_stiffness) {
       loss = released - lost;
@@ -193,8 +193,8 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
     friction_[k] += loss;
     lost += loss;
   }
-  // The jump of a load is the limit of a fast ramp, along which parts without mass stay in equilibrium: its
-  // work is what is stored and what is lost.
+  // The jump of a load is the limit of a fast ramp, during which massless parts stay in equilibrium: its work is the
+  // stored plus the dissipated energy.
   if (massless_ && load_jumps) work_.loads += lost - released;
   work_.friction += lost;
 }
@@ -213,7 +213,7 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
     const double springs = stored_energy(contact, mode[k].state, m);
     (contact.compliance_split() ? e.elastic : e.contact) += springs;
     if (const ShearElement* element =
-            contact.sliding_point()) {  // it stands among the springs of the structure
+            contact.sliding_point()) {  // its spring is part of the structure's stiffness
       const double strain = element->body.dot(point.u) - contact.tangent.dot(point.u);
       const double energy = 0.5 * element->stiffness * strain * strain;
       e.contact += energy;

@@ -10,19 +10,19 @@ namespace signorini {
 
 namespace {
 
-/// A breakpoint, and whose.
+/// A breakpoint and its history.
 struct Owned {
   Breakpoint at;
   const History* history;
 };
 
-/// Does what happens to f between the two, as good as at once, change its value?
+/// True if the changes of f between the two times, which count as one, change its value.
 bool leaps(const History& f, double first, double last) {
   const Piece &before = f.piece_before(first), &after = f.piece(last);
   return std::abs(after.value(last) - before.value(first)) > roundoff(before, first) + roundoff(after, last);
 }
 
-/// [first, last) are one instant.
+/// Merges the breakpoints [first, last) into one instant.
 Breakpoint merged(std::vector<Owned>::const_iterator first, std::vector<Owned>::const_iterator last) {
   Breakpoint one{std::prev(last)->at.time, false};
   for (auto i = first; i != last; ++i) {

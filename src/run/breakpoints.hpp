@@ -1,28 +1,28 @@
-// breakpoints.hpp: where the forcing of a model is not smooth; integrators stop there.
+// breakpoints.hpp: times at which the forcing of a model is not smooth; integrators stop there.
 #pragma once
 
 #include "signorini/model.hpp"
 
 namespace signorini {
 
-/// Breakpoints of all forcing in (0, t_end), ascending; `jump` where any value jumps. Those that the clock
-/// cannot tell apart are one, at the last of their times: every history is on its next piece there. Where one
-/// history has several of them, its value jumps if they leave it another.
+/// Breakpoints of all forcing in (0, t_end), ascending; `jump` if a value jumps. Breakpoints closer than the resolution
+/// of the clock are merged into one at the last of their times, where every history is on its next piece. If one
+/// history has several of them, `jump` is set if its values before and after differ.
 [[nodiscard]] std::vector<Breakpoint> breakpoints(const Model& model, double t_end);
 
-/// Those of a run, one after the other.
+/// Breakpoints of a run, in order.
 class BreakpointQueue {
  public:
   BreakpointQueue(const Model& model, double t_end) : list_(breakpoints(model, t_end)), t_end_(t_end) {}
 
-  /// Where the forcing is smooth up to: the next breakpoint, or t_end.
+  /// Time up to which the forcing is smooth: the next breakpoint, or t_end.
   [[nodiscard]] double next() const { return next_ < list_.size() ? list_[next_].time : t_end_; }
-  /// Puts the clock on those that it cannot tell from t, if there are any.
+  /// Moves t to the last breakpoint that is within the resolution of t, if there is one.
   struct Passed {
     bool any = false, jump = false;
   };
   Passed pass(double& t, double resolution);
-  /// The model's loads are others from t on.
+  /// Updates the breakpoints after t for changed loads.
   void loads_changed(const Model& model, double t);
 
  private:

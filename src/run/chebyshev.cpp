@@ -13,7 +13,7 @@ constexpr std::size_t last = Chebyshev::count - 1;
 
 using Matrix = std::array<Chebyshev::Values, Chebyshev::count>;
 
-/// Factors of r_j - r_i in p'(x_i).
+/// Matrix of the factors of r_j - r_i in p'(x_i).
 Matrix derivative(std::size_t stride) {
   const Chebyshev::Values& x = Chebyshev::nodes();
   Matrix d{};

@@ -16,9 +16,9 @@ constexpr int most_unknowns = 4000;  // shapes and their inverse take 16 n^2 byt
 constexpr int fewest_unknowns =
     16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
-constexpr int fewest_damped_unknowns = 40;  // where complex modes begin to gain (validation/exact); chosen
-constexpr double worth = 2.0;               // the series is so much dearer than the states' modes at least
-constexpr int most_damped_unknowns = 500;   // a state's complex modes take 120 n^2 bytes and some 5 s there
+constexpr int fewest_damped_unknowns = 40;  // complex modes gain from here on (validation/exact); chosen
+constexpr double worth = 2.0;               // required cost ratio of the series and the states' modes
+constexpr int most_damped_unknowns = 500;   // a state's complex modes take 120 n^2 bytes and about 5 s there
 
 bool has_rigid_rows(const Model& model) {
   return std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
@@ -43,7 +43,7 @@ ModalKind modal_kind(const Model& model) {
 
 namespace {
 
-/// Where modes can follow the scene.
+/// Choice for a scene whose motion can be computed with modes.
 FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind& kind) {
   if (model.size() < fewest_unknowns) return {false, "auto: with so few unknowns the series is as fast"};
   if (kind.crowded)
@@ -51,7 +51,7 @@ FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind&
         false,
         "auto: with this many contacts, computing the modes of each contact state costs more than it saves"};
   if (!kind.damped) return {true, "auto: modes can follow the whole scene"};
-  // A symmetric trestle on rigid feet does not stay symmetric in them: nearly simultaneous landings.
+  // In complex modes a symmetric trestle on rigid feet loses its symmetry: its feet land at slightly different times.
   if (has_rigid_rows(model))
     return {false, "auto: hits of rigid contacts excite the whole mesh, so complex modes save no time"};
   if (!damped_modes_gain(model) || worth * seconds_of_damped_states(model) > seconds_of_series(model, run))

@@ -1,12 +1,12 @@
-// choose_flow.hpp: what engine `exact` computes the motion between events with.
+// choose_flow.hpp: chooses the method of engine `exact` for the motion between events.
 //
 //   taylor   power series of the equations: the cost follows the highest frequency of the mesh
 //   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //
-// run.flow = "auto" takes modes where they can follow all of the scene and gain by it (docs/theory.md):
+// run.flow = "auto" takes modes if they can compute all of the scene at lower cost (docs/theory.md):
 //   real      from 16 unknowns on
-//   complex   from 40 on, without rigid constraints, where the states cost at most half of what the series does
-// and in no scene whose contacts may have more springs than a state's modes are worth.
+//   complex   from 40 on, without rigid constraints, if the states cost at most half as much as the series
+// and never in a scene whose contact states have too many springs for modes.
 #pragma once
 
 #include <string>
@@ -20,18 +20,18 @@ struct FlowChoice {
   std::string reason;  ///< "as given" or "auto: ..."
 };
 
-/// Which modes can follow a scene, and what of it none can.
+/// Kind of modes that a scene needs, and the reason if modes cannot compute it.
 struct ModalKind {
-  bool damped = false;   ///< complex modes are needed
-  bool crowded = false;  ///< states may have more springs than modes are made for, and are left to the series
-  std::string objection;  ///< empty: they can
+  bool damped = false;    ///< complex modes are needed
+  bool crowded = false;   ///< states may have too many springs for modes, and are then left to the series
+  std::string objection;  ///< empty: modes can compute the scene
 };
 [[nodiscard]] ModalKind modal_kind(const Model& model);
-/// Complex modes, once they are known, are cheaper than the series: unknowns enough, and no rigid contact, whose hits
-/// excite the whole mesh.
+/// True if complex modes, once they are computed, cost less than the series: there are enough unknowns, and no rigid
+/// contact, whose hits excite the whole mesh.
 [[nodiscard]] bool damped_modes_gain(const Model& model);
 
-/// Errors: SceneError where run.flow = "modal" and the scene has what modes cannot follow.
+/// Errors: SceneError if run.flow = "modal" and modes cannot compute the scene.
 [[nodiscard]] FlowChoice choose_flow(const Model& model, const RunSpec& run);
 
 }  // namespace signorini

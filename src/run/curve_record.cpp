@@ -13,20 +13,20 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t most_of_a_kind = 24;  // displacement's pictures name no more
+constexpr std::size_t most_of_a_kind = 24;  // limit of named curves in displacement pictures
 constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500;
-// Of the range, which a curve has so far: a parabola whose vertex is not higher than its middle row by that adds nothing.
+// Fraction of the range so far: a parabola's vertex is kept only if it exceeds the middle row by more.
 constexpr double least_rise = 1e-3;
-constexpr double turn = 1e-3;  // rad; of a structure's rotations, so that those of 1e-15 are rounding
+constexpr double turn = 1e-3;  // rad; smallest scale of rotations: those of 1e-15 count as rounding
 
-/// The vertex of the parabola through three rows whose middle one is a peak; nothing elsewhere, and at instants.
+/// Vertex of the parabola through three rows whose middle one is a peak; nullopt: no peak, or an instant.
 std::optional<CurvePoint> vertex(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
   const double left = b.t - a.t, right = c.t - b.t;
   if (!(left > 0.0 && right > 0.0 && std::isfinite(left))) return std::nullopt;
   const double rise = b.value - a.value, fall = c.value - b.value;
   if (!(rise * fall < 0.0)) return std::nullopt;
   const double curvature = (fall / right - rise / left) / (left + right);
-  const double slope = rise / left + curvature * left;  // at b
+  const double slope = rise / left + curvature * left;  // slope at b
   const double to = -0.5 * slope / curvature;
   return CurvePoint{b.t + to, b.value + 0.5 * slope * to};
 }
@@ -109,7 +109,7 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
     first = std::exchange(second, point);
     return;
   }
-  // The balance is rounding: a parabola through it says nothing.
+  // The balance consists of rounding: a parabola through it has no meaning.
   const std::optional<CurvePoint> peak =
       curve.kind == Kind::balance ? std::nullopt : vertex(first, second, point);
   const bool higher = peak && std::abs(peak->value - second.value) > least_rise * curve.points.range();
@@ -120,7 +120,8 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
   second = point;
 }
 
-/// What is rounding beside other curves of its kind bends nothing; nor does the balance, which is rounding.
+/// Row spacing that a curve needs. A curve of rounding size relative to others of its kind has no bends; nor has the
+/// balance, which consists of rounding.
 double CurveRecord::asked_by(const Curve& curve, const CurvePoint& point) {
   constexpr double any = std::numeric_limits<double>::infinity();
   const auto& [first, second] = curve.before;

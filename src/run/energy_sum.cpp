@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t energy_values = energy_columns.size() + 1;
 
-/// Where one line changes: by `jump` at once, and its slope by `bend`.
+/// Change of one line at t: its value by `jump`, its slope by `bend`.
 struct Change {
   double t = 0.0;
   EnergyValues jump{}, bend{};
@@ -22,7 +22,7 @@ EnergyValues slope_between(const EnergyRow& a, const EnergyRow& b) {
   return slope;
 }
 
-/// On the straight line between two rows.
+/// Row on the straight line between two rows.
 EnergyRow row_at(double t, const EnergyRow& a, const EnergyRow& b) {
   const EnergyValues slope = slope_between(a, b);
   EnergyRow row{t, a.values};
@@ -30,7 +30,7 @@ EnergyRow row_at(double t, const EnergyRow& a, const EnergyRow& b) {
   return row;
 }
 
-/// Takes what there is up to `until`, which the line reaches: one row is left there.
+/// Removes the changes of the line up to `until`, which the line reaches; one row remains there.
 void take_changes(EnergyLine& line, double until, std::vector<Change>& changes) {
   EnergyValues slope{};
   const auto add_change = [&](double t, const EnergyValues& next, const EnergyValues& jump) {
@@ -108,7 +108,7 @@ void EnergySum::write(Curves& curves) {
   double greatest = 0.0;
   for (std::size_t i = 0; i + 1 < energy_values; ++i) greatest = std::max(greatest, curves_[i].size(0));
   for (std::size_t i = 0; i < energy_values; ++i) {
-    const bool balance = i + 1 == energy_values;  // which is rounding itself
+    const bool balance = i + 1 == energy_values;  // the balance consists of rounding
     curves_[i].close({balance ? 0.0 : rounding::of_elimination * greatest});
     curves.names.emplace_back(balance ? balance_column : energy_columns[i].name);
     curves.points.push_back(curves_[i].take());

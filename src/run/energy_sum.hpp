@@ -1,9 +1,10 @@
-// energy_sum.hpp: energies of parts that run apart, added up for pictures as they come.
+// energy_sum.hpp: energies of parts that run separately, summed for pictures during the run.
 //
-//   s(t) = sum_i y_i(t)     y_i: straight between the rows of part i; two of one time are a jump, a jump of s, too
+//   s(t) = sum_i y_i(t)     y_i: linear between the rows of part i; two rows at one time are a jump, and a jump of s
 //
-// A part's rows are as close as its own energies bend (curve_record.hpp). What they add up to is thinned, not they: a peak of a sum
-// need not be one of its terms. Sums begin anew with every piece, so that what is left of steep slopes does not add up.
+// The rows of a part are as close as its own energies need (curve_record.hpp). The sum is thinned, not its terms: a
+// peak of a sum need not be a peak of a term. Sums restart with every piece, so that rounding of steep slopes does not
+// accumulate.
 #pragma once
 
 #include <array>
@@ -15,11 +16,11 @@
 
 namespace signorini {
 
-/// Every energy, then the balance.
+/// All energies, then the balance.
 using EnergyValues = std::array<double, energy_columns.size() + 1>;
 [[nodiscard]] EnergyValues values_of(const Energy& energy);
 
-/// In any units; one part's ascend in t.
+/// Energies at one time, in any units; times of one part ascend.
 struct EnergyRow {
   double t = 0.0;
   EnergyValues values{};
@@ -28,13 +29,13 @@ using EnergyLine = std::deque<EnergyRow>;
 
 class EnergySum {
  public:
-  /// In the units of `whole`, t_end too; curves are in those of its scene. most: rows a curve.
+  /// Arguments are in the units of `whole`; curves are in those of its scene. most: rows per curve.
   EnergySum(const Model& whole, double t_end, std::size_t most);
 
-  /// Adds up to `until`, or to where the first of the lines ends, and takes what was added from the lines, but for a
-  /// row each at that time. Lines begin at one time.
+  /// Adds the lines up to `until`, or to the end of the shortest line, and removes the added rows except one per line
+  /// at that time. All lines begin at the same time.
   void take(const std::vector<EnergyLine*>& lines, double until);
-  /// Appends the curves. The sum ends.
+  /// Appends the curves and ends the sum.
   void write(Curves& curves);
 
  private:

@@ -75,7 +75,7 @@ void refuse_functions(const Model& model, const RunSpec& run) {
   }
 }
 
-/// What iterates on friction takes no impulses.
+/// Refusals of an engine that iterates on friction: it also takes no impulses.
 void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
   refuse_own_and_nonlinear_laws(model, run);
   refuse_functions(model, run);
@@ -94,7 +94,7 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
          "use \"newmark\" or a tangential_stiffness");
 }
 
-/// A series takes steps of some radians of the highest frequency: beyond 1/eps of them the clock does not move.
+/// A series step is a few radians of the highest frequency: beyond 1/eps radians the clock does not advance.
 void refuse_endless_series(const Model& model, const RunSpec& run) {
   const double radians = model.omega_max * run.t_end;
   if (!(radians > 1.0 / rounding::eps) || choose_flow(model, run).modal) return;
@@ -106,7 +106,7 @@ void refuse_endless_series(const Model& model, const RunSpec& run) {
          "use \"ida\", or less stiffness");
 }
 
-/// A series has to reach the end of every polynomial in the forcing.
+/// Refusals of a series, which must include all terms of polynomials in the forcing.
 void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
   refuse_laws_that_are_not_linear(model, run);
   refuse_functions(model, run);

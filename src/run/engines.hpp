@@ -1,14 +1,14 @@
-// engines.hpp: what there is to know of an engine, one row an engine.
+// engines.hpp: table of engines, one row per engine.
 //
 //   const EngineRow& engine = engine_row(run.engine);
 //   engine.refuse(model, run);   method = engine.method(model, run);   stepper = engine.make(parts);
 //   if (engine.can.follow_orbits) ...;   run.engine = engine_for(EngineRole::closed_form);
 //
-// Whoever needs something of an engine asks for what it can do or for its role, never for its name: a further engine is a row
-// in signorini/engine.hpp, a row here, and its folder.
+// Code that needs an engine asks for abilities or for a role, never for a name: to add an engine, add a row in
+// signorini/engine.hpp, a row here, and its folder.
 //
-// The names stand in signorini/engine.hpp. What a row refuses: exact takes linear laws and forcing of a
-// degree that a series reaches, newmark linear laws, friction-iteration linear laws and contact elements.
+// The names are in signorini/engine.hpp. Scenes that a row accepts: exact needs linear laws, and forcing of a degree
+// that a series reaches; newmark needs linear laws; friction-iteration needs linear laws and contact elements.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@
 
 namespace signorini {
 
-/// What engines are made of. All of it must outlive them, but for run and tolerance.
+/// Data for making an engine. All referenced objects must outlive the engine, except run and tolerance.
 struct EngineParts {
   const Model& model;
   const Structure& structure;
@@ -33,33 +33,34 @@ struct EngineParts {
   int max_order;
   ListenerNeeds needs = {};
   bool alone = false;  ///< no listener reads its steps
-  /// Entries of u and v for DenseOutput::evaluate_watched, beside those of contacts; nullopt: all.
+  /// Entries of u and v for DenseOutput::evaluate_watched, in addition to those of contacts; nullopt: all.
   std::optional<std::vector<int>> watched = {};
 };
 
-/// An engine that does not take the scene: why, without what to use instead.
+/// Error of an engine that does not accept the scene: the reason, without a recommendation.
 class UnfitEngine : public SceneError {
  public:
   UnfitEngine(const RunSpec& run, const std::string& what, const std::string& instead);
   std::string why;
 };
 
-/// What engines stand for beside and instead of each other; each has one engine at most.
+/// Roles of engines; at most one engine has each role.
 enum class EngineRole : unsigned char {
   none,
-  closed_form,  ///< the flow to rounding: automatic where it takes the scene and is cheap, the companion of all others
-  integrator,  ///< takes every scene: automatic where closed_form does not take it, the companion of fixed steps
-  fixed_steps,  ///< the independent method that verifications halve the steps of
+  closed_form,  ///< the flow is exact to rounding: automatic for accepted scenes of low cost, companion of all other
+                ///< engines
+  integrator,   ///< accepts every scene: automatic for other scenes, companion of fixed steps
+  fixed_steps,  ///< independent method for verifications, which halve its steps
 };
 
 struct EngineAbilities {
-  bool closed_flow = false;           ///< between events its motion is exact: run.flow is a choice of how
-  bool follow_orbits = false;         ///< its motion or its tangents close an orbit
+  bool closed_flow = false;           ///< the motion between events is exact; run.flow chooses its method
+  bool follow_orbits = false;         ///< its motion or its tangents can close an orbit
   bool discrete_derivatives = false;  ///< sensitivity/discrete_run.hpp differentiates its steps
   bool laws_at_ends = false;          ///< the laws of contacts hold at the ends of its steps
-  /// It finds the times at which guards are zero.
+  /// True if the engine locates the zeros of guards.
   bool (*locates_events)(const RunSpec& run) = nullptr;
-  /// Stepper::knows_low_flights.
+  /// Value of Stepper::knows_low_flights.
   bool (*knows_low_flights)(const Model& model) = nullptr;
 };
 
@@ -67,20 +68,20 @@ struct EngineRow {
   Engine engine;
   EngineRole role;
   EngineAbilities can;
-  /// Errors: UnfitEngine at run.engine, naming the contact or the load.
+  /// Errors: UnfitEngine at run.engine, with the name of the contact or the load.
   void (*refuse)(const Model& model, const RunSpec& run);
-  /// Order and its reason. Errors: SceneError where a step is needed and not given.
+  /// Order and its reason. Errors: SceneError if a step is required and not given.
   Method (*method)(const Model& model, const RunSpec& run);
   std::unique_ptr<Stepper> (*make)(const EngineParts& parts);
   /// Estimated cost of the time loop, as an order of magnitude.
   Effort (*effort)(const EffortParts& parts);
 };
 
-/// run.engine is no longer automatic.
+/// Row of an engine, which is not automatic.
 [[nodiscard]] const EngineRow& engine_row(Engine engine);
-/// The engine of that role, which is not none.
+/// The engine with that role, which is not none.
 [[nodiscard]] Engine engine_for(EngineRole role);
-/// "\"exact\" or \"ida\"": those that can.
+/// Names of the engines with an ability, as in "\"exact\" or \"ida\"".
 [[nodiscard]] std::string engines_that(bool EngineAbilities::*can);
 
 }  // namespace signorini

@@ -15,15 +15,15 @@
 namespace signorini {
 namespace {
 
-// Of the time reached. Chosen: data are rarely known so well; changing it moves tests/behaviour/awkward.cpp.
+// Fraction of the time reached. Chosen value: data are rarely known more accurately; tests/behaviour/awkward.cpp
+// depends on it.
 constexpr double coincidence = 1e-9;
 
 bool is_hit(const Decision& decision, std::size_t k) {
   return !decision.impulses.empty() && decision.impulses[k].hit;
 }
 
-/// What decided between rest and flight: the ratio that is nearest to one, of the rebound and of what came
-/// after.
+/// Ratio that decided between rest and flight: of the rebound or of the later departure, the one nearest to one.
 std::optional<double> departure_of(const Decision& decision, std::size_t k) {
   const auto known = [](double ratio) { return std::isfinite(ratio) && ratio > 0.0; };
   const double rebound =
@@ -35,8 +35,8 @@ std::optional<double> departure_of(const Decision& decision, std::size_t k) {
   return std::abs(std::log(left)) < std::abs(std::log(rebound)) ? left : rebound;
 }
 
-/// What is zero by what the event is, where it was found no further from it than the error of its condition: the gap
-/// of a contact that closes; N of one that opens, with it |T| <= f |N|, and the gap -N / k of a spring.
+/// Sets quantities to zero that are zero by the type of the event, if they are within the error of its condition: the
+/// gap of a contact that closes; N of one that opens, with it |T| <= f |N|, and the gap -N / k of a spring.
 void settle(const Contact& contact, double error, Event& event) {
   if (!contact.obeys_coulomb()) return;
   const auto vanishes = [&](double value) { return std::abs(value) <= error; };
@@ -46,15 +46,15 @@ void settle(const Contact& contact, double error, Event& event) {
   if (event.gap && vanishes(contact.normal_stiffness * *event.gap)) event.gap = 0.0;
 }
 
-/// The sliding point can jump: it has no mass, or a spring is between it and the mass.
+/// True if the sliding point can jump: it is massless, or a spring connects it to the mass.
 bool can_slide_at_once(const Model& model, const Contact& contact) {
   return !contact.takes_impulses() && (!contact.sticks_rigidly() || carries_massless(model, contact));
 }
 
-/// As events name states: at the limit is slip, whether others hold it there or not.
+/// State as named in events: held at the limit counts as slip.
 State in_events(State state) { return is_held(state) ? kind_of(state) : state_of_rows(state); }
 
-/// What the decision knows of a contact; the guard is left out.
+/// Event of a contact from the decision, without data about the guard.
 Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, const Contact& contact) {
   const Decision& decision = *now.decision;
   ContactMotion before = decision.before[k], after = decision.after[k];
@@ -157,7 +157,7 @@ void EventLog::finish() {
   order_.finish();
 }
 
-/// A row of its own, without a contact.
+/// Logs a jump of loads in a row without a contact.
 void EventLog::load_jump(const Instant& now) {
   ++load_jumps_;
   ++report_.events_by_type[to_string(EventType::time)];
@@ -175,7 +175,7 @@ void EventLog::contact(const Instant& now, std::size_t k, EventType type, const 
   latest_.push_back(std::move(event));
 }
 
-/// How sharp the time of an event is, and whether its order among the others is.
+/// Adds the uncertainty of an event's time, and checks its order among other events.
 void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event) {
   const Crossing* failed = now.decision->crossing(k);
   if (failed == nullptr) return;
@@ -184,7 +184,7 @@ void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std:
       said(model_, crossing.derivatives[0], unit_of(crossing.form)) * said(model_, 1.0, unit::rate);
   const double error =
       std::max(crossing.noise, stepper.guard_error(crossing.form, now.decision->before[k], k));
-  // The instant itself is known to its resolution only.
+  // The instant itself is known only to the resolution of the clock.
   settle(model_.contacts[k], error + std::abs(crossing.derivatives[0]) * now.resolution, event);
   const std::optional<double> off = time_uncertainty(crossing, error);
   const double unseen = now.unseen.empty() ? 0.0 : now.unseen[k];

@@ -1,18 +1,18 @@
-// event_log.hpp: from decisions to rows of events.csv.
+// event_log.hpp: converts decisions to rows of events.csv.
 //
 //   from -> to               event            a contact
-//   any -> open              separation       has at most one row an instant, with what was just before and
-//   open -> any              contact          what is just after everything that happens at it
+//   any -> open              separation       has at most one row per instant, with the values just before
+//   open -> any              contact          and just after all changes of this instant
 //   slip s -> slip -s        reversal
-//   stick -> slip            slip             also stick -> stick where friction let go and took hold again
+//   stick -> slip            slip             also stick -> stick if friction let go and caught again
 //   slip -> stick            stick
-//   a hit, whatever follows  impact
+//   any, with a hit          impact
 //   forces jump with a load  time
 //
-// How sharp a time is: the guard moves by |g'| dt, so an error delta of the guard shifts the event by the
-// least of (m! delta / |g^(m)|)^(1/m); events closer than their uncertainties have no known order, and a
-// warning. So have hits of contacts that act on each other within what data are known to: errors carried
-// along are not in delta, and one hit after the other ends otherwise than both at once.
+// Uncertainty of a time: the guard changes by |g'| dt, so an error delta of the guard moves the event by the smallest
+// of (m! delta / |g^(m)|)^(1/m). The order of events closer than their uncertainties is unknown, and a warning reports
+// it. The same holds for hits of coupled contacts within the accuracy of the data: accumulated errors are not part of
+// delta, and successive hits have other results than simultaneous ones.
 #pragma once
 
 #include <optional>
@@ -25,31 +25,31 @@ namespace signorini {
 /// let_go: friction let the contact go within the instant, although it sticks before and after.
 [[nodiscard]] std::optional<EventType> classify(State from, State to, bool let_go);
 
-/// Of the instant at which a guard fell whose value is off by `error`; nothing where no derivative is known.
+/// Uncertainty of the time at which a guard is zero, for an error of its value; nullopt: no derivative is known.
 [[nodiscard]] std::optional<double> time_uncertainty(const Crossing& crossing, double error);
 
-/// guard_rate, whose unit is that of the guard, goes out in the scene's units; all else in those of the
+/// The rate guard_rate, whose unit depends on the guard, is in the scene's units; all other values are in those of the
 /// model.
 class EventLog {
  public:
-  /// Counts by type and warnings go to the report. whole: else what is logged are the events of a part, whose order among
-  /// others it does not know.
+  /// Counts by type and warnings go to the report. whole: false for the events of a part, whose order among those of
+  /// other parts is unknown.
   EventLog(const Model& model, Recorder& recorder, Report& report, bool whole)
       : model_(model), recorder_(recorder), report_(report), order_(model, report), whole_(whole) {}
 
   struct Instant {
     double t = 0.0, resolution = 0.0;
     const Decision* decision = nullptr;
-    const Mode* before = nullptr;  ///< the states just before
+    const Mode* before = nullptr;  ///< states just before
     bool load_jumps = false;
-    /// For how long the guard that fell had been zero to its rounding, one a contact; empty: none had.
+    /// Time for which the triggered guard had been zero up to rounding, one entry per contact; empty: none had.
     std::vector<double> unseen = {};
   };
-  /// Hits of rigid contacts; nothing else is an event at the start.
+  /// Logs hits of rigid contacts; there are no other events at the start.
   void start(const Instant& now, const Stepper& stepper);
   void instant(const Instant& now, const Stepper& stepper);
   void finish();
-  /// The rows of the last instant that have a contact, in the units of the model but for guard_rate.
+  /// Rows of the last instant that have a contact, in the units of the model except guard_rate.
   [[nodiscard]] const std::vector<Event>& latest() const { return latest_; }
 
  private:
@@ -65,7 +65,7 @@ class EventLog {
   struct Hit {
     double t = 0.0;
     std::size_t contact = 0;
-    std::vector<bool> moves;  ///< whose normal velocities it changed; empty: there is none
+    std::vector<bool> moves;  ///< contacts whose normal velocities the hit changed; empty: no hit
   } last_hit_;
   long load_jumps_ = 0;
   EventOrder order_;

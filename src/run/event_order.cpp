@@ -7,7 +7,7 @@
 namespace signorini {
 namespace {
 
-constexpr int most_warnings = 5;  // of pairs of events without an order
+constexpr int most_warnings = 5;  // limit for pairs of events of unknown order
 
 }  // namespace
 

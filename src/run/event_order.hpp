@@ -1,8 +1,8 @@
-// event_order.hpp: whether the order of events is known.
+// event_order.hpp: detects events whose order is unknown.
 //
-//   t_2 - t_1 < e_1 + e_2      e: uncertainty of an event's time;   beyond the resolution of the clock: else it is one instant
+//   t_2 - t_1 < e_1 + e_2      e: uncertainty of an event's time;   events of one instant are not compared
 //
-// Seen in the order of the log: each beside the last before it whose guard fell.
+// Each event is compared with the last one before it in the log whose guard was zero.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ namespace signorini {
 
 class EventOrder {
  public:
-  /// Both must outlive it. Warnings go to the report.
+  /// Model and report must outlive the object. Warnings go to the report.
   EventOrder(const Model& model, Report& report) : model_(model), report_(report) {}
 
-  /// One whose t_uncertainty is known.
+  /// Adds an event whose t_uncertainty is known.
   void event(const Event& event, double resolution);
   void load_jump(double t);
   void warn(const std::string& which);
@@ -28,7 +28,7 @@ class EventOrder {
 
   const Model& model_;
   Report& report_;
-  Event last_;  // with a contact whose guard fell
+  Event last_;  // last event with a contact and a guard
   int unordered_ = 0;
 };
 

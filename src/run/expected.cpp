@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-/// One digit: it is an order of magnitude.
+/// Rounds to one digit: the value is an order of magnitude.
 double rough(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)));
   return std::round(value / unit) * unit;

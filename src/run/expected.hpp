@@ -1,6 +1,6 @@
-// expected.hpp: what a run will cost, and what exact would cost in its place, known before either runs.
+// expected.hpp: estimated cost of a run, and of engine exact in its place, before either runs.
 //
-// By order of magnitude (effort.hpp); loads that vary faster than the structure count.
+// Costs are orders of magnitude (effort.hpp); loads that vary faster than the structure are included.
 #pragma once
 
 #include <optional>
@@ -13,23 +13,22 @@ namespace signorini {
 
 struct Expected {
   long unknowns = 0;
-  double omega_max = 0.0;  ///< of the structure with its contacts stuck, and of harmonic loads
+  double omega_max = 0.0;  ///< of the structure with all contacts sticking, and of harmonic loads
   Effort effort;
 };
 
-/// `method`: of run.engine, which is not automatic.
+/// Cost with `method`, that of run.engine, which is not automatic.
 [[nodiscard]] Expected expected(const Model& model, const RunSpec& run, const Method& method);
-/// The same of the engine's own method. Errors: SceneError where a step is needed and not given.
+/// Cost with the engine's own method. Errors: SceneError if a step is required and not given.
 [[nodiscard]] Expected expected(const Model& model, const RunSpec& run);
 
-/// Does the flow of `exact` follow this model?
+/// True if engine `exact` accepts this model.
 [[nodiscard]] bool exact_takes(const Model& model, const RunSpec& run);
 
-/// Seconds that exact would take instead of ida; nothing for other engines, where exact does not take the
-/// scene, or where nobody knows.
+/// Seconds with exact instead of ida; nullopt: another engine, a scene that exact does not accept, or an unknown cost.
 [[nodiscard]] std::optional<double> exact_instead(const Model& model, const RunSpec& run);
 
-/// "about 3", "less than 0.1"
+/// Duration as text: "about 3", "less than 0.1".
 [[nodiscard]] std::string about_seconds(double seconds);
 
 }  // namespace signorini

@@ -1,8 +1,8 @@
-// fault_injector.hpp: errors that a test plants in a run, to see that its witness notices them.
+// fault_injector.hpp: errors injected into a run by tests, to check that its witness detects them.
 //
 //   engine -> instant (postponed) -> decision (changed) -> record -> witness
 //
-// No scene reaches this; a run without an injector asks nobody.
+// No scene uses this; a run without an injector is not affected.
 #pragma once
 
 #include "decide/decider.hpp"
@@ -13,24 +13,24 @@ namespace signorini {
 class FaultInjector {
  public:
   virtual ~FaultInjector() = default;
-  /// The model of which the run computes another one, as rescaled for it: the witness is given this.
+  /// Restores the correct model, rescaled like the one that the run computes; the witness receives the result.
   virtual void correct(Model& /*model*/) {}
-  /// By how much an event is found too late.
+  /// Delay of a located event.
   virtual double late(const Step& /*step*/, const Decision& /*before*/) { return 0.0; }
-  /// Guards that the engine will not see are set to Guard::none.
+  /// Sets guards that the engine is to miss to Guard::none.
   virtual void watch(std::vector<GuardStart>& /*guards*/) {}
-  /// Other states, velocities and impulses than those that were decided. True: the motion goes on from these.
+  /// Replaces the decided states, velocities and impulses. True: the motion continues from the replacement.
   virtual bool change(const Mode& /*mode_before*/, const Vector& /*v_before*/, Decision& /*decided*/) {
     return false;
   }
-  /// Peaks are those of the ends of steps.
+  /// True if peaks are taken at the ends of steps only.
   virtual bool forgets_peaks_inside() { return false; }
 
-  /// The decision of this instant, and what follows from what was changed in it.
+  /// Changes the decision of this instant, and recomputes the quantities that follow from the change.
   void inject(Decider& decider, Instant now, const Forcing& forcing, Decision& decided);
 };
 
-/// signorini/simulate.hpp, with errors planted.
+/// Run as in signorini/simulate.hpp, with injected errors.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               FaultInjector& faults);
 

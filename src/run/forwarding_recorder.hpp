@@ -1,5 +1,5 @@
-// forwarding_recorder.hpp: a recorder in front of another one. It passes all on, and knows how far the run has come; who derives from
-// it looks at what it wants to, or asks for a stop.
+// forwarding_recorder.hpp: a recorder in front of another one. It forwards everything, and knows the time reached;
+// derived classes examine the data they need, or request a stop.
 //
 //   run -> this -> next,   reached = t of the last event, row or step that `next` has taken
 #pragma once
@@ -12,7 +12,7 @@ namespace signorini {
 
 class ForwardingRecorder : public Recorder {
  public:
-  /// `next` must outlive it; without one nothing is passed on, and nothing is wanted.
+  /// `next` must outlive the object; without it nothing is forwarded and no data are wanted.
   explicit ForwardingRecorder(Recorder* next = nullptr) : next_(next) {}
 
   void event(const Event& event) override {
@@ -21,7 +21,7 @@ class ForwardingRecorder : public Recorder {
   }
   void sample(const Sample& sample) override {
     if (next_ != nullptr) next_->sample(sample);
-    reached_ = sample.t;  // a file that fails within a step leaves rows beyond the step before
+    reached_ = sample.t;  // a failure of a file within a step leaves rows after the previous step
   }
   void frame(const Sample& sample) override {
     if (next_ != nullptr) next_->frame(sample);

@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t most_of_all_parts = 50;  // of all parts
+constexpr std::size_t most_of_all_parts = 50;  // limit over all parts
 
 int number_of(const PartModel& part, int contact) {
   return contact < 0 ? contact : static_cast<int>(part.contacts[static_cast<std::size_t>(contact)]);

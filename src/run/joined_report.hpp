@@ -1,10 +1,10 @@
-// joined_report.hpp: what parts that ran apart have found, as one report.
+// joined_report.hpp: joins the results of parts that ran separately into one report.
 //
 //   works, energies, counters, scales of energy:   sums over parts
-//   extremes:                                      the greatest of any part; what the balance is off by: the sum of the
-//                                                  parts' greatest, which no instant exceeds
+//   extremes:                                      the largest of any part; error of the balance: the sum of the parts'
+//                                                  largest errors, an upper bound at any instant
 //
-// In the units of the whole.
+// All values are in the units of the whole model.
 #pragma once
 
 #include "model/assembly/part_models.hpp"
@@ -12,8 +12,8 @@
 
 namespace signorini {
 
-/// Adds what the parts have found to `report`, which has outcome, method, events and jumps of loads of the whole.
-/// Returns the sum of RunEnd::energy_rounding.
+/// Adds the results of the parts to `report`, which has outcome, method, events and load jumps of the whole model
+/// already. Returns the sum of RunEnd::energy_rounding.
 double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<RunEnd>& endings,
             Report& report);
 

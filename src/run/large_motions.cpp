@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-constexpr double large = 0.25;  // rad; 1 - cos is 3 %: chosen
+constexpr double large = 0.25;  // rad; 1 - cos is 3 %: chosen value
 
 }  // namespace
 

@@ -1,9 +1,9 @@
-// large_motions.hpp: where a run leaves the range of small motions.
+// large_motions.hpp: detects motions beyond the range of small rotations.
 //
 //   |rotation| > 1/4 rad,   |ut| > R/4 of a pendulum:   cos differs from 1 by 3 %
 //
-// All is computed with cos = 1 and sin = tan, whatever comes; so it is said once, with the first that leaves and the greatest
-// of all.
+// All computations use cos = 1 and sin = tan for motions of any size; one warning per run therefore reports the first
+// large motion and the largest one.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,9 @@ class LargeMotions {
   /// Amplitudes of modes (reduced models) are not examined. The model must outlive the object.
   explicit LargeMotions(const Model& model);
 
-  /// At the end of a step.
+  /// Examines the end of a step.
   void see(double t, const Forcing& forcing, const Point& now);
-  /// A sentence; nothing: all stayed small.
+  /// Text of the warning; nullopt: all motions stayed small.
   [[nodiscard]] std::optional<std::string> warning() const;
 
  private:

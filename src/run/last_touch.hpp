@@ -1,6 +1,6 @@
-// last_touch.hpp: when each contact was last at g = 0, exactly: what rounding has carried its gap since.
+// last_touch.hpp: last time at which each contact had exactly g = 0; rounding has accumulated in its gap since then.
 //
-//   touched_k = the last instant at which k was closed, before or after, or took an impulse; 0: it never did
+//   touched_k = the last instant at which k was closed, before or after, or took an impulse; 0: never
 #pragma once
 
 #include "decide/decision.hpp"

@@ -13,16 +13,16 @@
 namespace signorini {
 namespace {
 
-// A stretch h in which nothing moves: engines divide by h^2, which must not overflow. In any unit of time.
+// Stretches shorter than this are skipped: engines divide by h^2, which must not overflow. In any unit of time.
 constexpr double shortest_stretch = 1e-100;
 
-/// Entries of u that pictures show inside of steps.
+/// Entries of u that pictures show inside steps.
 std::optional<std::vector<int>> watched_entries(const Model& model, const Recorder& recorder) {
   if (!model.is_physical()) return std::nullopt;
   return recorder.wants_motion() ? drawn_entries(model) : std::vector<int>{};
 }
 
-/// Contacts whose guards fell, or whose states the engine has changed.
+/// Contacts whose guards were triggered, or whose states the engine has changed.
 std::vector<std::size_t> concerned(const Instant& now, const std::optional<Mode>& adopted) {
   std::vector<std::size_t> contacts = contacts_of(now.fired);
   for (std::size_t k = 0; adopted && k < adopted->size(); ++k)
@@ -30,7 +30,7 @@ std::vector<std::size_t> concerned(const Instant& now, const std::optional<Mode>
   return contacts;
 }
 
-/// Graze and near hits in the units of the scene.
+/// Converts graze and near hits to the units of the scene.
 void rescale(const Model& model, StepperReport& engine) {
   if (engine.graze) engine.graze->t = said_time(model, engine.graze->t);
   for (NearHit& hit : engine.near_hits) {
@@ -85,7 +85,7 @@ bool Loop::refuse(const Refusal& refusal) {
   return stop(refusal.reason);
 }
 
-/// False: what was recorded of the motion up to here breaks a law, and nothing explains it.
+/// False: the record of the motion up to here breaks a law without an explanation.
 bool Loop::lawful() { return record_.law_violated().empty() || stop(record_.law_violated()); }
 
 Point Loop::decided_point(const Decision& decision) const {
@@ -96,7 +96,7 @@ Point Loop::decided_point(const Decision& decision) const {
 
 bool Loop::start() {
   State& s = state_;
-  s.point.u = model_.u0;  // of a run that is refused here it is the last one
+  s.point.u = model_.u0;  // last point of a run that is refused here
   s.point.v = model_.v0;
   Instant now;
   now.u = model_.u0;
@@ -125,13 +125,13 @@ bool Loop::start() {
                           &after});
   s.point = std::move(after);
   begun_ = true;
-  // Squares of a motion that numbers still hold may be beyond them: then nothing is known of the balance.
+  // A motion within the range of numbers may have squares beyond it: the balance is then unknown.
   if (!std::isfinite(record_.energy().balance()))
     return stop("the energy at the start leaves the range of numbers");
   return lawful();
 }
 
-/// A step of the engine, and the instant at its end if there is one. False: the run ends.
+/// Makes a step of the engine, and decides the instant at its end if there is one. False: the run ends.
 bool Loop::step() {
   State& s = state_;
   if (!stretch_.open) {
@@ -159,7 +159,7 @@ bool Loop::step() {
   return !changes_.change().any || (instant({}) && steered());
 }
 
-/// Listeners first see the inside of the step, then its end.
+/// Listeners receive the interior of the step first, then its end.
 void Loop::advanced(const Step& step) {
   DenseOutput& motion = engine_->dense_output();
   const StepFacts facts = motion.facts();
@@ -170,7 +170,7 @@ void Loop::advanced(const Step& step) {
   hooks_.listeners.reached(made, here());
 }
 
-/// Hands the state at t to who steers. False: the run ends.
+/// Passes the state at t to the steering recorder. False: the run ends.
 bool Loop::steer() {
   if (!recorder_.steers()) return true;
   changes_.at(state_.t);
@@ -183,7 +183,7 @@ bool Loop::steer() {
   return on || stop("stopped by the observer", Outcome::Kind::interrupted);
 }
 
-/// After an instant, as long as loads are changed there: each change is an instant of its own.
+/// Steers after an instant, as long as loads are changed there: each change is an instant of its own.
 bool Loop::steered() {
   do {
     if (!steer()) return false;
@@ -192,7 +192,7 @@ bool Loop::steered() {
   return true;
 }
 
-/// The side before the decision.
+/// Input of a decision: the side before it.
 Instant Loop::instant_now(std::vector<Fired> fired) const {
   Instant now;
   now.resolution = state_.resolution;
@@ -206,15 +206,16 @@ Instant Loop::instant_now(std::vector<Fired> fired) const {
   return now;
 }
 
-/// Decides the states at t, applies them and notifies.
+/// Decides the states at t, applies them and notifies listeners.
 bool Loop::instant(std::vector<Fired> fired, std::optional<Mode> adopted) {
   State& s = state_;
-  // Under the forcing before. Where no stretch was opened the point is the decision's, and the engine may know none.
+  // Computed under the forcing before. Without an open stretch the point is the decision's, and the engine may have
+  // none.
   if (std::exchange(stretch_.open, false) && record_.needs_accelerations())
     engine_->dense_output().accelerate(s.t, s.point);
   Instant now = instant_now(std::move(fired));
   hooks_.listeners.before(here());
-  // States that an engine found itself come first; a breakpoint at the same time is the next instant.
+  // States found by the engine come first; a breakpoint at the same time is the next instant.
   LoadChanges::Change change;
   if (!adopted) {
     const BreakpointQueue::Passed passed = breakpoints_.pass(s.t, s.resolution);

@@ -3,9 +3,9 @@
 //   Loop loop(model, spec, engine, method, recorder, hooks);
 //   loop.begin();   loop.advance_to(t_1);   loop.advance_to(t_2); ...   loop.end()
 //
-// It advances, decides, applies and notifies: listeners in their order (run_listener.hpp), the last of them its
-// record (run_record.hpp). Where advance_to() pauses changes nothing: the stretch that is under way goes on with its next
-// step.
+// The loop advances, decides, applies and notifies: listeners in their order (run_listener.hpp), the last of them its
+// record (run_record.hpp). The time at which advance_to() pauses does not influence results: the current stretch
+// continues with its next step.
 #pragma once
 
 #include <memory>
@@ -21,34 +21,34 @@
 
 namespace signorini {
 
-/// What a loop has found, in the units of its model. Times are said in those of the scene.
+/// Results of a loop, in the units of its model, except times in texts, which are in the scene's units.
 struct RunEnd {
   Report report;
-  /// What a double leaves of the energy stored, whose terms may be far greater than their sum.
+  /// Rounding of the stored energy, whose terms may be far larger than their sum.
   double energy_rounding = 0.0;
-  bool law_violated = false;  ///< it stopped for what its witness found
+  bool law_violated = false;  ///< the run was stopped by its witness
 };
 
 class Loop {
  public:
-  /// All that is referred to must outlive it.
+  /// All referenced objects must outlive the loop.
   Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
        RunHooks hooks, const PartShare& share = {});
-  /// Its listeners refer to it.
+  /// Listeners hold references to the loop.
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
-  /// Decides the states at 0. Once, before all else.
+  /// Decides the states at t = 0. Called once, first.
   void begin();
-  /// Whether they could be decided.
+  /// True if the states could be decided.
   [[nodiscard]] bool begun() const { return begun_; }
-  /// To the first step that ends at `until` or later, to t_end at most, or to where the run stops.
+  /// Advances to the first step that ends at `until` or later, to t_end at most, or until the run stops.
   void advance_to(double until);
   [[nodiscard]] double t() const { return state_.t; }
   [[nodiscard]] const Outcome& outcome() const { return report_.outcome; }
-  /// Whether advance_to() has more to do.
+  /// True if advance_to() can continue.
   [[nodiscard]] bool is_running() const { return running_ && state_.t < spec_.t_end; }
-  /// Of a run that goes no further. Once, after all else.
+  /// Ends the run and returns its results. Called once, last.
   [[nodiscard]] RunEnd end();
 
  private:
@@ -82,7 +82,7 @@ class Loop {
   BreakpointQueue breakpoints_;
   LoadChanges changes_;
   struct State {
-    Forcing forcing;  // after t
+    Forcing forcing;  // forcing after t
     Decision decision = {};
     Point point = {};
     double t = 0.0, resolution = 0.0;
@@ -90,8 +90,8 @@ class Loop {
   struct Stretch {
     double end = 0.0;
     bool open = false;
-    bool same_forcing = false;  // the last instant has changed none
-  } stretch_;                   // that is under way
+    bool same_forcing = false;  // the last instant has not changed the forcing
+  } stretch_;                   // the current stretch
   bool begun_ = false, running_ = false;
 };
 

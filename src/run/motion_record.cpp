@@ -12,13 +12,13 @@
 namespace signorini {
 namespace {
 
-// A file of five megabytes, where motions are slow enough for that.
+// Limits that give a file of about five megabytes if motions are slow.
 constexpr std::size_t most_in_all = 40000, most_of_one = 8000, fewest_of_one = 400;
-constexpr double fewest_intervals = 250.0;  // so that what stands still has rows, too
+constexpr double fewest_intervals = 250.0;  // so that a contact at rest has rows, too
 constexpr std::size_t most_drawn = 24;      // contacts with a picture of their own
-// A pixel of the widest picture is 1/1250 of the run: hardly two rows a pixel where nothing bends.
+// A pixel of the widest picture is 1/1250 of the run: fewer than two rows per pixel for straight lines.
 constexpr double pieces_of_run = 2000.0;
-constexpr double growth = 0.2;  // of the distance to the next row, in what passes between two; chosen
+constexpr double growth = 0.2;  // of the row spacing, per time between two rows; chosen
 
 }  // namespace
 
@@ -40,11 +40,11 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
 
 void MotionRecord::step(double begin, double end, std::span<const double> turning_points) {
   at_ = begin;
-  end_ = std::min(end, t_end_);  // that of a motion that overflows may be anywhere
+  end_ = std::min(end, t_end_);  // an overflowing motion may end anywhere
   turn_ = 0;
   turns_.clear();
-  // Bodies that move alike turn at one time but for its rounding: a thousand of them are one moment. A motion that
-  // overflows may turn at no number.
+  // Bodies with the same motion have the same turning points except for rounding: a thousand of them are one moment. A
+  // motion that overflows may have turning points that are not numbers.
   for (const double t : turning_points)
     if (std::isfinite(t) && (turns_.empty() || t - turns_.back() > rounding::of_time * std::abs(t)))
       turns_.push_back(t);
@@ -53,7 +53,7 @@ void MotionRecord::step(double begin, double end, std::span<const double> turnin
 std::optional<MotionRecord::Moment> MotionRecord::next() {
   const double never = std::numeric_limits<double>::infinity();
   const double turn = turn_ < turns_.size() ? turns_[turn_] : never;
-  double line = wanted_ ? std::max(at_, last_ + spacing_) : never;  // whatever steps lie between
+  double line = wanted_ ? std::max(at_, last_ + spacing_) : never;  // independent of the steps between
   if (!(line < end_ - 0.5 * spacing_)) line = never;
   if (turn == never && line == never) return std::nullopt;
   at_ = std::min(turn, line);
@@ -113,7 +113,7 @@ void MotionRecord::after(double t, const Auditor& auditor, const Forcing& forcin
     track.lasts = 1;
     if (track.drawn && reached_[track.part]) {
       spacing_ = closest_rows * t_end_;
-      adapted_ = t;  // it grows from here on
+      adapted_ = t;  // the spacing grows from here on
     }
   }
   if (all) last_ = t;
@@ -126,7 +126,7 @@ void MotionRecord::keep(Track& track, const MotionRow& row) {
   length_ = std::max({length_, std::abs(row.sample.gap), std::abs(row.sample.ut)});
 }
 
-/// A quantity of rounding size, compared with other contacts, has no bends.
+/// Row spacing that a contact needs. A quantity of rounding size, compared with other contacts, has no bends.
 double MotionRecord::asked_by(Track& track, const MotionRow& row) const {
   double asked = std::numeric_limits<double>::infinity();
   const auto [first, second] = std::exchange(track.last, {track.last[1], row});

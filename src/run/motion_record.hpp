@@ -1,15 +1,14 @@
-// motion_record.hpp: the motion of the contacts for pictures, bounded, whatever output_dt is.
+// motion_record.hpp: motion of the contacts for pictures, of bounded size for any output_dt.
 //
-//   rows of a contact: both sides of every instant that reaches it, turning points, and ends and insides of
-//   steps as many as a line needs; thinned (base/thinned.hpp) by N, T, gap and ut
+//   rows of a contact: both sides of every instant that reaches it, turning points, and ends and interior points of
+//   steps as needed for a line; thinned (base/thinned.hpp) by N, T, gap and ut
 //
-// How close rows are follows from how the last three bend (row_spacing.hpp), of contacts and curves together; a distance
-// that nothing asks for grows by a fifth of what passes.
+// The distance of rows follows from the bends of the last three, of contacts and curves together; without bends it
+// grows by a fifth of the time passed.
 //
-// So a short run is drawn in full, and of a long one what a picture can show of its rows; of contacts that
-// no picture is drawn of by itself, what a number of rows can show. An
-// instant reaches the contacts that M, C, K or contacts couple with one that has changed; a jump of the
-// forcing reaches all. A thousand bodies have no rows of each other's events.
+// So a short run is drawn completely, and a long one with the rows that a picture can show; contacts without a picture
+// of their own have fewer rows. An instant reaches the contacts that M, C, K or contacts couple with one that has
+// changed; a jump of the forcing reaches all. In a model of a thousand bodies no body has rows of another one's events.
 #pragma once
 
 #include <array>
@@ -27,38 +26,38 @@ namespace signorini {
 
 class MotionRecord {
  public:
-  /// Both must outlive the record. Nothing is kept where the recorder does not want it.
+  /// Model and recorder must outlive the object. No data are kept if the recorder does not want motions.
   MotionRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
-  /// A time inside of a step.
+  /// A time inside a step.
   struct Moment {
     double t = 0.0;
     bool turns = false;  ///< a turning point
   };
-  /// A step: its turning points, ascending, and as many times between as a line needs are its moments.
+  /// Sets a step. Its moments are its turning points, ascending, and the times between that a line needs.
   void step(double begin, double end, std::span<const double> turning_points);
-  /// They ascend; nothing: there is no other.
+  /// The next moment, in ascending order; nullopt: there is no other.
   [[nodiscard]] std::optional<Moment> next();
-  /// At t, the time of the last row: how close rows must be for curves; with those of the contacts it is how close they are.
+  /// Sets the row spacing after the last row, at t, from that which curves need (`asked`) and that which contacts need.
   void adapt(double t, double asked);
-  /// Somebody draws it.
+  /// True if the motion is drawn.
   [[nodiscard]] bool wanted() const { return wanted_; }
-  /// Does a line need a row at t, the end of a step?
+  /// True if a line needs a row at t, the end of a step.
   [[nodiscard]] bool needs(double t) const;
-  /// A row of every contact; times ascend, and may repeat.
+  /// Adds a row of every contact; times ascend, and may repeat.
   void add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
-  /// The side before an instant, kept when `after` says whom it reaches.
+  /// Keeps the side before an instant; `after` adds it for the contacts that the instant reaches.
   void before(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
-  /// changed: contacts; absent: all.
+  /// Adds the rows after an instant. changed: contacts; absent: all.
   void after(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point,
              const std::optional<std::vector<std::size_t>>& changed);
   /// Time of the last row of all contacts.
   [[nodiscard]] double last() const { return last_; }
-  /// Hands over all rows, contact by contact. The record ends.
+  /// Passes all rows to the recorder, contact by contact, and ends the record.
   void write(Recorder& recorder);
 
  private:
-  /// Both sides of a change of the state are kept, as far as lines go.
+  /// Values that determine the thinning; both sides of a change of state are kept.
   struct Drawn {
     std::array<double, 5> operator()(const MotionRow& row) const {
       return {row.sample.N, row.sample.T, row.sample.gap, row.sample.ut,
@@ -67,8 +66,8 @@ class MotionRecord {
   };
   struct Track {
     Thinned<MotionRow, 5, Drawn, 4> rows;
-    bool drawn = true;     // a picture of its own
-    std::size_t part = 0;  // contacts of other parts do not reach this one
+    bool drawn = true;     // has a picture of its own
+    std::size_t part = 0;  // contacts of other parts do not affect this one
     MotionRow before = {};
     std::array<MotionRow, 2> last = {};  // rows since the last instant
     int lasts = 0;
@@ -77,16 +76,16 @@ class MotionRecord {
   [[nodiscard]] double asked_by(Track& track, const MotionRow& row) const;
 
   double t_end_;
-  double spacing_;  // of rows that nothing but a line needs
+  double spacing_;  // spacing of rows that only a line needs
   bool wanted_;
   double last_ = 0.0, adapted_ = 0.0;
   double asked_ = std::numeric_limits<double>::infinity();  // by the rows since the last adapt()
-  double force_ = 0.0, length_ = 0.0;                       // greatest of all contacts that are drawn
+  double force_ = 0.0, length_ = 0.0;                       // largest of all drawn contacts
   double at_ = 0.0, end_ = 0.0;                             // of the step
   std::vector<double> turns_;
-  std::size_t turn_ = 0;  // the next of them
+  std::size_t turn_ = 0;  // index of the next one
   std::vector<Track> tracks_;
-  std::vector<bool> reached_;  // parts
+  std::vector<bool> reached_;  // by part
 };
 
 }  // namespace signorini

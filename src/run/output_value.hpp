@@ -1,9 +1,9 @@
-// output_value.hpp: an output at one instant.
+// output_value.hpp: value of an output at one instant.
 //
 //   linear       r = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant
 //                    + sum_k c_k ( |N| - N_0 ) t.u
-//   stretches    r = greatest |p(x)|, p through the linear outputs at their points (base/along.hpp);
-//                with the greatest p, the least p, and where they are
+//   stretches    r = largest |p(x)|, p through the linear outputs at their points (base/along.hpp);
+//                with the largest p, the smallest p, and their positions
 #pragma once
 
 #include "base/along.hpp"
@@ -17,15 +17,15 @@ struct OutputReading {
   OutputPlace at_greatest, at_least;
 };
 
-/// The value of a linear output; losses: of all contacts.
+/// Value of a linear output; losses: of all contacts.
 [[nodiscard]] double value_of(const Output& output, double t, Side side, const Point& point,
                               const ForceLayout& layout, const std::vector<double>& losses);
 [[nodiscard]] OutputReading reading_of(const Output& output, double t, Side side, const Point& point,
                                        const ForceLayout& layout, const std::vector<double>& losses);
-/// Extremes along the i-th of its stretches, as places of the output.
+/// Extremes along the i-th stretch, with their positions.
 [[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i, const Along::Values& values);
 
-/// Sum of the magnitudes of the terms of a linear output: what rounding is relative to.
+/// Sum of the absolute terms of a linear output, to which rounding is relative.
 [[nodiscard]] double magnitude_of(const Output& output, double t, Side side, const Point& point,
                                   const ForceLayout& layout);
 

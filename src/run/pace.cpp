@@ -11,12 +11,12 @@
 namespace signorini {
 namespace {
 
-/// A piece that swings, while it is in force.
+/// An oscillating piece of a history, while it acts.
 struct Swing {
   double from, to, omega;
 };
 
-/// Those that the clock sees.
+/// Adds the oscillating pieces that are longer than the resolution of the clock.
 void add_swings(const History& history, std::vector<Swing>& all) {
   constexpr double ever = std::numeric_limits<double>::infinity();
   const std::vector<double>& starts = history.starts();

@@ -63,7 +63,7 @@ std::size_t PartRows::pass_on_events(double t, bool last) {
       ++report_.counters.time_events;
       order_.load_jump(event.t);
     }
-    // How long its step was, nobody knows here: no longer than the run.
+    // The length of its step is unknown here; it is at most the length of the run.
     if (event.t_uncertainty) order_.event(event, resolution_at(event.t, event.t));
     if (event.contact < 0 || event.type != EventType::time) ++report_.events_by_type[to_string(event.type)];
     recorder_.event(event);

@@ -1,11 +1,11 @@
-// part_rows.hpp: rows of parts that run apart, merged into those of the whole.
+// part_rows.hpp: merges rows of parts that run separately into rows of the whole model.
 //
-//   events:  ascending in t; of one time: that of a load first, then by the parts' order, a part's own in its order
-//   rows:    at a time of the grid u, v and contacts of all parts, energies added up (energy_sum.hpp)
+//   events:  ascending in t; at the same time, that of a load first, then in the order of the parts
+//   rows:    at a time of the grid u, v and contacts of all parts, energies summed (energy_sum.hpp)
 //
 //   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.pass_on(t); ...
 //
-// All in the units of the whole. A jump of a load is one row, however many parts it acts on.
+// All values are in the units of the whole model. A jump of a load is one row, for any number of parts it acts on.
 #pragma once
 
 #include <deque>
@@ -20,7 +20,7 @@
 
 namespace signorini {
 
-/// Rows that a part has recorded and that have not been taken yet; contacts by their numbers in the whole model.
+/// Rows that a part has recorded and that are not merged yet; contacts have their numbers in the whole model.
 class PartRecorder final : public Recorder {
  public:
   struct Row {
@@ -46,7 +46,7 @@ class PartRecorder final : public Recorder {
   std::deque<Event> events;
   std::deque<Row> rows, frames;
   EnergyLine energy_rows;
-  std::vector<std::vector<MotionRow>> motions;  ///< one a contact of the part
+  std::vector<std::vector<MotionRow>> motions;  ///< one entry per contact of the part
   Curves drawn;
 
  private:
@@ -59,21 +59,22 @@ class PartRecorder final : public Recorder {
 
 class PartRows {
  public:
-  /// All must outlive it. The report is told of events by type, of jumps of loads, and of what has no order.
+  /// All arguments must outlive the object. The report receives events by type, load jumps, and events of unknown
+  /// order.
   PartRows(const Model& whole, const std::vector<PartModel>& parts, double t_end, Recorder& recorder,
            Report& report);
 
-  /// In the order of the parts.
+  /// Adds a part; called in the order of the parts.
   void add(PartRecorder& recorder) {
     of_.push_back(&recorder);
     energy_lines_.push_back(&recorder.energy_rows);
   }
-  /// Hands on rows up to t, and events before it, with `last` those at t, too. Returns how many events these were, those
-  /// left out as the same jump of a load among them.
+  /// Passes on rows up to t, and events before it; with `last` also events at t. Returns the number of these events,
+  /// including those left out as the same jump of a load.
   std::size_t pass_on(double t, bool last = false);
-  /// After the last of them.
+  /// Ends the merge, after the last event.
   void finish() { order_.finish(); }
-  /// Hands on what pictures need of a run to t, once, from these recorders in the order of the parts.
+  /// Passes on the data of pictures for a run to t, once, from these recorders in the order of the parts.
   void pass_on_motion(double t, const std::vector<PartRecorder*>& from);
 
  private:
@@ -90,7 +91,7 @@ class PartRows {
   std::vector<EnergyLine*> energy_lines_;
   EnergySum energy_sum_;
   EventOrder order_;
-  double jumped_ = -1.0;  // when a load did
+  double jumped_ = -1.0;  // time of the last jump of a load
 };
 
 }  // namespace signorini

@@ -1,6 +1,6 @@
-// part_share.hpp: what a run that computes a part of a model has in common with those of the others.
+// part_share.hpp: data that a run of a part has in common with the runs of the other parts.
 //
-//   rows a contact, points a curve:   as if all parts were one
+//   rows per contact, points per curve:   as if all parts were one
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace signorini {
 
 struct Energy;
 
-/// As it is: the whole.
+/// Share of a part; the default is the whole model.
 struct PartShare {
   std::size_t parts = 1;
-  std::size_t contacts = 0, columns = 0;                      ///< of the whole; columns: that are drawn
-  std::vector<std::size_t> numbers = {};                      ///< in the whole, one a contact
-  std::shared_ptr<const std::vector<double>> grid = nullptr;  ///< of output times; null: its own
+  std::size_t contacts = 0, columns = 0;  ///< counts in the whole model; columns: drawn ones
+  std::vector<std::size_t> numbers = {};  ///< numbers of its contacts in the whole model
+  std::shared_ptr<const std::vector<double>> grid = nullptr;  ///< output times; null: its own
   std::function<void(double t, const Energy&)> energies =
-      {};  ///< hears of them as often as a picture of them needs
+      {};  ///< receives energies as often as a picture needs them
 
   [[nodiscard]] bool whole() const { return parts == 1; }
   [[nodiscard]] std::size_t number(std::size_t k) const { return whole() ? k : numbers[k]; }

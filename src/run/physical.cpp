@@ -64,7 +64,7 @@ class ToScene {
 
 }  // namespace
 
-// Of every column, as it is named there; that of guard_rate is the guard's (unit_of).
+// Converts every column by the unit of its name; guard_rate has the unit of its guard (unit_of) and is not converted.
 Event physical(Event event, const Factors& of) {
   const ToScene convert(of);
   for (const EventColumn& column : event_columns)

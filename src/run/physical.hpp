@@ -1,8 +1,8 @@
-// physical.hpp: what a run found in the machine's units, in those of the scene.
+// physical.hpp: converts results from the units of the computation to those of the scene.
 //
 //   value in the scene's units = value * of            of: Model::unit of the model that was computed
 //
-// Powers of two: nothing is rounded.
+// Factors are powers of two: the conversion is exact.
 #pragma once
 
 #include "model/rescale.hpp"
@@ -11,29 +11,29 @@
 
 namespace signorini {
 
-/// All but guard_rate, whose unit only the guard knows (event_log.hpp).
+/// Converts all but guard_rate, whose unit only the guard knows (event_log.hpp).
 [[nodiscard]] Event physical(Event event, const Factors& of);
-/// Without u and v.
+/// Converts a sample, without u and v.
 [[nodiscard]] Sample physical(Sample sample, const Factors& of);
 [[nodiscard]] Report physical(Report report, const Factors& of);
-/// The same, and the extremes of the outputs of the model that was computed.
+/// Converts a report, with the extremes of the outputs of the computed model.
 [[nodiscard]] Report physical(Report report, const Model& computed);
-/// Displacements, velocities (order 1) or accelerations (order 2) of these degrees of freedom.
+/// Converts displacements, velocities (order 1) or accelerations (order 2) of these degrees of freedom.
 [[nodiscard]] Vector physical(Vector motion, const std::vector<Dof>& dofs, int order, const Factors& of);
-/// dofs: of the model that was computed, amplitudes of a reduced one.
+/// dofs: of the computed model; amplitudes for a reduced one.
 [[nodiscard]] InstantRow physical(InstantRow row, const std::vector<Dof>& dofs, const Factors& of);
 
-/// Hands all that it receives on in the scene's units.
+/// Forwards all data in the scene's units.
 class PhysicalRecorder : public Recorder {
  public:
-  /// Both must outlive it.
+  /// Model and recorder must outlive the object.
   PhysicalRecorder(const Model& model, Recorder& recorder) : model_(model), recorder_(recorder) {}
   void event(const Event& event) override { recorder_.event(physical(event, model_.unit)); }
   void sample(const Sample& sample) override { recorder_.sample(in_scene(sample)); }
   void frame(const Sample& sample) override { recorder_.frame(in_scene(sample)); }
   [[nodiscard]] bool wants_motion() const override { return recorder_.wants_motion(); }
   void motion(int contact, const std::vector<MotionRow>& rows) override;
-  void curves(const Curves& curves) override { recorder_.curves(curves); }  // they are in the scene's units
+  void curves(const Curves& curves) override { recorder_.curves(curves); }  // already in the scene's units
   void response(double t, const std::vector<double>& values) override;
   [[nodiscard]] bool wants_instants() const override { return recorder_.wants_instants(); }
   void instant(const InstantRow& row) override { recorder_.instant(physical(row, model_.dofs, model_.unit)); }
@@ -50,7 +50,7 @@ class PhysicalRecorder : public Recorder {
   std::vector<double> values_;
 };
 
-/// The same for whoever hears of rounds; nobody where there is no listener. `model` must outlive it.
+/// Listener that forwards rounds in the scene's units; empty if `listener` is. `model` must outlive it.
 [[nodiscard]] RoundListener physical(const RoundListener& listener, const Model& model);
 
 }  // namespace signorini

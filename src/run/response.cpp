@@ -13,19 +13,20 @@ namespace {
 
 // Values this close are equal: the earlier one keeps its time.
 constexpr double tie = rounding::of_few;
-// Of |r|: how far off p may be where its turning points are taken. A time that is off by d there costs r d^2.
+// Fraction of |r|: allowed error of p where its turning points are used. An error d of such a time changes r by r d^2.
 constexpr double located = 1e-12;
-// Radians of the fastest motion in a part: five points see where it swings at all. Chosen; what is narrower
-// than a fifth of that and nowhere else in the part would be missed.
+// Radians of the fastest motion in a part: five points detect whether it oscillates there. Chosen value; a peak that is
+// narrower than a fifth of a part and occurs nowhere else in it may be missed.
 constexpr double longest = 32.0;
-// Of such parts in a run: 1e8 points at least, hours of most models. Chosen.
+// Limit for the number of such parts in a run: at least 1e8 points, hours for most models. Chosen value.
 constexpr double most_pieces = 1e7;
-// Of what p may be off by, or of what counts as rounding: a polynomial through 17 points is off by less than four times
-// what it does not follow (Lebesgue's constant of the points, and that itself).
+// Fraction of the error of p, or of the rounding: a polynomial through 17 points is off by less than four times the
+// motion that it does not resolve (Lebesgue's constant of the points, and that motion itself).
 constexpr double hidden = 0.25;
 
-/// What e, of half the degree, may be for that, where values vary by so much in a part: errors of degree n go with the power
-/// n + 1 of the part, relative to what varies there. A ripple on a large value is no part of that value.
+/// Allowed error e of half the degree for this accuracy, if values vary by this much in a part: errors of degree n are
+/// proportional to the power n + 1 of the part's length, relative to the variation there. A ripple on a large value is
+/// compared with the variation, not with the value.
 double resolved(std::size_t stride, double varies, double accuracy) {
   if (!(varies > accuracy)) return accuracy;
   const double power = stride == 1 ? 9.0 / 17.0 : stride == 2 ? 5.0 / 9.0 : 3.0 / 5.0;
@@ -153,7 +154,7 @@ void ResponseWatch::inside(DenseOutput& motion, double begin, double end) {
   }
 }
 
-/// How fast what outputs show of a step turns. Its ranges are those at the points of the whole step at least.
+/// Rate of the motion that outputs show in a step. Its ranges include at least those at the points of the whole step.
 double ResponseWatch::turning(DenseOutput& motion, const Part& step) {
   const StepFacts facts = motion.facts();
   double omega = pace_.of_all(facts.radians, step.begin, step.end);
@@ -167,7 +168,7 @@ double ResponseWatch::turning(DenseOutput& motion, const Part& step) {
     const Ripple whole = modes->term_sizes();
     omega = pace_.of_what_counts(*modes, omega, [&](const Ripple& r) { return is_rounding(r, whole); });
   }
-  // A step that is one part costs no more than others.
+  // A step that is one part costs no more than other steps.
   const double most = std::max(pace_.fastest(most_pieces * longest), longest / (step.end - step.begin));
   if (omega > most && !coarse_)
     coarse_ = fmt::format(
@@ -178,8 +179,8 @@ double ResponseWatch::turning(DenseOutput& motion, const Part& step) {
   return std::min(omega, most);
 }
 
-/// What it may add to any output, at any place of its stretches, is rounding: of its terms, or of the sums over modes that
-/// these are; or no more than p may be off.
+/// True if the contribution of `ripple` to any output, at any position of its stretches, is rounding of the terms or of
+/// the sums over modes, or less than the allowed error of p.
 bool ResponseWatch::is_rounding(const Ripple& ripple, const Ripple& whole) const {
   for (const Watched& watched : watched_) {
     const OutputExtremes& known = extremes_[watched.output];
@@ -197,7 +198,7 @@ bool ResponseWatch::is_rounding(const Ripple& ripple, const Ripple& whole) const
   return true;
 }
 
-/// At the points of a part, along a stretch.
+/// Updates extremes at the points of a part, along a stretch.
 void ResponseWatch::see_samples(const Watched& watched, const Part& part, std::size_t stride) {
   const std::span<const Chebyshev::Values> all = samples_of(watched);
   const Output& output = model_.outputs[watched.output];
@@ -226,7 +227,7 @@ void ResponseWatch::sample(DenseOutput& motion, const Part& part, double begin, 
     const Watched& watched = watched_[k];
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
       samples_[i][point] = value_of(*forms_[i], t, side, point_, model_.layout, none_);
-      if (watched.stretch < 0 || point == 0)  // of the many points of stretches the beginning will do
+      if (watched.stretch < 0 || point == 0)  // for the many points of stretches the first time is enough
         magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_, model_.layout));
     }
     const double value = samples_[watched.first][point];
@@ -268,7 +269,7 @@ bool ResponseWatch::settled(const Watched& watched, DenseOutput& motion, const P
   const ValueBounds at = bounds_along(all, stride, false);
   if (within(at, 2.0 * error + (at.greatest - at.least))) return true;
   if (stride < 4 && within(bounds_along(all, stride, true), 2.0 * error)) return true;
-  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // samples are known
+  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // includes samples
   double magnitude = 0.0;
   for (std::size_t i = watched.first; i < watched.first + watched.count; ++i)
     magnitude = std::max(magnitude, magnitudes_[i]);

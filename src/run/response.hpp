@@ -1,21 +1,20 @@
-// response.hpp: the outputs while a run goes on: rows, and extremes between them.
+// response.hpp: outputs during a run: rows, and extremes between them.
 //
-//   rows      at output times, and on both sides of every instant at which something happens
+//   rows      at output times, and on both sides of every event instant
 //   extremes  of each step's motion r, in parts of a few periods of the fastest motion:
 //             p through r at 5, then 9, then 17 nested Chebyshev points of the part,
 //             e = |r - the polynomial of every other point| at the new ones
-//             nothing to find where p, between its points too, +- 2 e stays within what was seen;
-//             e below a part of |r|: p' = 0 gives the times, r its values there;
-//             else more points, else both halves, until no motion turns by more than a radian in a part
+//             done if p, also between its points, +- 2 e stays within the known extremes;
+//             if e is below a fraction of |r|: p' = 0 gives the times, r its values there;
+//             otherwise more points, then both halves, until no motion turns by more than a radian in a part
 //
-// An output with stretches (an envelope, the extremes of a stress) is followed stretch by stretch, at the points of each:
-// stretch_peaks.hpp in place of p and p'.
-// The fastest motion is that of what outputs show: modes whose swings are rounding of every output have no part in it
-// (pace.hpp).
+// An output with stretches (an envelope, the extremes of a stress) is evaluated stretch by stretch, at the points of
+// each: stretch_peaks.hpp replaces p and p'. The fastest motion is that shown by outputs: modes whose oscillations are
+// rounding of every output are left out (pace.hpp).
 //
-// The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average
-// acceleration in `newmark`, which is in equilibrium at the ends of its steps only: there stand its extremes of
-// forces and accelerations. Losses only grow, so their extremes stand in rows.
+// The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average acceleration in
+// `newmark`, which is in equilibrium at the ends of its steps only: extremes of forces and accelerations are taken
+// there. Losses never decrease, so their extremes are rows.
 #pragma once
 
 #include <optional>
@@ -31,27 +30,27 @@ namespace signorini {
 
 class ResponseWatch {
  public:
-  /// Both must outlive it. Nothing is done where the model has no outputs.
-  /// dense: between the ends of a step, too, forces and accelerations are in equilibrium with the motion.
+  /// Model and recorder must outlive the object, which is inactive if the model has no outputs. dense: forces and
+  /// accelerations are in equilibrium with the motion between the ends of a step, too.
   ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense);
 
-  /// The model's loads are others from here on.
+  /// Updates the frequencies after a change of the model's loads.
   void loads_changed() { pace_.loads_changed(); }
   [[nodiscard]] bool any() const { return !model_.outputs.empty(); }
-  /// A row, with the losses of all contacts so far; a = M^-1 (...) must be in the point where any output needs it.
+  /// Writes a row, with the losses of all contacts so far; the point must have a = M^-1 (...) if an output needs it.
   void row(double t, Side side, const Point& point, const std::vector<double>& losses);
-  /// Keeps the side before an instant at which something happens; `row` after it writes both.
+  /// Keeps the side before an event instant; the following call of `row` writes both sides.
   void before(double t, const Point& point, const std::vector<double>& losses);
-  /// The inside of a step.
+  /// Finds extremes inside a step.
   void inside(DenseOutput& motion, double begin, double end);
-  /// Greatest |sum of reactions - loads + inertia| of the rows.
+  /// Largest |sum of reactions - loads + inertia| of the rows.
   [[nodiscard]] const Extreme& reactions() const { return reactions_; }
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
-  /// The motion was too fast for a search between all of its turns: the sentence that says so.
+  /// Warning if the motion was too fast for a search between all of its turning points.
   [[nodiscard]] const std::optional<std::string>& coarse() const { return coarse_; }
 
  private:
-  /// What has points in time of its own: a linear output, or a stretch of another.
+  /// A function of time with sample points: a linear output, or a stretch of another output.
   struct Watched {
     std::size_t output = 0;
     int stretch = -1;                  ///< -1: a linear output
@@ -59,7 +58,7 @@ class ResponseWatch {
   };
   struct Part {
     double begin = 0.0, end = 0.0;
-    std::vector<char> open;  // what is watched and not settled there
+    std::vector<char> open;  // watched functions that are not settled in this part
   };
 
   void evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
@@ -70,7 +69,7 @@ class ResponseWatch {
   [[nodiscard]] bool is_rounding(const Ripple& ripple, const Ripple& whole) const;
   void see_samples(const Watched& watched, const Part& part, std::size_t stride);
   [[nodiscard]] std::span<const Chebyshev::Values> samples_of(const Watched& watched) const;
-  /// Closes what is settled; false: nothing is left.
+  /// Samples a part and closes settled functions; false: none is left.
   [[nodiscard]] bool look(DenseOutput& motion, Part& part, double begin);
   void sample(DenseOutput& motion, const Part& part, double begin, std::size_t point);
   [[nodiscard]] bool settled(const Watched& watched, DenseOutput& motion, const Part& part,
@@ -78,24 +77,24 @@ class ResponseWatch {
   void sharpen(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
   void sharpen_output(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
   void sharpen_stretch(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
-  /// The engine's own values there.
+  /// Updates extremes with the engine's own values at t.
   void see_motion(const Watched& watched, DenseOutput& motion, double t);
 
   const Model& model_;
   Recorder& recorder_;
   Pace pace_;
-  double radian_ = 0.0;  // of the step's fastest motion, or of a load
+  double radian_ = 0.0;  // duration of a radian of the step's fastest motion, or of a load
   bool dense_;
   bool began_ = false;
   std::vector<OutputExtremes> extremes_;
   std::vector<OutputReading> readings_, before_;
   std::vector<double> last_, none_;
   std::vector<Watched> watched_;
-  std::vector<const Output*> forms_;  // linear ones
-  std::vector<double> magnitudes_;    // of the terms of each form, until now
-  std::vector<Reach> reaches_;        // of each form, once an engine has told them
+  std::vector<const Output*> forms_;  // linear outputs
+  std::vector<double> magnitudes_;    // largest sum of terms of each form so far
+  std::vector<Reach> reaches_;        // of each form, once the engine has provided modes
   double last_t_ = 0.0, before_t_ = -1.0;
-  std::vector<Chebyshev::Values> samples_;  // of each form
+  std::vector<Chebyshev::Values> samples_;  // one entry per form
   Point point_;
   Extreme reactions_;
   std::optional<std::string> coarse_;

@@ -1,12 +1,12 @@
-// run_listener.hpp: who follows a run from inside: its steps, its decisions.
+// run_listener.hpp: interface of listeners to the steps and decisions of a run.
 //
 //   begin(decision at 0)
 //   { step(dense output) reached(its end)   before(an instant) instant(decision before, after) } ...
 //   end
 //
-// All in the units of the model that is computed, the machine's. What is handed over lives until the call
-// ends. A listener changes nothing. The two that answer back have interfaces of their own: EventShift here, and
-// FaultInjector (run/fault_injector.hpp); loads are steered by a Recorder (signorini/result.hpp).
+// All values are in the units of the computed model. Arguments are valid during the call. A listener changes nothing.
+// The two objects that influence a run have interfaces of their own: EventShift here, and FaultInjector
+// (run/fault_injector.hpp); loads are steered by a Recorder (signorini/result.hpp).
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace signorini {
 struct ModalShare;
 class FaultInjector;
 
-/// A step that was made.
+/// A completed step.
 struct RunStep {
   const Step& step;
   const StepFacts& facts;
@@ -29,7 +29,7 @@ struct RunStep {
   DenseOutput& motion;
 };
 
-/// The motion at a time, in the mode up to there.
+/// Motion at a time, in the mode before it.
 struct RunPoint {
   double t = 0.0;
   const Forcing& forcing;
@@ -45,20 +45,20 @@ struct RunInstant {
   const Mode& mode_before;
   const Decision& after;
   const Forcing &forcing_before, &forcing_after;
-  const Vector& v_before;  ///< u is that of `after`
+  const Vector& v_before;  ///< velocities before; u is that of `after`
   bool load_jumps = false;
   bool adopted = false;  ///< the engine found states, and no time
-  /// What the loop has beside; null where an instant is computed once more without a loop.
+  /// Points of the loop; null if an instant is computed again without a loop.
   const Point *point_before = nullptr, *point_after = nullptr;
 };
 
-/// What a listener needs of the engine that is made for the run.
+/// Requirements of a listener for the engine of the run.
 struct ListenerNeeds {
-  /// What engine `exact` in modes shares with it (engine/exact/modal/modal_memory.hpp); null: nothing.
+  /// Data that engine `exact` in modes shares with the listener (engine/exact/modal/modal_memory.hpp); null: none.
   ModalShare* modal = nullptr;
-  /// Whether anybody asks for the greatest N, T, gap and ut inside of steps. `exact` in modes looks for them only then.
+  /// True if the largest N, T, gap and ut inside steps are needed. `exact` in modes computes them only then.
   bool peaks = true;
-  /// Not 0: engine `exact` in series takes steps of other lengths than without, by chance from this seed.
+  /// Seed, not 0: engine `exact` in series varies the lengths of its steps randomly.
   std::uint64_t step_seed = 0;
 };
 
@@ -67,19 +67,19 @@ class RunListener {
   virtual ~RunListener() = default;
   virtual void begin(const RunInstant& /*start*/) {}
   virtual void step(const RunStep& /*step*/) {}
-  /// The end of the step, after step().
+  /// Receives the end of the step, after step().
   virtual void reached(const RunStep& /*step*/, const RunPoint& /*end*/) {}
-  /// The motion just before an instant whose states are not decided yet.
+  /// Receives the motion just before an instant whose states are not decided yet.
   virtual void before(const RunPoint& /*point*/) {}
   virtual void instant(const RunInstant& /*instant*/) {}
-  /// The run ends here; near hits and the graze of the engine are in the units of the scene.
+  /// Receives the end of the run; near hits and the graze of the engine are in the units of the scene.
   virtual void end(const RunPoint& /*last*/, const StepperReport& /*engine*/) {}
 };
 
-/// Several of them, in the order in which they were added.
+/// A list of listeners, called in the order in which they were added.
 class RunListeners final : public RunListener {
  public:
-  /// It must outlive this.
+  /// The listener must outlive the list.
   void add(RunListener& listener) { list_.push_back(&listener); }
   [[nodiscard]] bool none() const { return list_.empty(); }
 
@@ -106,14 +106,14 @@ class RunListeners final : public RunListener {
   std::vector<RunListener*> list_;
 };
 
-/// By how much an event is moved that an engine has found: a companion carries on what rounding hides of its time.
+/// Shift of a located event: a companion run represents the uncertainty that rounding hides in its time.
 class EventShift {
  public:
   virtual ~EventShift() = default;
   virtual double shift(const Step& step) = 0;
 };
 
-/// Who follows a run from inside, and what answers back; nobody: empty, or null.
+/// Listeners of a run, and objects that influence it; empty or null: none.
 struct RunHooks {
   RunListeners listeners = {};
   ListenerNeeds needs = {};
@@ -124,7 +124,7 @@ struct RunHooks {
   [[nodiscard]] bool none() const { return listeners.none() && !rounds && !event_shift && !faults; }
 };
 
-/// signorini/simulate.hpp, and the listener follows: of any engine.
+/// Run as in signorini/simulate.hpp with a listener, for any engine.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               RunListener& listener, const ListenerNeeds& needs = {},
                               EventShift* event_shift = nullptr);

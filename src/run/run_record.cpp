@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-/// Contacts whose guards fell, or whose states have changed.
+/// Contacts whose guards were triggered, or whose states have changed.
 std::vector<std::size_t> changed_contacts(const RunInstant& now) {
   std::vector<std::size_t> contacts = contacts_of(now.fired);
   for (std::size_t k = 0; k < now.mode_before.size(); ++k)
@@ -92,7 +92,7 @@ void RunRecord::step(const RunStep& step) {
   }
 }
 
-/// Those asked for inside a step.
+/// Records the rows requested inside a step.
 void RunRecord::rows(const RunStep& step) {
   for (double t = samples_.next(); t < step.step.end; t = samples_.next()) {
     Point point;
@@ -104,7 +104,7 @@ void RunRecord::rows(const RunStep& step) {
   }
 }
 
-/// works_: from there to the end of the step.
+/// Records a row. works_: from t to the end of the step.
 void RunRecord::row(const RunStep& step, double t, Point& point) {
   samples_.emit(t, works_, step.forcing, step.decision.mode, point);
   if (response_.any()) {
@@ -116,7 +116,7 @@ void RunRecord::row(const RunStep& step, double t, Point& point) {
   residual_due_ = true;
 }
 
-/// Nobody draws the motion: each contact is looked at where it turns itself.
+/// Checks each contact at its own turning points, for a motion that is not drawn.
 void RunRecord::turns(const RunStep& step) {
   for (const TurningPoints::Turn& turn : *step.facts.contact_turns) {
     if (!std::isfinite(turn.time)) continue;
@@ -161,8 +161,8 @@ void RunRecord::instant(const RunInstant& now) {
   after(now, now.breakpoint ? std::nullopt : std::optional(changed_contacts(now)));
 }
 
-/// From here on the motion is that of the decision; a row asked for at its time shows it.
-/// changed: contacts whose states or velocities have; absent: perhaps all.
+/// Records the side after an instant; a row requested at its time shows this side. changed: contacts whose states or
+/// velocities have changed; absent: possibly all.
 void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std::size_t>>& changed) {
   const double t = now.t;
   const Decision& decision = now.after;
@@ -183,7 +183,7 @@ void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std
   curves_.add(t, point.u, last_energy_);
 }
 
-/// step: one that t lies in, whose works the auditor has to its end.
+/// Adds a row of curves. step: the one that contains t; the auditor has its works up to its end.
 void RunRecord::add_curves(double t, const Mode& mode, const Point& point, const RunStep* step) {
   works_.clear();
   if (step != nullptr && t < step->step.end) step->motion.integrate(t, step->step.end, works_);
@@ -204,7 +204,7 @@ void RunRecord::end(const RunPoint& last, const StepperReport& engine) {
   curves_.write(recorder_);
   report_.warnings.insert(report_.warnings.end(), engine.warnings.begin(), engine.warnings.end());
   auditor_.finish(report_, last_energy_, last.t, last.mode);
-  // Rows of a step that leads to no instant are kept; no peak takes part in it.
+  // Rows of a step without an instant at its end are kept, but it contributes no peaks.
   if (report_.outcome.kind == Outcome::Kind::done) witness_.peaks(last.t, report_.peaks);
   report_.witness = std::move(witness_.testimony());
   report_.response = response_.extremes();

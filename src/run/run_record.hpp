@@ -1,11 +1,10 @@
-// run_record.hpp: the listener that makes of a run its rows, events, extremes, pictures, audit and witness.
+// run_record.hpp: listener that records rows, events, extremes, pictures, audit and witness data of a run.
 //
-//   a step     works, whole, so that rows change no digit of what is told at the end; rows inside; extremes of outputs;
+//   a step     works of the whole step, so that rows change no digit of the results; rows inside; extremes of outputs;
 //              times for pictures and peaks; its end
-//   an instant outputs before it, audit, event log, witness; then a row asked for at its time shows the side after it
+//   an instant outputs before it, audit, event log, witness; then a row requested at its time shows the side after it
 //
-// Here is the one list of who records what, and in which order: each point inside a step is evaluated once for all
-// of them.
+// This is the only list of recorders and their order: each point inside a step is evaluated once for all of them.
 #pragma once
 
 #include <memory>
@@ -28,7 +27,7 @@ namespace signorini {
 
 class RunRecord final : public RunListener {
  public:
-  /// All but method and share must outlive it. faults: null, or what a test plants.
+  /// All arguments except method and share must outlive the object. faults: null, or errors injected by a test.
   RunRecord(const Model& model, const RunSpec& run, const Method& method, const Structure& structure,
             const Stepper& engine, Recorder& recorder, Report& report, FaultInjector* faults,
             const PartShare& share);
@@ -41,17 +40,17 @@ class RunRecord final : public RunListener {
   /// Completes the report.
   void end(const RunPoint& last, const StepperReport& engine) override;
 
-  /// No states could be decided at this point.
+  /// Records a point at which no states could be decided.
   void refused(const RunPoint& point) { last_energy_ = auditor_.energy(point.t, point.mode, point.point); }
-  /// The model's loads are others from here on.
+  /// Updates outputs after a change of the model's loads.
   void loads_changed() { response_.loads_changed(); }
-  /// What steers is handed this. It lives until the next row.
+  /// Sample for a steering recorder, valid until the next row.
   [[nodiscard]] Sample sample(const RunPoint& point);
-  /// Why the run ends: a law that what was recorded breaks, and that nothing explains. Empty: there is none.
+  /// Reason for ending the run: a violated law without an explanation. Empty: none.
   [[nodiscard]] const std::string& law_violated() const { return witness_.grave(); }
-  /// Of the last decision.
+  /// Energy after the last decision.
   [[nodiscard]] const Energy& energy() const { return last_energy_; }
-  /// Outputs need accelerations in the points before instants.
+  /// True if outputs need accelerations in the points before instants.
   [[nodiscard]] bool needs_accelerations() const { return response_.any(); }
 
  private:
@@ -70,7 +69,7 @@ class RunRecord final : public RunListener {
   Recorder& recorder_;
   Report& report_;
   FaultInjector* faults_;
-  std::unique_ptr<Model> exact_model_;  // null: model_
+  std::unique_ptr<Model> exact_model_;  // null: same as model_
   RunWitness witness_;
   Auditor auditor_;
   EventLog log_;
@@ -81,7 +80,7 @@ class RunRecord final : public RunListener {
   LargeMotions large_;
   ZeroSince zero_since_;
   DecisionWarnings warnings_;
-  Point point_;  // inside of a step
+  Point point_;  // inside a step
   Works works_;
   Energy last_energy_;
   double condition_ = 1.0;     // StepFacts::eigenvector_condition of the last step

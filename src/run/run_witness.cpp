@@ -13,7 +13,7 @@
 namespace signorini {
 namespace {
 
-/// The guard's rate in the units that are computed in, which its row has not.
+/// Event with the guard's rate in the units of the computation, which are not those of its row.
 RecordedEvent recorded(const Event& event, const Decision& decision) {
   RecordedEvent result = recorded_event(event);
   const Crossing* crossing = event.t_uncertainty ? decision.crossing(result.contact) : nullptr;
@@ -48,7 +48,7 @@ RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Record
 
 namespace {
 
-/// What the record points to, to be kept.
+/// Copy of the data that the record points to.
 InstantRow row_of(const InstantRecord& record) {
   const auto side = [](const WitnessedSide& s) {
     return InstantSide{*s.u, *s.v, s.a != nullptr ? *s.a : Vector(), *s.mode, *s.forces};
@@ -80,7 +80,7 @@ void RunWitness::instant(const Instant& now) {
   InstantRecord record;
   record.t = now.t;
   record.resolution = now.resolution;
-  record.before = std::move(before_);  // their memory is used again
+  record.before = std::move(before_);  // their memory is reused
   record.after = std::move(after_);
   motion_.fill(*now.forcing_before, now.t, now.dependence, record.before);
   record.before.u = &now.before->u;
@@ -143,7 +143,7 @@ void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, con
 
 namespace {
 
-/// What springs that a contact borrows give along n and t, beside the motion of its surfaces.
+/// Deformation of the springs of a compliance split along n and t, in addition to the motion of its surfaces.
 std::pair<double, double> borrowed(const Contact& c, const ForceLayout& layout, std::size_t k,
                                    const Vector& forces) {
   if (!c.compliance_split()) return {0.0, 0.0};
@@ -168,7 +168,7 @@ void RunWitness::passes(double t, const Forcing& forcing, const Point& point) {
 }
 
 void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const Point& point) {
-  if (engine_.limits.step > 0.0) return;  // peaks are those of the ends of steps
+  if (engine_.limits.step > 0.0) return;  // peaks are taken at the ends of steps
   const Contact& c = model_.contacts[k];
   PassedPeak& p = passed_[k];
   p.most.N = std::max(p.most.N, std::abs(point.N(model_.layout, k)));
@@ -179,7 +179,7 @@ void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const P
   p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));
 }
 
-/// The size of the terms of a contact's g and ut, where each displacement is the farthest of its kind.
+/// Size of the terms of a contact's g and ut, with the largest displacement of each kind.
 double RunWitness::place_of(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const auto size = [&](const Combination& form) {
@@ -198,7 +198,8 @@ void RunWitness::peaks(double t, const std::vector<Peak>& told) {
   for (std::size_t k = 0; k < passed_.size() && k < told.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const PassedPeak& p = passed_[k];
-    // Of the same sums, but each at its own points. What is held moves by the rounding of the scene's displacements.
+    // Both values are the same sum, at different points. A fixed point moves by the rounding of the scene's
+    // displacements.
     const WitnessLimits& tol = engine_.limits;
     const double place = place_of(k);
     const double length = rounding::of_elimination * (place + model_.scales.displacement) +

@@ -1,9 +1,9 @@
-// run_witness.hpp: hands each instant of a run to its witness, and keeps what it finds.
+// run_witness.hpp: passes each instant of a run to its witness, and stores the violations.
 //
 //   (u, v-, N-, T-, mode-), impulses, captures, events, (u, v+, a+, N+, T+, mode+)  ->  witness/witness.hpp
 //
-// Nothing here is weighed: what engine, decision and log have recorded is copied as it is. Units: those of the model
-// that is computed.
+// No data are evaluated here: records of engine, decision and log are copied unchanged. Units: those of the computed
+// model.
 #pragma once
 
 #include "engine/stepper.hpp"
@@ -11,17 +11,17 @@
 
 namespace signorini {
 
-inline constexpr std::size_t most_violations = 100;  // of a run, that are kept; all are counted
+inline constexpr std::size_t most_violations = 100;  // limit for stored violations; all are counted
 
-/// Where a contact was at the start, and the farthest that it was seen from there.
+/// Position of a contact at the start, and its largest distance from there.
 struct PassedPeak {
-  double g0 = 0.0, ut0 = 0.0, surface = 0.0;  // surface: the farthest place of its own surface
+  double g0 = 0.0, ut0 = 0.0, surface = 0.0;  // surface: largest displacement of its surface
   Peak most;
 };
 
 class RunWitness {
  public:
-  /// All must outlive it; the recorder is handed instants if it wants them.
+  /// All arguments must outlive the object; the recorder receives instants if it wants them.
   RunWitness(const Model& model, const WitnessedEngine& engine, Recorder& recorder);
 
   struct Instant {
@@ -36,19 +36,19 @@ class RunWitness {
     double dependence = 1.0;  ///< Stepper::dependence()
   };
   void instant(const Instant& now);
-  /// A point inside a stretch.
+  /// Checks a point inside a stretch.
   void between(double t, const Forcing& forcing, const Mode& mode, const Point& point, double dependence);
 
-  /// A point inside a step, that of a row or where something turns.
+  /// Adds a point inside a step: that of a row, or a turning point.
   void passes(double t, const Forcing& forcing, const Point& point);
-  /// One contact; of the point what it touches.
+  /// Adds a point for one contact; only the entries of the point that it depends on are read.
   void passes(std::size_t contact, double t, const Forcing& forcing, const Point& point);
-  /// At the end: none of those points is beyond what is told.
+  /// Checks at the end that none of these points exceeds the reported peaks.
   void peaks(double t, const std::vector<Peak>& told);
 
-  /// Why the run ends: the first violation that nothing explains. Empty: there is none.
+  /// Reason for ending the run: the first violation without an explanation. Empty: none.
   [[nodiscard]] const std::string& grave() const { return grave_; }
-  /// In the units of the model; physical() knows their units.
+  /// Violations in the units of the model; physical() converts them.
   [[nodiscard]] Testimony& testimony() { return testimony_; }
 
  private:
@@ -61,18 +61,19 @@ class RunWitness {
   const WitnessedEngine engine_;
   Witness witness_;
   WitnessedMotion motion_;
-  WitnessedSide point_, before_, after_;  // between instants, and of one
+  WitnessedSide point_, before_, after_;  // between instants, and at one
   std::vector<PassedPeak> passed_;
-  std::array<double, 2> reached_ = {0.0, 0.0};  // the greatest WitnessedSide::u_reach
-  bool holds_ = false;                          // some contact has no spring: its forces hold accelerations
-  double held_forces_ = 0.0;                    // greatest Witness::held_forces, where one holds
+  std::array<double, 2> reached_ = {0.0, 0.0};  // largest WitnessedSide::u_reach
+  bool holds_ = false;                          // some contact has no spring: its forces enforce constraints
+  double held_forces_ = 0.0;                    // largest Witness::held_forces, if there is such a contact
   Testimony testimony_;
   std::string grave_;
 };
 
-/// "at t = 0.1 the momentum of the structure is off by 12.6, where 3e-12 is rounding": in the units of the violation.
+/// Sentence about a violation, in its units: "at t = 0.1 the momentum of the structure is off by 12.6, where 3e-12 is
+/// rounding".
 [[nodiscard]] std::string sentence_of(const Violation& violation, const Model& model);
-/// The first, and how many there are.
+/// Sentence about the first violation, with the number of violations.
 [[nodiscard]] std::string sentence_of(const Testimony& testimony, const Model& model);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// samples.hpp: rows at the times that were asked for: those of history.csv and those of frames.
+// samples.hpp: rows at requested times: those of history.csv and those of frames.
 //
 //   for (double t = samples.next(); t < step.end; t = samples.next()) samples.emit(t, state at t)
 #pragma once
@@ -13,8 +13,7 @@ namespace signorini {
 
 class Samples {
  public:
-  /// All of them must outlive the samples.
-  /// grid: that of the run where several have it; null: their own.
+  /// All arguments must outlive the object. grid: output times shared by several runs; null: those of `run`.
   Samples(const Model& model, const RunSpec& run, Auditor& auditor, Recorder& recorder,
           std::shared_ptr<const std::vector<double>> grid = nullptr)
       : model_(model),
@@ -25,9 +24,9 @@ class Samples {
 
   /// The next time of the grid or of a frame; infinity after the last.
   [[nodiscard]] double next() const;
-  /// Records the time t = next(). ahead: works that the auditor has and that come after t.
+  /// Records the time t = next(). ahead: works that the auditor has and that belong to times after t.
   void emit(double t, const Works& ahead, const Forcing& forcing, const Mode& mode, const Point& point);
-  /// Its u and v live until the next one. ahead: as above.
+  /// Sample at t, whose u and v are valid until the next call. ahead: as above.
   [[nodiscard]] Sample sample(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
                               const Point& point);
 

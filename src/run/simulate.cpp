@@ -1,4 +1,4 @@
-// From a model to its report: in the units of the machine, and back.
+// Runs a model and reports: converts to the units of the computation, and back.
 #include "signorini/simulate.hpp"
 
 #include <chrono>
@@ -29,7 +29,7 @@ RunEnd run_whole(Model& model, const RunSpec& spec, const EngineRow& engine, Met
   return loop.end();
 }
 
-/// In the units of the scene, with what is said of a run when it is over.
+/// Report in the units of the scene, with the warnings about a finished run.
 Report concluded(RunEnd ending, const Model& computed, const RunSpec& spec) {
   Report report = physical(std::move(ending.report), computed);
   if (report.witness.violated > 0 && !ending.law_violated)

@@ -7,11 +7,11 @@
 namespace signorini {
 namespace {
 
-// A bouncing ball with e = 0.99 passes its accumulation point with 2000 events; an e = 0.999 takes 20000, in
-// a time that is no longer short.
+// A bouncing ball with e = 0.99 passes its accumulation point with 2000 events; one with e = 0.999 needs 20000, in a
+// longer time.
 constexpr int watched_events = 10000;
-constexpr double least_progress = 1e-5;          // of the run, in so many events
-constexpr double resolutions_of_instant = 10.0;  // events of one instant lie no further from the first
+constexpr double least_progress = 1e-5;          // fraction of the run, for this number of events
+constexpr double resolutions_of_instant = 10.0;  // largest distance of events of one instant from the first
 
 }  // namespace
 

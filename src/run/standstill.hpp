@@ -1,4 +1,4 @@
-// standstill.hpp: many events are no fault, many events in no time are.
+// standstill.hpp: detects many events without progress in time; many events alone are no error.
 //
 //   at one instant   at most max_events_at_once, an instant being ten resolutions of the clock
 //   altogether       10 000 events take at least 1e-5 of the run
@@ -13,15 +13,15 @@ namespace signorini {
 
 class Standstill {
  public:
-  /// unit: what one of the times here is where they are said.
+  /// unit: factor that converts times for messages.
   Standstill(double t_end, int most_at_once, double unit = 1.0)
       : t_end_(t_end), most_at_once_(most_at_once), unit_(unit) {}
 
-  /// Counts an instant; times do not decrease. Why the run must not go on, or nothing. contacts: whose guards
-  /// fell, or whose states an engine has changed.
+  /// Counts an instant; times do not decrease. Returns the reason for ending the run; nullopt: it continues. contacts:
+  /// those whose guards were triggered, or whose states an engine has changed.
   [[nodiscard]] std::optional<std::string> count(double t, double resolution,
                                                  const std::vector<std::size_t>& contacts = {});
-  /// Those of the instants that were counted too often, ascending.
+  /// Contacts of the instants that exceeded a limit, ascending.
   [[nodiscard]] std::vector<std::size_t> contacts() const { return {contacts_.begin(), contacts_.end()}; }
 
  private:
@@ -31,9 +31,9 @@ class Standstill {
   double t_end_;
   int most_at_once_;
   double unit_;
-  double cluster_ = 0.0;  // time of the first event of those at one instant
+  double cluster_ = 0.0;  // time of the first of the simultaneous events
   int at_once_ = 0;
-  double mark_ = 0.0;  // time of the last look at progress
+  double mark_ = 0.0;  // time of the last check of progress
   int since_mark_ = 0;
   Contacts in_cluster_, after_mark_, contacts_;
 };

@@ -1,32 +1,32 @@
-// steering.hpp: loads that are changed while a run is on its way.
+// steering.hpp: changes of loads during a run.
 //
-//   f(t) <- f before now, the new history from now on;   breakpoints follow
+//   f(t) <- f before now, the new history from now on;   breakpoints are updated
 //
-// Pieces of a history that forcings hold stay where they are until the run ends.
+// Pieces of a history that forcings refer to stay in memory until the run ends.
 #pragma once
 
 #include "run/engines.hpp"
 
 namespace signorini {
 
-/// Turns what is asked for, in the scene's units, into changes of the model that is computed.
+/// Converts requests, in the scene's units, to changes of the computed model.
 class LoadChanges final : public Steering {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive the object.
   LoadChanges(Model& model, const RunSpec& run, const EngineRow& engine, const Method& method)
       : model_(model), run_(run), engine_(engine), method_(method) {}
 
   void set_load(const std::string& name, const History& history) override;
 
-  /// The present instant, machine's time.
+  /// Sets the current time, in the units of the computation.
   void at(double t) { t_ = t; }
-  /// Whether anything is changed, and whether a value jumps.
+  /// Flags: a load has changed; a value jumps.
   struct Change {
     bool any = false, jump = false;
   };
-  /// What was asked for since the last call is in force now.
+  /// Puts the requests since the last call in force.
   void apply() { change_ = std::exchange(asked_, {}); }
-  /// In force at the present instant.
+  /// Change at the current instant.
   [[nodiscard]] const Change& change() const { return change_; }
 
  private:

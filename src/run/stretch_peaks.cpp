@@ -6,13 +6,13 @@
 namespace signorini {
 namespace {
 
-constexpr int halvings = 40;  // of the distance of two points: 1e-12 of the part, of which p sees the square
+constexpr int halvings = 40;  // of the distance of two points: 1e-12 of the part, and p depends on its square
 
 ValueBounds bounds_of(const Chebyshev::Values& values, std::size_t stride, bool between) {
   return between ? between_points(values, stride) : at_points(values, stride);
 }
 
-/// At one time: where p is greatest, its value and its rate there.
+/// Largest value of p at one time, and its rate.
 struct Crest {
   double value = 0.0, rate = 0.0;
 };
@@ -39,7 +39,7 @@ class Crests {
   double sign_;
 };
 
-/// Both tangents meet there, or further up than either end.
+/// Value at which both tangents meet, at least the values at the ends: an upper bound.
 double greatest_below_tangents(const Crest& a, const Crest& b, double width) {
   const double to = (b.value - a.value - b.rate * width) / (a.rate - b.rate);
   return std::max({a.value, b.value, a.value + a.rate * std::clamp(to, 0.0, width)});

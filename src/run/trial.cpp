@@ -15,13 +15,13 @@
 namespace signorini {
 namespace {
 
-constexpr double longest_first = 2.0;  // s, that a trial may take before it can be stopped; chosen
+constexpr double longest_first = 2.0;  // s, limit for the time before a trial can be stopped; chosen
 constexpr double times_as_long = 4.0,
-                 long_run = 5.0;  // times, s; chosen: below, nobody gains by another engine
+                 long_run = 5.0;  // ratio, and s; chosen: below, another engine is no advantage
 
-constexpr double least_steps = 10.0;  // of the rule's length, that a trial must get on; chosen
+constexpr double least_steps = 10.0;  // in steps of the rule: least progress of a trial; chosen
 
-/// Ends the run when its time is over. It keeps no motion: what a trial takes of memory adds to that of the run.
+/// Ends the run after a given time. It stores no motion: memory of a trial is needed in addition to that of the run.
 class Stopwatch : public Recorder {
  public:
   explicit Stopwatch(double patience) : patience_(patience) {}
@@ -64,7 +64,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double p
   run.engine = engine;
   run.certify = Certify::no;
   try {
-    // What cannot be stopped for long is not begun.
+    // A trial that cannot be stopped for a long time is not started.
     const Effort effort = expected(model, run).effort;
     if (effort.first > longest_first) return effort.seconds;
     Stopwatch watch(patience);
@@ -72,7 +72,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double p
     if (report.outcome.kind == Outcome::Kind::done) return watch.now();
     if (report.outcome.kind != Outcome::Kind::interrupted) return 0.0;
     const double moved = watch.t_reached - watch.t_1;
-    // Of the small steps of a start alone, which nothing follows from: by the rule.
+    // Small steps at the start alone give no estimate: use the rule.
     if (effort.steps > 0.0 && moved < least_steps * run.t_end / effort.steps) return effort.seconds;
     return seconds_of_all(run.t_end, {watch.t_1, watch.s_1}, {watch.t_reached, watch.s});
   } catch (const SceneError&) {
@@ -98,7 +98,7 @@ std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
     try {
       add(build_model(reduced), cutoff);
     } catch (const SceneError&) {
-      continue;  // parts that it has no modes of
+      continue;  // no modes can be computed for its parts
     }
   }
   return list;

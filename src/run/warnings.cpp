@@ -16,12 +16,12 @@
 namespace signorini {
 namespace {
 
-// rad of a load's oscillation in a step: the impulse of a half wave is off by its square over 12, a twelfth.
+// rad of a load's oscillation in a step: the impulse of a half wave is off by the square divided by 12, a twelfth.
 constexpr double most_turned = 1.0;
-constexpr double much_energy = 1e-3;   // of what is exchanged, that the balance may miss without a word
-constexpr double least_energy = 1e-9;  // of the scene's scales, or of what is stored: at rest nothing is
-                                       // exchanged but rounding
-constexpr int most_of_a_kind = 5;      // warnings of a run
+constexpr double much_energy = 1e-3;   // fraction of the exchanged energy: a larger error is reported
+constexpr double least_energy = 1e-9;  // of the scene's scales, or of the stored energy: at rest only
+                                       // rounding is exchanged
+constexpr int most_of_a_kind = 5;      // limit for the warnings of one kind in a run
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     const double asked = c.initial_shear, found = start.after[k].T;
-    // The limit fs |N|, N = kn g, is known to the rounding of the terms of g: a start with friction ends at it.
+    // The limit fs |N|, N = kn g, has the rounding of the terms of g: a start with friction ends at it.
     const double limit = c.normal_spring() ? static_friction(c) * c.normal_stiffness *
                                                  (std::abs(c.gap) + c.normal.magnitude(model.u0))
                                            : std::abs(asked);
@@ -86,7 +86,7 @@ std::optional<std::string> shared_motion(const Model& model, const Decision& dec
         if (const std::string& name = model.contacts[model.layout.contact_of(shared.rows[i])].name;
             has_share(shared.null, static_cast<Eigen::Index>(i)) && (names.empty() || names.back() != name))
           names.push_back(name);
-  // At its limit, and the guard of its slip is asleep: others hold it.
+  // Slip at the limit without a guard of the slip rate: other contacts hold the contact.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     bool asleep = slip_sign(decision.mode[c].state) != 0 && model.contacts[c].sticks_rigidly();
     for (std::size_t i = 0; i < guards_per_contact; ++i)

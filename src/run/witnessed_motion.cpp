@@ -9,13 +9,13 @@
 namespace signorini {
 namespace {
 
-// Modes of a state are used where they give back a motion to 1e-12 of its size (src/engine/exact/modal): over what
-// sums of other kinds are known to.
+// Modes of a state are used if they reproduce a motion to 1e-12 of its size (src/engine/exact/modal), relative to the
+// rounding of other sums.
 constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::of_elimination;
 
 }  // namespace
 
-// A sum over modes starts a flight at g = 0 and does not see it return where it is lower than the sum's rounding.
+// A sum over modes starts a flight at g = 0 and does not detect its return if it is lower than the rounding of the sum.
 WitnessedEngine witnessed_engine(const RunSpec& run, const Tolerance& tolerance, const std::string& flow,
                                  bool low_flights) {
   WitnessedEngine engine;
@@ -120,10 +120,10 @@ Driven WitnessedMotion::driven_at(std::size_t k, const Forcing& forcing, double 
 void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const {
   side.layout = model_.layout;
   for (std::size_t turns : {0U, 1U}) {
-    // From one instant to the next it goes as far as the scene's displacements, though it be at rest at both.
+    // Between two instants the motion may reach the scene's displacements, even if it is at rest at both.
     const double own = turns ? model_.scales.rotation : model_.scales.displacement;
     side.u_reach[turns] = std::max({own, u_reach_[turns], dependence * of_round_trip * u_modal_[turns]});
-    // What is at rest on a surface that begins to move has the rounding of that motion: A cos(w t - pi/2) at t = 0.
+    // A body at rest on a surface that starts to move has the rounding of that motion: A cos(w t - pi/2) at t = 0.
     const double given = rounding::of_few / rounding::of_elimination *
                          (turns ? model_.scales.angular_velocity : model_.scales.velocity);
     side.v_reach[turns] = std::max({given, v_reach_[turns], dependence * of_round_trip * v_modal_[turns]});
@@ -163,7 +163,7 @@ void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vecto
   const std::array<double, 2> by_energy = witness.modal_size(std::sqrt(energy_));
   const double period = model_.omega1 > 0.0 ? 1.0 / model_.omega1 : 0.0;
   for (std::size_t turns : {0U, 1U}) {
-    // In a sum over modes displacements are amplitudes times sines, and these are v/omega.
+    // In a sum over modes, displacements are amplitudes times sines, and the amplitudes are v/omega.
     u_modal_[turns] =
         std::max({u_modal_[turns], of_u[turns], period * by_energy[turns], period * of_v[turns]});
     v_modal_[turns] = std::max({v_modal_[turns], of_v[turns], by_energy[turns]});

@@ -1,9 +1,9 @@
-// zero_since.hpp: since when guards are zero to their rounding.
+// zero_since.hpp: times since when guards are zero up to rounding.
 //
-//   since_k = when the forcing last changed its formula while guard k and all derivatives that are known were zero
+//   since_k = last change of the forcing's formula at which guard k and all its known derivatives were zero
 //
-// A guard that rises or falls with a high power of time is below its rounding for long: an event whose guard was
-// never seen above it may have happened at any time since then.
+// A guard that changes with a high power of time stays below its rounding for a long time: if a guard was never
+// observed above it, its event may have happened at any time since then.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@ namespace signorini {
 
 class ZeroSince {
  public:
-  /// What goes on from t. changed: the forcing is another one from here on.
+  /// Updates the times after a decision at t. changed: the forcing has another formula from here on.
   void decided(double t, const Decision& decision, bool changed) {
     since_.resize(decision.guards.size(), none);
     for (std::size_t slot = 0; slot < since_.size(); ++slot) {
@@ -30,7 +30,7 @@ class ZeroSince {
     for (std::size_t slot = 0; slot < kinds_.size(); ++slot) kinds_[slot] = decision.guards[slot].kind;
   }
 
-  /// For how long the guards that fell at t had been zero, one a contact; empty: none had.
+  /// Time for which the guards triggered at t had been zero, one entry per contact; empty: none had.
   [[nodiscard]] std::vector<double> before(double t, const std::vector<Fired>& fired) const {
     std::vector<double> result;
     for (const Fired& f : fired)
@@ -45,8 +45,8 @@ class ZeroSince {
 
  private:
   static constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> since_;  // one a slot
-  std::vector<Guard> kinds_;   // that it is of
+  std::vector<double> since_;  // one entry per guard slot
+  std::vector<Guard> kinds_;   // guard kind of each slot
 };
 
 }  // namespace signorini

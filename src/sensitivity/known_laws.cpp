@@ -25,8 +25,8 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
     if (what != nullptr)
       throw SceneError(scene.contacts[k].place,
                        scene.contacts[k].key(remembers || multiplies || c.compliance_split() ? "law"
-                                             : c.curved_surface()              ? "radius"
-                                                                               : "friction"),
+                                             : c.curved_surface()                            ? "radius"
+                                                                                             : "friction"),
                        fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));
   }
 }

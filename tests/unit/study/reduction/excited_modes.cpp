@@ -52,7 +52,9 @@ history = { type = "rectangle", start = 0.1, end = 0.2 }
 
 TEST_SUITE_BEGIN("unit/study/reduction/excited_modes");
 
-TEST_CASE("static answers to contacts and loads are those of all modes left out, and so is the first term after them") {
+TEST_CASE(
+    "static answers to contacts and loads are those of all modes left out, and so is the first term after "
+    "them") {
   const Model model = build_model(parse_scene(beam, "beam.toml"));
   const Eigen::MatrixXd none = null_motions(model.stiffness);
   const KeptModes all = modes_up_to(std::numeric_limits<double>::max(), model.mass, model.stiffness, none);

@@ -1,11 +1,11 @@
-// dense_output.hpp: the motion on the last step of an engine, and what can be asked of it.
+// dense_output.hpp: the motion on the last step of an engine, and the queries that an engine answers about it.
 //
 //   u(t), v(t), forces(t)   begin <= t <= end       evaluate, evaluate_watched, interpolate; accelerate adds a(t)
 //   int powers dt                                   integrate
 //   |M a + C v + K u + n N + t T - P|               residual, at the end
 //
-// Facts about the step as a whole (where something turns, its series, how fast it turns, its fast modes) are one
-// struct, StepFacts. An engine fills it when it is asked for; what it points to lives until the engine's next step.
+// Facts about the step as a whole (turning points, series, angle per step, fast modes) are in one struct, StepFacts. An
+// engine fills it on request; pointers in it are valid until the engine's next step.
 #pragma once
 
 #include <limits>
@@ -21,54 +21,57 @@ namespace signorini {
 
 /// The motion on the last step as a series: its end is at t + scale x.
 struct Expansion {
-  const Series* series = nullptr;  ///< null: the engine knows none
-  std::size_t degree = 0;          ///< up to which u, v, a and forces are complete
+  const Series* series = nullptr;  ///< null: the engine has no series
+  std::size_t degree = 0;          ///< u, v, a and forces are complete up to this degree
   double x = 0.0;
-  const ModeSystem* system = nullptr;  ///< with friction at the slip rates where the series begins
+  const ModeSystem* system = nullptr;  ///< contains friction at the slip rates at the beginning of the series
 };
 
-/// Bounds on the fast part of the last step, where an engine follows modes.
+/// Bounds on the fast part of the last step; only engines that follow modes provide them.
 class FastModes {
  public:
   virtual ~FastModes() = default;
-  /// Bounds on all that turns faster than omega, rad per time. nullopt: not known, or something does that does not swing.
+  /// Bounds on the sum of all modes faster than omega, rad per time. nullopt: no bound is known, or a part of the
+  /// motion that is faster does not oscillate.
   [[nodiscard]] virtual std::optional<Ripple> fast_mode_bound(double omega) const = 0;
-  /// The sizes of the terms that u, v, a and forces of the step are sums of, fast modes or not. Rounding is relative to
-  /// that.
+  /// Sizes of the terms whose sums are u, v, a and forces of the step, fast modes included. Rounding errors are
+  /// relative to these sizes.
   [[nodiscard]] virtual Ripple term_sizes() const = 0;
-  /// The greatest form . u of all u with |u|_M = 1.
+  /// Greatest value of form . u over all u with |u|_M = 1.
   [[nodiscard]] virtual double form_norm(const Combination& form) const = 0;
 };
 
 struct StepFacts {
-  /// Times inside the step where N, T, g or ut of a contact turns beyond all its values before, ascending.
+  /// Times inside the step at which N, T, g or ut of a contact turns beyond all its earlier values, ascending.
   std::span<const double> turning_points = {};
-  /// Whose turns they are, in no order. Null: evaluate_watched() of all contacts costs no more than of one.
+  /// Contact and quantity of each turning point, unordered. Null: evaluate_watched() of all contacts costs no more than
+  /// of one contact.
   const std::vector<TurningPoints::Turn>* contact_turns = nullptr;
   Expansion expansion = {};
-  /// By how much roundings of sums over modes are greater than where these are orthogonal: greatest |x| |y| of the modes
-  /// that the step was followed in, y . x = 1; or more, where their terms are greater than the motion and cancel.
-  /// 1: it was followed in none.
+  /// Factor by which the rounding of sums over modes exceeds that of orthogonal modes: greatest |x| |y| of the modes
+  /// that the step was followed in, y . x = 1; larger if their terms exceed the motion and cancel. 1: the step was not
+  /// followed in modes.
   double eigenvector_condition = 1.0;
-  /// By how many radians u, v, a and forces turn at most, forcing aside: polynomials of degree n by n pi. Infinite: the
-  /// frequencies of the model are the bound.
+  /// Greatest angle by which u, v, a and forces turn on the step, forcing aside; n pi for polynomials of degree n.
+  /// Infinite: the frequencies of the model are the bound. Unit: rad.
   double radians = std::numeric_limits<double>::infinity();
-  const FastModes* fast_modes = nullptr;  ///< null: the engine knows no modes of the model
+  const FastModes* fast_modes = nullptr;  ///< null: the engine has no modes of the model
 };
 
 class DenseOutput {
  public:
   virtual ~DenseOutput() = default;
-  /// u, v and forces at begin <= t <= end.
+  /// Evaluates u, v and forces at begin <= t <= end.
   virtual void evaluate(double t, Point& point) = 0;
-  /// The same of the entries of u and v that are watched, those of contacts and EngineParts::watched; others may be no
-  /// numbers. contact: no more than this one touches, where StepFacts::contact_turns names any.
+  /// Evaluates only the watched entries of u and v (those of contacts and EngineParts::watched); other entries may be
+  /// NaN. contact: evaluates at most this contact's entries, provided that StepFacts::contact_turns is not null.
   virtual void evaluate_watched(double t, std::optional<std::size_t> /*contact*/, Point& point) {
     evaluate(t, point);
   }
-  /// Puts accelerations into a point that was evaluated at t, where they are missing.
+  /// Adds accelerations, if missing, to a point that was evaluated at t.
   virtual void accelerate(double /*t*/, Point& /*point*/) {}
-  /// evaluate and accelerate, but as cheap as the engine has it: of fixed steps between their ends.
+  /// Same as evaluate and accelerate, in the engine's cheapest form: engines with fixed steps interpolate between the
+  /// ends of the step.
   virtual void interpolate(double t, Point& point) {
     evaluate(t, point);
     accelerate(t, point);

@@ -1,9 +1,9 @@
-// stepper.hpp: what an engine does: advance the motion in one mode to its first event.
+// stepper.hpp: interface of an engine: it advances the motion in one contact state to the first event.
 //
 //   start(segment) -> advance() -> advance() ... -> an event or segment.end -> start(next segment)
 //
-// The loop (run/loop.hpp) decides, applies and notifies; a stepper advances and finds the instant at which the first
-// guard falls. The motion on its last step is its dense output (engine/dense_output.hpp).
+// The loop (run/loop.hpp) decides states, applies impacts and notifies listeners; a stepper advances and finds the time
+// at which the first guard reaches zero. Its dense output gives the motion on the last step (engine/dense_output.hpp).
 #pragma once
 
 #include <optional>
@@ -22,25 +22,25 @@ struct Segment {
   double end = 0.0;
   const Decision* decision = nullptr;  ///< state, mode, jet and guards at the beginning
   const Forcing* forcing = nullptr;
-  bool same_forcing = false;  ///< it is that of the stretch before, which ended here
+  bool same_forcing = false;  ///< the forcing equals that of the previous segment, which ended here
 };
 
 struct Step {
   enum class Kind { accepted, event, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;  ///< end: of the accepted step, or the instant of the event
-  double resolution = 0.0;        ///< times closer than this are one instant
+  double resolution = 0.0;        ///< times closer than this are the same instant
   std::vector<Fired> fired;       ///< Kind::event
-  std::optional<Mode> adopted;    ///< Kind::event: states that the engine found itself, instead of `fired`
+  std::optional<Mode> adopted;    ///< Kind::event: states found by the engine, instead of `fired`
   std::string reason;             ///< Kind::failed
 };
 
-/// What an engine knows at the end of a run. Its times and gaps: in the units of the model.
+/// Results that an engine reports at the end of a run. Times and gaps are in model units.
 struct StepperReport {
   Counters counters;
   std::vector<std::string> warnings;
-  /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
+  /// First guard that returned into its tolerance and left it without reaching zero; only some engines detect this.
   std::optional<Graze> graze;
-  /// Gaps that came near to zero and opened again, where the engine looks for them.
+  /// Gaps that approached zero and opened again; only some engines detect this.
   std::vector<NearHit> near_hits;
 };
 
@@ -51,18 +51,18 @@ class Stepper {
   [[nodiscard]] virtual Step advance() = 0;
   /// The motion on the last step.
   [[nodiscard]] virtual DenseOutput& dense_output() = 0;
-  /// How far off a guard's value may be, from one step's errors. Unit: that of the guard.
+  /// Possible error of a guard's value due to the errors of one step. Unit: that of the guard.
   [[nodiscard]] virtual double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
-  /// Puts the energy of the structure into a point that a decision has made, where the engine knows it better.
+  /// Writes the energy of the structure into a point made by a decision, if the engine knows it more accurately.
   virtual void set_energy(Point& /*point*/) const {}
-  /// Once, after the last step.
+  /// Called once, after the last step.
   [[nodiscard]] virtual StepperReport report() { return {counters, warnings, {}, {}}; }
 
-  Counters counters;                  ///< so far; complete in the report
-  std::vector<std::string> warnings;  ///< of the run so far
-  /// Whether a flight that begins with g = 0 and stays lower than the rounding of its gap is known: to a series. Else its
-  /// landing is as late as that rounding makes it, and it lands faster than it left.
+  Counters counters;                  ///< counts so far; complete in the report
+  std::vector<std::string> warnings;  ///< warnings of the run so far
+  /// True if the engine resolves a flight that begins with g = 0 and stays lower than the rounding of its gap, as a
+  /// series does. Otherwise that rounding delays the landing, and the contact lands faster than it left.
   bool knows_low_flights = false;
 };
 

@@ -21,7 +21,7 @@ double tolerance(const Form& form, const ContactMotion& m, const Tolerance& t) {
   const auto part = [&](double factor, double value, double atol) {
     return factor == 0.0 ? 0.0 : std::abs(factor) * (t.rtol * std::abs(value) + atol);
   };
-  // F' = dF/dN kn g', of which g' is known to its tolerance; a slider's N is given.
+  // F' = dF/dN kn g', where g' has the tolerance of velocities; N of a slider is given.
   const double of_limit_rate = m.vn == 0.0 ? 0.0 : std::abs(m.limit_rate / m.vn) * t.velocity;
   return part(form.N, m.N, t.force) + part(form.T, m.T, t.force) + part(form.gap, m.gap, t.displacement) +
          part(form.ut, m.ut, t.displacement) + part(form.vn, m.vn, t.velocity) +

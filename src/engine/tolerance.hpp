@@ -8,13 +8,13 @@
 
 namespace signorini {
 
-/// All but rtol are absolute, in the units of the scene; angles in radians.
+/// All tolerances except rtol are absolute, in the units of the scene; angles in radians.
 struct Tolerance {
   double rtol = 0.0;
   double displacement = 0.0, rotation = 0.0, velocity = 0.0, angular_velocity = 0.0;
   double force = 0.0;
 
-  /// Rebounds of rigid contacts that have no capture_velocity of their own are rest below this.
+  /// Rigid contacts without a capture_velocity come to rest if their rebound is slower than this.
   [[nodiscard]] double capture_velocity() const { return velocity; }
 };
 

@@ -18,21 +18,22 @@ namespace signorini {
 namespace {
 
 constexpr int fewest_levels = 12, more_levels = 3;
-constexpr double least_share = 1e-6;    // of the greatest motion, down to which each one keeps its digits
-constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
+constexpr double least_share = 1e-6;    // of the greatest motion; above it each one keeps its digits
+constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a growing load
 constexpr double flights_a_step = 3.0;
-constexpr double longer = 1.5, much_longer = 4.0;  // than the step before
-constexpr double least_step = 1.0 / longer;        // of those by chance: then steps still grow
-// With events at random, tau apart, a step h finds one with 1 - exp(-h/tau), and takes 14 levels for half a radian, 18 for
-// one, 30 for four: least work an event is at 2 tau. Below `shortest_turn` rad a step takes 12 levels in any case.
+constexpr double longer = 1.5, much_longer = 4.0;  // than the previous step
+constexpr double least_step = 1.0 / longer;        // lower limit of a random share: steps can still grow
+// With random events, tau apart on average, a step h contains one with the probability 1 - exp(-h/tau), and takes 14
+// levels for half a radian, 18 for one, 30 for four: the least work for an event is at 2 tau. Below `shortest_turn` rad
+// a step takes 12 levels in any case.
 constexpr double times_pace = 2.0, shortest_turn = 0.3;
-// Where a series outlives its events it holds some of them, but no more rad than its levels are worth to all that goes on.
+// A series that outlives its events contains some of them, limited to an angle at which its levels still save time.
 constexpr double events_a_series = 12.0, longest_turn = 2.0;
-constexpr double least_left = 0.5;      // of what is left of a series, for which a part of it is made anew
+constexpr double least_left = 0.5;      // part of the remaining series, from which on a local update is made
 constexpr double fresh = 0.25;          // weight of the last time between events among those before; chosen
 constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
-constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
-constexpr int most_touches = 5;                   // warnings about one and the same thing
+constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
+constexpr int most_touches = 5;                   // warnings of the same kind
 constexpr char overflow[] = "the motion leaves the range of numbers";
 
 }  // namespace
@@ -77,13 +78,13 @@ void ExactEngine::start(const Segment& segment) {
   ++counters.restarts;
 }
 
-/// Does the motion begin where the last step has ended within its series?
+/// True if the motion begins at the end of the last step, within its series.
 bool ExactEngine::goes_on(const Decision& decision, bool same_forcing) const {
   return beside_ && beside_->possible() && same_forcing && decision.jet.t == t_ && end_x_ < reach_ &&
          decision.u == end_.u && decision.v == end_.v;
 }
 
-/// The series of the last step, with what the event has changed. False: it is to be made anew.
+/// Continues the series of the last step with the changes by the event. False: the series must be made anew.
 bool ExactEngine::go_on(const Mode& before) {
   std::vector<std::size_t> changed;
   for (std::size_t c = 0; c < mode_.size(); ++c)
@@ -131,25 +132,27 @@ double ExactEngine::paced_length() const {
   return std::max(times_pace * pace_, shortest);
 }
 
-/// Of the length that a step could have. Steps of one length multiply the motion by one matrix, whose entries have the same
-/// roundings each time: N steps grow or damp a swing by N times one rounding, and turn it as much. Whoever takes the same
-/// lengths has the same error. Lengths by chance draw another rounding each step, and N of these add up to sqrt(N). The first
-/// step of a segment keeps its length, since no other like it follows: where a guard leaves zero below rounding the event of
-/// that step is as uncertain as it says, and no later one.
+/// Random share of the possible length of a step; 1 without a step_seed. Steps of equal length multiply the motion by
+/// the same matrix, whose entries have the same rounding each time: N steps change the amplitude and phase of an
+/// oscillation by N times one rounding, and every run with the same lengths has the same error. With random lengths the
+/// rounding differs in each step, and N of them add up to sqrt(N). The first step of a segment keeps its length, since
+/// no step repeats it: if a guard leaves zero below rounding, the event of that step is as uncertain as reported, and
+/// no later one.
 double ExactEngine::share_of_step() {
   if (!chance_ || t_ == begun_) return 1.0;
   return std::uniform_real_distribution<double>(least_step, 1.0)(*chance_);
 }
 
-/// A few times the shortest flight that lies ahead, 0: none does. What rounding makes of a
-/// gap grows with the whole step's motion, and must stay small beside the flight's height.
+/// A few times the shortest flight ahead; 0: none. The rounding of a gap grows with the motion of the whole step, and
+/// must stay small beside the flight's height.
 double ExactEngine::few_flights() const {
   const Decision& decision = *segment_.decision;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < decision.mode.size(); ++c) {
     const ContactMotion& m = decision.after[c];
     if (!model_.contacts[c].takes_impulses() || !decision.mode[c].is_open() || !(m.an < 0.0)) continue;
-    // What leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight made of it.
+    // A contact that leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight computed
+    // from it.
     const GuardStart& closing = decision.guards[guard_slot(c, 0)];
     if (closing.leading < 0 || closing.leading > 1) continue;
     const double height = std::max(m.gap, 0.0);
@@ -185,8 +188,8 @@ void ExactEngine::measure(std::size_t first, std::size_t last) {
   }
 }
 
-/// Do the coefficients 0 .. last make a series that stands up to x when cut after `degree_`: what follows
-/// below rounding, no term much greater than the first ones that are not zero?
+/// True if the coefficients 0 .. last form a series that is valid up to x when cut after `degree_`: the remainder is
+/// below rounding, and no term is much greater than the first nonzero ones.
 bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
   double first = 0.0, power = 1.0;
   std::size_t begin = last + 1;
@@ -205,7 +208,7 @@ bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
   return true;
 }
 
-/// A motion's series and those of all that drives it: with a block that sticks, T follows its load alone.
+/// Checks the series of the motion and of its forcing: in a block that sticks, T follows its load alone.
 bool ExactEngine::stands(const std::vector<double>& sizes, const ForcingSeries& f, double x) const {
   if (!stands(sizes.data(), degree_ + 2, x)) return false;
   for (const std::vector<double>* rows : {&f.loads, &f.pressing, &f.surface})
@@ -214,8 +217,8 @@ bool ExactEngine::stands(const std::vector<double>& sizes, const ForcingSeries& 
   return true;
 }
 
-/// Expands to as many levels as a step of the given scale needs, all at most; returns the part of it that
-/// the series then reaches.
+/// Expands to the number of levels that a step of the given scale needs, limited by most_levels; returns the part of
+/// the step that the series reaches.
 double ExactEngine::expand(double scale) {
   Series& series = motion_.whole;
   const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
@@ -239,7 +242,7 @@ double ExactEngine::expand(double scale) {
   return x;
 }
 
-/// Bound on what the polynomial of a form leaves out on [0, x]; rest: of the displacements, in norm_.
+/// Bound on the remainder of a form's polynomial on [0, x]; rest: that of the displacements, in norm_.
 double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double rest) const {
   const Contact& contact = model_.contacts[c];
   const double rate = static_cast<double>(degree_ + 3) / (motion_.whole.scale * x);
@@ -275,7 +278,7 @@ double ExactEngine::drift_of(const GuardStart& guard, double x) const {
   return guard.drift(t_ + x * motion_.whole.scale - segment_.decision->jet.t);
 }
 
-/// On what is left of the series; x: 1 there.
+/// First zero crossing on the remaining series; x: 1 at its end.
 FirstFall ExactEngine::fall_of(std::size_t slot) {
   const GuardStart& guard = segment_.decision->guards[slot];
   const std::size_t c = contact_of_guard(slot);
@@ -285,7 +288,7 @@ FirstFall ExactEngine::fall_of(std::size_t slot) {
       contact.expand(form, reach_ - contact.origin(), most_fall_degree, guard_.data());
   const double from = begin_x_ - contact.origin(), x = reach_ - begin_x_;
   double power = 1.0, terms = products;
-  if (from > 0.0) {  // terms about the origin bound those about where the step begins
+  if (from > 0.0) {  // terms about the origin bound those about the step's beginning
     for (std::size_t k = 0; k <= degree; ++k, power *= reach_ - contact.origin())
       terms += std::abs(guard_[k]) * power;
     shift(guard_.data(), degree, from);
@@ -301,7 +304,7 @@ FirstFall ExactEngine::fall_of(std::size_t slot) {
   const double slack =
       rest_of(form, c, reached_[c].x, reached_[c].rest) + cut + rounding + rounding_of_guard * guard.noise;
   if (arming_.armed(slot)) return first_fall(guard_.data(), degree, slack);
-  if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found what is below to be zero
+  if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found the lower orders to be zero
     return first_fall(guard_.data() + m, degree - m, rounding::of_few * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack + drift_of(guard, x);
   return first_fall(guard_.data(), degree, 0.0);
@@ -315,7 +318,7 @@ Step ExactEngine::failed(std::string reason) {
   return step_;
 }
 
-/// Why no step of this length can be made from here; empty: one can.
+/// Reason why no step of this length can be made from here; empty: none.
 std::string ExactEngine::hindrance(double scale) const {
   if (growth_now_ * resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
@@ -326,8 +329,8 @@ std::string ExactEngine::hindrance(double scale) const {
   return {};
 }
 
-/// Bound on what all displacements leave out on [0, x], in norm_: from |x_k| on the series is below a
-/// geometric one with ratio 1/2.
+/// Bound on the remainder of all displacements on [0, x], in norm_: from |x_k| on the series is below a geometric one
+/// with ratio 1/2.
 double ExactEngine::rest_of_series(double x) {
   double rest = 0.0;
   for (int k = 1; k <= 2; ++k) {
@@ -338,7 +341,7 @@ double ExactEngine::rest_of_series(double x) {
   return rest;
 }
 
-/// The same, of a part that is made anew; the rest is bounded elsewhere.
+/// Same for a locally updated part; the rest of the structure is bounded elsewhere.
 double ExactEngine::rest_near(const NearSeries::Made& near, double x) {
   double rest = 0.0;
   near_column_.setZero(model_.size());
@@ -350,7 +353,7 @@ double ExactEngine::rest_near(const NearSeries::Made& near, double x) {
   return rest;
 }
 
-/// How far a part that is made anew stands, x at most: as the whole does in weigh(), measure() and expand().
+/// Validity of a locally updated part, x at most: by the criteria of weigh(), measure() and expand() for the whole.
 double ExactEngine::reach_near(const NearSeries::Made& near, double x) {
   const std::vector<int>& dofs = near.where->dofs;
   const Eigen::MatrixXd& u = near.series->u;
@@ -377,7 +380,7 @@ ExactEngine::Earliest ExactEngine::earliest_fall() {
   for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
     if (arming_.idle(slot)) continue;
     Fall& known = falls_[slot];
-    // Another decision has said of what fell before that it does not.
+    // A later decision has excluded the crossing found before.
     const bool past = known.kind != FirstFall::Kind::none && known.at <= begin_x_;
     if (!known.stands || !arming_.armed(slot) || past) {
       const FirstFall fall = fall_of(slot);
@@ -396,7 +399,7 @@ ExactEngine::Earliest ExactEngine::earliest_fall() {
     Fall& known = falls_[slot];
     if (known.kind != FirstFall::Kind::touch || arming_.idle(slot) || !(known.at < first.at)) continue;
     if (arming_.armed(slot)) warn_of_touch(slot, motion_.whole.t + known.at * motion_.whole.scale);
-    known.kind = FirstFall::Kind::none;  // it is said
+    known.kind = FirstFall::Kind::none;  // the warning has been issued
   }
   return first;
 }
@@ -413,7 +416,7 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
     warnings.emplace_back("more guards touch zero; these are not listed");
 }
 
-/// Guards that were zero when the segment began, at the end of a step without a fall.
+/// Updates guards that were zero when the segment began, at the end of a step without an event.
 void ExactEngine::see_unarmed(double x) {
   for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
     if (arming_.idle(slot) || arming_.armed(slot)) continue;
@@ -426,7 +429,7 @@ void ExactEngine::see_unarmed(double x) {
   }
 }
 
-/// The series from here on, of the whole structure.
+/// Begins the series of the whole structure here.
 void ExactEngine::begin_series(double scale) {
   double x = expand(scale);
   paced_ = paced_ && x == 1.0;
@@ -468,9 +471,9 @@ Step ExactEngine::advance() {
   step_.resolution = resolution_at(end, end - t_);
   turns_.find(motion_.contacts(), motion_.whole, begin_x_, x);
   end_x_ = x;
-  motion_.evaluate_at(x, end_);  // sharper than at the rounded time
+  motion_.evaluate_at(x, end_);  // more accurate than at the rounded time
   t_ = end;
-  // Roundoff in g'' adds up twice over a long phase.
+  // Rounding in g'' is integrated twice over a long contact phase.
   if (!beside_) hold(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
   return step_;
 }

@@ -36,7 +36,7 @@ double FlowGrowth::of(const ModeSystemPtr& system) {
   return nearest_;
 }
 
-/// What a contact adds at most to the square of the growth, by closing, sticking or slipping.
+/// Upper limit of a contact's contribution to the square of the growth, by closing, sticking or slipping.
 double FlowGrowth::stiffening(const ModeSystem& system, std::size_t c) {
   double& known = stiffenings_[c];
   if (known >= 0.0) return known;
@@ -54,7 +54,7 @@ double FlowGrowth::stiffening(const ModeSystem& system, std::size_t c) {
   return known = kn * (n + friction * t) * norm_.normal(c) + kt * t * norm_.tangent(c);
 }
 
-/// The growth of states that differ from the nearest known ones in few soft contacts. Nothing: in more than that.
+/// Growth of states that differ from the nearest known ones in few soft contacts. nullopt: they differ in too many.
 std::optional<double> FlowGrowth::beside(const ModeSystem& system) {
   if (near_.empty() || !system.factorised().by_mass) return std::nullopt;
   stiffenings_.resize(near_.size(), -1.0);
@@ -63,7 +63,7 @@ std::optional<double> FlowGrowth::beside(const ModeSystem& system) {
   for (std::size_t c = 0; c < near_.size(); ++c) {
     if (system.mode()[c].state == near_[c]) continue;
     const Contact& contact = model_.contacts[c];
-    // Rows on accelerations, dashpots and forces that are no product of these stiffnesses change the growth otherwise.
+    // Rows on accelerations, dashpots and forces without constant stiffness change the growth in other ways.
     if (contact.normal_damping > 0.0 || !contact.has_constant_stiffness() || contact.takes_impulses() ||
         contact.sticks_rigidly() || contact.friction.varies())
       return std::nullopt;

@@ -1,11 +1,11 @@
-// flow_growth.hpp: how fast the motion of a contact state grows or swings.
+// flow_growth.hpp: the growth rate of the motion in a contact state.
 //
 //   |x_(k+1)| <= W s/(k+1) |x_k|      of a Taylor series of scale s, k large, in the norm of flow_norm.hpp
 //
-// W of a state is found from twenty levels of a series. Of large structures most states differ from one that is known in
-// few soft contacts; in that norm these add at most
+// W of a state is found from twenty levels of a series. On large structures most states differ from a known one in few
+// soft contacts; in that norm these add at most
 //   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
-// and that is taken as long as it adds little.
+// and this bound is used as long as the sum is small.
 #pragma once
 
 #include "engine/exact/flow_norm.hpp"
@@ -13,18 +13,19 @@
 
 namespace signorini {
 
-/// Growths of modes are kept longer than their systems: one takes a series to find and 8 bytes to keep.
+/// Growth rates of states are kept longer than their systems: a rate takes a series to compute and 8 bytes to keep.
 inline constexpr CacheBounds most_growths{16384, std::size_t{1} << 20};
 
 class FlowGrowth {
  public:
-  static constexpr double margin = 1.25;  ///< on a growth that is computed from twenty powers of the flow
+  static constexpr double margin = 1.25;  ///< factor on a growth rate computed from twenty powers of the flow
 
-  /// scales: weights of the degrees of freedom that make motions alike, filled before it is asked. All but t_end must outlive it.
+  /// scales: weights that make the degrees of freedom comparable, filled before of() is called. All arguments except
+  /// t_end must outlive the object.
   FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, const std::vector<double>& scales,
              double t_end);
 
-  /// W, with its margin. Unit: 1/time.
+  /// W with its margin. Unit: 1/time.
   [[nodiscard]] double of(const ModeSystemPtr& system);
 
  private:
@@ -38,9 +39,9 @@ class FlowGrowth {
   const std::vector<double>& scales_;
   const double fastest_;  // bound on all rates of the structure, for scaling
   BoundedCache<std::vector<State>, double> known_{most_growths};
-  std::vector<State> near_;          // the last states whose growth was found from a series; empty: none
-  double nearest_ = 0.0;             // its
-  std::vector<double> stiffenings_;  // one a contact; negative: not known yet
+  std::vector<State> near_;          // last states whose growth was computed from a series; empty: none
+  double nearest_ = 0.0;             // growth of near_
+  std::vector<double> stiffenings_;  // one for each contact; negative: unknown
 };
 
 }  // namespace signorini

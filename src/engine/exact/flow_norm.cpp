@@ -13,7 +13,7 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   g_ = model.mass + damping / w + with_springs(model.stiffness, contact_springs(model.contacts)) / (w * w);
   SymmetricSolver solver(g_);
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) {
-    // A stiffness or damping that is not positive: the diagonal's magnitudes make a norm all the same.
+    // If a stiffness or damping is not positive, the magnitudes of the diagonal form a norm as well.
     std::vector<Eigen::Triplet<double>> diagonal;
     for (int i = 0; i < n; ++i) diagonal.emplace_back(i, i, std::max(std::abs(g_.coeff(i, i)), 1e-300));
     g_.setZero();

@@ -1,9 +1,9 @@
-// flow_norm.hpp: a norm for Taylor coefficients, in which the rest of a series is bounded.
+// flow_norm.hpp: a norm for Taylor coefficients that bounds the remainder of a series.
 //
 //   |x|^2 = x^T G x,   G = M + C / W + K_c / W^2,   W the highest circular frequency
 //   |n . x| <= sqrt(n^T G^-1 n) |x|
 //
-// K_c holds all contact springs, so that G is regular wherever the motion is decided.
+// K_c contains all contact springs, so that G is regular whenever the motion is determined.
 #pragma once
 
 #include "contact/mode.hpp"
@@ -16,7 +16,7 @@ class FlowNorm {
   explicit FlowNorm(const Model& model);
 
   [[nodiscard]] double of(const Eigen::Ref<const Vector>& x);
-  /// Of contact k: greatest |n . x| and |t . x| among |x| = 1.
+  /// Greatest |n . x| and |t . x| of contact k among |x| = 1.
   [[nodiscard]] double normal(std::size_t k) const { return normal_[k]; }
   [[nodiscard]] double tangent(std::size_t k) const { return tangent_[k]; }
 

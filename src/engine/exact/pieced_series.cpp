@@ -18,10 +18,11 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
 }
 
-/// Up to so many entries each sum is taken alone. Loops over so few entries cost more than their arithmetic.
+/// Up to this number of entries each sum is computed separately: loops over so few entries cost more than their
+/// arithmetic.
 constexpr std::size_t few = 4;
 
-/// sum_k a_k x^k, or of factors_k a_k, where the coefficients are `stride` apart.
+/// sum_k a_k x^k, or that of factors_k a_k; the coefficients are `stride` apart.
 double sum_at(double x, const double* a, std::size_t stride, std::size_t degree, const double* factors) {
   double sum = 0.0;
   for (std::size_t k = degree + 1; k-- > 0;) sum = sum * x + factors[k] * a[k * stride];

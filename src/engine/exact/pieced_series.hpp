@@ -1,10 +1,10 @@
-// pieced_series.hpp: the motion on a step as a series, parts of which begin later than the others.
+// pieced_series.hpp: the motion on a step as a series with locally updated parts, which have a later origin.
 //
 //   u_i(x) = sum_k u_ik (x - o_i)^k,    N and T likewise;    x = (t - t_0)/s
 //
-// A series is made of the whole structure about t_0, o = 0. Where an event changes the motion near some contacts, their part
-// is made anew about it (motion/near_series.hpp), and the rest goes on.
-// Shapes: n degrees of freedom, two forces a contact.
+// A series is made for the whole structure about t_0, o = 0. If an event changes the motion near some contacts, their
+// part is expanded anew about it (motion/near_series.hpp), and the rest stays valid. Shapes: n degrees of freedom, two
+// forces for each contact.
 #pragma once
 
 #include <array>
@@ -21,30 +21,30 @@ class PiecedSeries {
  public:
   explicit PiecedSeries(const Model& model);
 
-  /// Of the whole structure, to be made anew: its coefficients are its owner's until taken().
+  /// Series of the whole structure, filled by its owner, which keeps the coefficients until taken().
   Series whole;
-  /// `whole` has been made: u, v, a and forces are complete up to this degree, most_fall_degree at most.
+  /// `whole` has been filled: u, v, a and forces are complete up to this degree, most_fall_degree at most.
   void taken(std::size_t degree);
-  /// The part of it from x on, up to `reach` further.
+  /// Replaces a part of the series from x on, up to `reach` further.
   void take_over(const NearSeries::Made& near, double x, double reach);
-  /// Of all contacts, up to x from the origin: ContactSeries::bound_rates.
+  /// Bounds the rates of all contacts up to x from the origin: ContactSeries::bound_rates.
   void bound_rates(double x) {
     for (ContactSeries& contact : contacts_) contact.bound_rates(x);
   }
 
   [[nodiscard]] std::size_t degree() const { return degree_; }
   [[nodiscard]] const std::vector<ContactSeries>& contacts() const { return contacts_; }
-  /// o, one a degree of freedom. Empty: all are zero.
+  /// o for each degree of freedom. Empty: all are zero.
   [[nodiscard]] const std::vector<double>& origins() const { return origins_; }
 
-  /// The coefficients about x, whole.levels + 3 of a degree of freedom; whole.levels + 1 of a force.
+  /// The coefficients about x: whole.levels + 3 for a degree of freedom, whole.levels + 1 for a force.
   void displacement(int dof, double x, double* out) const;
   void force(std::size_t slot, double x, double* out) const;
 
-  /// All but accelerations, and all.
+  /// Evaluates all but accelerations; evaluate_at(): all.
   void place_at(double x, Point& point) const;
   void evaluate_at(double x, Point& point) const;
-  /// Of the degrees of freedom and forces of one contact, the same sums.
+  /// Evaluates the degrees of freedom and forces of one contact, by the same sums.
   void place_at(double x, std::size_t contact, Point& point) const;
 
  private:
@@ -56,7 +56,7 @@ class PiecedSeries {
   std::array<double, most_fall_degree + 1> to_rate_{}, to_acceleration_{};  // (k + 1)/s, (k + 1) (k + 2)/s^2
   std::vector<ContactSeries> contacts_;
   std::vector<double> origins_, force_origins_;      // empty: all are zero
-  mutable std::vector<double> of_dofs_, of_forces_;  // x - o; room
+  mutable std::vector<double> of_dofs_, of_forces_;  // x - o; scratch
 };
 
 }  // namespace signorini

@@ -10,10 +10,10 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t block = 16;  // degrees of freedom whose coefficients stay at hand for all times
+constexpr std::size_t block = 16;  // degrees of freedom whose coefficients stay in cache for all times
 
-/// Velocities of up to a block of them at some times; at: the places there, room for a block each; a: coefficients of order 0,
-/// those of the next one `stride` further.
+/// Velocities of up to one block of degrees of freedom at several times; at: the places there, with space for a block
+/// each; a: coefficients of order 0, those of the next order `stride` further.
 SIGNORINI_WIDE_LANES void velocities_of_block(const double* a, std::size_t stride, std::size_t degree,
                                               double scale, const double* at, std::size_t times, double* v) {
   constexpr std::size_t lanes = 4;
@@ -36,14 +36,14 @@ SeriesWorks::SeriesWorks(const Model& model, const Structure& structure)
       structure_(structure),
       damped_(std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; })) {}
 
-/// Each degree of freedom about its own origin.
+/// Expands each degree of freedom about its own origin.
 void SeriesWorks::velocities_of_pieces(const Nodes& x, std::size_t count, const PiecedSeries& motion) {
   const Eigen::MatrixXd& u = motion.whole.u;
   const auto n = static_cast<std::size_t>(u.rows());
   std::array<double, block * nodes> at{}, v{};
   for (std::size_t done = 0; done < n; done += block) {
     const std::size_t first =
-        n < block ? 0 : std::min(done, n - block);  // the last one overlaps the one before
+        n < block ? 0 : std::min(done, n - block);  // the last block overlaps the one before
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t j = 0; j < block; ++j) at[i * block + j] = x[i] - motion.origins()[first + j];
     velocities_of_block(u.data() + first, n, motion.degree(), motion.whole.scale, at.data(), count, v.data());
@@ -139,7 +139,7 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const PiecedSeri
   }
 }
 
-/// A law of one's own takes power in every state.
+/// A user's law dissipates power in every state.
 void SeriesWorks::add_own(std::size_t c, const Forcing& forcing, const Series& series,
                           const ContactSeries& contact, double from, double to, Works& works) const {
   const GaussRule& rule = gauss_rule();
@@ -155,7 +155,7 @@ void SeriesWorks::add_own(std::size_t c, const Forcing& forcing, const Series& s
   }
 }
 
-/// What a curved surface returns beside its spring is work of the loads, off the surface too.
+/// Work of a curved surface's force in addition to its spring; it counts as work of the loads, also off the surface.
 void SeriesWorks::add_bowl(std::size_t c, const Forcing& forcing, const Series& series,
                            const ContactSeries& path, std::size_t degree, double from, double to,
                            Works& works) {

@@ -1,4 +1,4 @@
-// series_works.hpp: works and dissipations on a step of the exact flow, and of flights that `ida` takes by series.
+// series_works.hpp: works and dissipations on a step of the exact flow, and of flights that `ida` follows by series.
 //
 //   integral of P . v, v^T C v, T p', -T s'    Gauss-Legendre on the step's polynomials (motion/powers.hpp)
 #pragma once
@@ -17,7 +17,7 @@ class SeriesWorks {
 
   static constexpr std::size_t nodes = GaussRule::nodes;
 
-  /// Adds the integrals over [from, to] of the series. growth: of the motion, rad per time at most.
+  /// Adds the integrals over [from, to] of the series. growth: upper limit for the motion's rate, rad per time.
   void add(const Mode& mode, const Forcing& forcing, const PiecedSeries& motion, double growth, double from,
            double to, Works& works);
 
@@ -33,7 +33,7 @@ class SeriesWorks {
   const Model& model_;
   const Structure& structure_;
   bool damped_;
-  Eigen::MatrixXd powers_, velocities_;  // one column a node
+  Eigen::MatrixXd powers_, velocities_;  // one column for each node
   std::vector<double> slide_rate_;
 };
 

@@ -9,10 +9,10 @@ constexpr double binomial[max_degree + 1][max_degree + 1] = {{1, 0, 0, 0, 0, 0},
                                                              {1, 2, 1, 0, 0, 0}, {1, 3, 3, 1, 0, 0},
                                                              {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1}};
 
-/// Smallest x with p(x) <= 0 on [from, to], given that the caller knows nothing of p.
+/// Smallest x with p(x) <= 0 on [from, to]; no assumption about p.
 std::optional<double> first_nonpositive(const Bernstein& p, double from, double to, double resolution) {
   if (p.positive()) return std::nullopt;
-  if (!(p.b[0] > 0.0)) return from;  // also for a NaN, which must not be halved for ever
+  if (!(p.b[0] > 0.0)) return from;  // also for a NaN, which would be halved endlessly
   if (to - from <= resolution) return p.b[z(p.degree)] <= 0.0 ? std::optional(to) : std::nullopt;
   Bernstein left, right;
   p.split(0.5, left, right);
@@ -21,7 +21,8 @@ std::optional<double> first_nonpositive(const Bernstein& p, double from, double 
   return first_nonpositive(right, middle, to, resolution);
 }
 
-/// De Casteljau's means. A degree that is known keeps them in registers: stored and read in pairs they wait for each other.
+/// De Casteljau's means. A degree known at compile time keeps them in registers: stored and reloaded pairs would wait
+/// for each other.
 template <std::size_t degree>
 double by_means(std::array<double, max_degree + 1> c, double x) {
 #pragma GCC unroll 5

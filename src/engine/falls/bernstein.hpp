@@ -2,8 +2,8 @@
 //
 //   p(x) = sum_i b_i B_i,q(x),  0 <= x <= 1:   min b_i <= p(x) <= max b_i
 //
-// The coefficients bound the polynomial, halving the interval sharpens them, so the first zero of a
-// guard is found or excluded, whatever its sign at the ends.
+// The coefficients bound the polynomial and halving the interval sharpens the bounds, so the first zero of a guard is
+// found or excluded whatever the signs at the ends.
 #pragma once
 
 #include <array>

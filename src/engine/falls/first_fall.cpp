@@ -12,11 +12,11 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t size = most_fall_degree + 1;
-constexpr double near_root = 1e-6;            // relative: so near, Newton's next step has all digits
-constexpr double finest = rounding::of_many;  // width, of the whole step
+constexpr double near_root = 1e-6;            // relative: this close, Newton's next step has all digits
+constexpr double finest = rounding::of_many;  // width, relative to the whole step
 using Coefficients = std::array<double, size>;
 
-/// What a_k adds to b_i in degree n: C(i,k)/C(n,k), row by row for k = 0 .. n, where i = k .. n.
+/// Factor of a_k in b_i for degree n: C(i,k)/C(n,k), row by row for k = 0 .. n, where i = k .. n.
 const double* conversion(std::size_t n) {
   static const auto tables = [] {
     std::array<std::vector<double>, size> all;
@@ -38,7 +38,7 @@ const double* conversion(std::size_t n) {
   return tables[n].data();
 }
 
-/// The only zero of p in [lo, hi], where it falls: Newton's steps, kept inside by bisection.
+/// The only downward zero crossing of p in [lo, hi]: Newton steps, kept inside by bisection.
 double only_zero(const double* a, std::size_t degree, double lo, double hi, double guess) {
   double x = guess > lo && guess < hi ? guess : 0.5 * (lo + hi);
   double last = 1.0;  // length of the last step
@@ -66,10 +66,10 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi, doub
 
 struct Interval {
   double lo, hi;
-  Coefficients b;  // only degree + 1 of them are ever set
+  Coefficients b;  // only degree + 1 entries are ever set
 };
 
-/// Where the control polygon falls through zero.
+/// Place where the control polygon crosses zero downwards.
 double guess(std::size_t n, const Interval& now) {
   std::size_t i = 0;
   while (i < n && now.b[i] > 0.0) ++i;
@@ -100,10 +100,10 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
   double rest = 0.0;
   for (std::size_t k = 1; k <= degree; ++k) rest += std::abs(a[k]);
   if (!std::isfinite(a[0]) || !std::isfinite(rest) || !std::isfinite(slack))
-    return {FirstFall::Kind::lost};  // a NaN would be halved for ever
+    return {FirstFall::Kind::lost};  // a NaN would be halved endlessly
   if (a[0] - rest > slack) return {};
 
-  // Intervals still to be settled, the leftmost on top; each halving leaves one behind.
+  // Intervals not yet settled, the leftmost on top; each halving leaves one behind.
   std::array<Interval, 64> stack;
   std::size_t count = 1;
   stack[0].lo = 0.0;
@@ -122,7 +122,7 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
     Interval& now = stack[count - 1];
     ++result.intervals;
     std::size_t above = 0, below = 0, rises = 0, falls = 0;
-    bool one_change = true;  // from above slack to below -slack, nothing between
+    bool one_change = true;  // from above slack to below -slack, none between
     for (std::size_t i = 0; i <= degree; ++i) {
       above += now.b[i] > slack ? 1 : 0;
       below += now.b[i] < -slack ? 1 : 0;
@@ -138,7 +138,7 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
     if (below == degree + 1) return falls_at(now.lo);
     one_change = one_change && above + below == degree + 1 && now.b[0] > slack;
     if (one_change) return falls_at(only_zero(a, degree, now.lo, now.hi, guess(degree, now)));
-    if (rises == degree) {  // monotone: its ends tell
+    if (rises == degree) {  // monotone: the values at its ends decide
       if (now.b[0] < -slack) return falls_at(now.lo);
       if (now.b[0] <= slack && now.lo > 0.0) touch(now.lo);
       --count;
@@ -148,7 +148,7 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
       const double right = now.b[degree];
       if (right < -slack)
         return falls_at(now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now)) : now.lo);
-      // At the end of the step the next one sees whether it falls.
+      // At the end of the step the next step decides whether it falls.
       if (right <= slack && now.hi < 1.0) touch(now.hi);
       --count;
       continue;
@@ -158,7 +158,7 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
       --count;
       continue;
     }
-    // The right half stays below, the left one comes on top.
+    // The right half stays below on the stack, the left half goes on top.
     Interval& left = stack[count++];
     left.lo = now.lo;
     left.hi = now.hi;

@@ -4,7 +4,7 @@
 
 namespace signorini {
 namespace {
-// A step's polynomial is looked at so often: it has five turns at most, and is known to a tolerance only.
+// Samples of a step's polynomial: it has at most five turning points, and is known to a tolerance only.
 constexpr int looks = 8;
 }  // namespace
 
@@ -21,7 +21,8 @@ void Grazes::see(const StepHistory& history, double limit) {
   for (std::size_t slot = 0; slot < guards_.size(); ++slot) {
     Guarded& guard = guards_[slot];
     if (guard.guard == Guard::none) continue;
-    // What the last value exceeds by all that the others can bend it stays above half of it.
+    // If the last value is twice the bend that the older values can cause, the guard stays above half of it on the
+    // step.
     if (guard.high == guard.level && !guard.low && history.clearly_positive(slot) &&
         history.last(slot) > 2.0 * guard.level)
       continue;

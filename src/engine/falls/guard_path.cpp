@@ -7,7 +7,7 @@ namespace signorini {
 std::optional<GuardPath::Fall> GuardPath::fall() const {
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
   double lo = 0.0, hi = 1.0, x = linear(), slope = 0.0;
-  constexpr int most_steps = 8;  // Newton's, within the bracket: a guess needs no more
+  constexpr int most_steps = 8;  // limit of Newton steps, within the bracket: the first guess needs no more
   for (int i = 0; i < most_steps; ++i) {
     const double value = g0 + x * (r0 + x * (b + x * c));
     slope = r0 + x * (2.0 * b + 3.0 * x * c);

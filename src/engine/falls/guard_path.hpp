@@ -3,8 +3,8 @@
 //   p(x) = Hermite's cubic through g0, h g0', g1, h g1',   0 <= x <= 1
 //   x*   = g0/(g0 - g1)                                    the paper's interpolation, (8) to (10)
 //
-// For the guard T_U - s T the latter reads t = t0 + dt (s T_U0 - T0)/((T1 - T0) - s (T_U1 - T_U0)).
-// Where the equations do not yield a rate it is that of the parabola through the last three values.
+// For the guard T_U - s T the linear interpolation reads t = t0 + dt (s T_U0 - T0)/((T1 - T0) - s (T_U1 - T_U0)). If
+// the equations yield no rate, the rate of the parabola through the last three values is used.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,14 @@ struct GuardPath {
   double g0 = 0.0, g1 = 0.0;  ///< values
   double r0 = 0.0, r1 = 0.0;  ///< rates times h
 
-  /// Where the straight line between the ends falls to zero; g0 > 0 >= g1.
+  /// Place where the straight line between the ends reaches zero; g0 > 0 >= g1.
   [[nodiscard]] double linear() const { return g0 / (g0 - g1); }
   struct Fall {
-    double x = 0.0, slope = 0.0;  ///< slope: by x
+    double x = 0.0, slope = 0.0;  ///< slope: derivative by x
   };
-  /// Where the cubic falls to zero, g0 > 0 >= g1. Nothing: it rises there, or is no number.
+  /// Place where the cubic reaches zero, g0 > 0 >= g1. nullopt: the cubic rises there, or is not a number.
   [[nodiscard]] std::optional<Fall> fall() const;
-  /// Positive at both ends: the place of its least value inside, if that is not positive.
+  /// For a path that is positive at both ends: the place of its least value inside, if that value is not positive.
   [[nodiscard]] std::optional<double> dip() const;
 };
 

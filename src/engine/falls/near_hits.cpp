@@ -5,8 +5,8 @@
 namespace signorini {
 namespace {
 
-constexpr double near_levels = 1e4;  // chosen: a run of so many steps
-constexpr int looks_a_step = 8;      // a step's polynomial has five turns at most
+constexpr double near_levels = 1e4;  // chosen: error of a run of that many steps
+constexpr int looks_a_step = 8;      // a step's polynomial has at most five turning points
 constexpr std::size_t most_near_hits = 100000;
 
 }  // namespace
@@ -19,7 +19,7 @@ void NearHits::start(const std::vector<GuardStart>& guards, const std::vector<do
 
 void NearHits::see(const StepHistory& history, double limit) {
   for (Watched& gap : gaps_) {
-    // What the last value exceeds by all that the others can bend it stays above half of it.
+    // If the last value is twice the bend that the older values can cause, the gap stays above half of it on the step.
     if (history.clearly_positive(gap.slot) && history.last(gap.slot) > 2.0 * near_levels * gap.level) {
       gap.looks = 0;
       gap.high = history.last(gap.slot);

@@ -1,10 +1,11 @@
-// near_hits.hpp: gaps of an integrator that came near to zero and opened again.
+// near_hits.hpp: gaps of an integrator that approached zero and opened again.
 //
-//   g_a > g_b <= g_c  at three looks that follow each other:  a least gap at the parabola's vertex
-//   g > level         at some look before, since the last one: what touches and stays is none
+//   g_a > g_b <= g_c  at three consecutive samples:  a least gap at the parabola's vertex
+//   g > level         at some sample before, since the last one: a gap that touches and stays closed is none
 //
-// Kept where it is below 1e4 levels (watch.hpp) above zero: errors of thousands of steps add up to that. Whether a hit was missed
-// there only the error of the run tells, which this run does not know (certify/open_hits.hpp).
+// Near hits are kept if the gap is below 1e4 levels (watch.hpp) above zero: errors of thousands of steps add up to
+// that. Only the error of the run decides whether a hit was missed there, and this run does not know it
+// (certify/open_hits.hpp).
 #pragma once
 
 #include <cstddef>
@@ -18,11 +19,11 @@ namespace signorini {
 
 class NearHits {
  public:
-  /// levels: one a slot, as for Watch.
+  /// levels: one for each slot, as for Watch.
   void start(const std::vector<GuardStart>& guards, const std::vector<double>& levels);
-  /// The part [0, limit] of the last step, where scalars 0.. of the history are the guards.
+  /// Examines the part [0, limit] of the last step; scalars 0.. of the history are the guards.
   void see(const StepHistory& history, double limit);
-  /// Of the run so far, in the order of time but for those of one step.
+  /// Near hits of the run so far, in the order of time except for those of the same step.
   [[nodiscard]] const std::vector<NearHit>& list() const { return list_; }
 
  private:
@@ -32,8 +33,8 @@ class NearHits {
   struct Watched {
     std::size_t slot = 0;
     double level = 0.0;
-    double high = 0.0;  // the greatest since the last least gap
-    int looks = 0;      // that are kept, the last ones
+    double high = 0.0;  // greatest gap since the last least gap
+    int looks = 0;      // number of last samples that are kept
     Look before, last;
   };
   void look(Watched& gap, const Look& now);

@@ -13,7 +13,7 @@ double call(double t, void* f) { return (*static_cast<const std::function<double
 
 double root_between(const std::function<double(double)>& f, double lo, double hi, double width) {
   const double first = lo, last = hi, at_first = f(lo), at_last = f(hi);
-  // GSL ends the program where there is no fall between: a state that was wrong from the start on.
+  // GSL ends the program if there is no sign change: in that case the state was wrong from the start on.
   if (!(at_first > 0.0)) return first;
   if (at_last > 0.0) return last;
   const std::function<double(double)> known = [&](double t) {

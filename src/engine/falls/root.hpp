@@ -1,4 +1,4 @@
-// root.hpp: where a function falls through zero, bracketed (GSL, Brent's method).
+// root.hpp: downward zero crossing of a function, bracketed (GSL, Brent's method).
 //
 //   f(lo) > 0 >= f(hi):   t with f(t) = 0, lo and hi narrowed to `width`
 #pragma once
@@ -7,7 +7,8 @@
 
 namespace signorini {
 
-/// The root between lo and hi; f is evaluated at both ends first. Without a fall between: lo where f is not positive there, else hi. Every f(t) must be finite.
+/// The root between lo and hi; f is evaluated at both ends first. Without a sign change: lo if f is not positive there,
+/// else hi. Every f(t) must be finite.
 [[nodiscard]] double root_between(const std::function<double(double)>& f, double lo, double hi, double width);
 
 }  // namespace signorini

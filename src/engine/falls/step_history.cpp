@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-using Kept = std::array<const double*, max_degree + 1>;  // values so many steps back
+using Kept = std::array<const double*, max_degree + 1>;  // values for each number of steps back
 
 template <class T>
 [[gnu::always_inline]] inline void look_at(const Kept& rows, int order, double twice_bend, int degree,

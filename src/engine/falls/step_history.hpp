@@ -2,10 +2,10 @@
 //
 //   p(x) interpolates f(t_n), f(t_n-1), ..., f(t_n-q),   t = t_n-1 + x (t_n - t_n-1)
 //
-// A BDF step of order q defines y between its ends as the polynomial through the last q + 1 accepted
-// values; a scalar that is linear in y is therefore exactly this polynomial, at the price of a few
-// numbers. Powers are products: their polynomial goes through all values that are kept. (Under a load that is
-// a parabola in time y is one of degree 4, any step at order 4 is exact, and a power of degree 5 was not.)
+// A BDF step of order q defines y between its ends as the polynomial through the last q + 1 accepted values; a scalar
+// that is linear in y is therefore exactly this polynomial, for a few stored numbers. Powers are products, so their
+// polynomial interpolates all values that are kept. (Under a load that is a parabola in time, y has degree 4; every
+// step of order 4 is exact, but a power of degree 5 was not.)
 #pragma once
 
 #include <array>
@@ -24,28 +24,29 @@ class StepHistory {
   double* restart(double t);
   /// Adds an accepted step that ends at t; returns the place for the scalars' values.
   double* push(double t) { return push(t, t - times_[0]); }
-  /// The same, with the step's length as the integrator has it, free of the rounding of times.
+  /// Same, with the step's length from the integrator, free of the rounding of times.
   double* push(double t, double length);
-  /// Prepares polynomials of the given order (of the method) on the last step.
+  /// Prepares polynomials on the last step for the given order of the method.
   void prepare(int order);
-  /// True: the polynomial of scalar i is positive, for the last value exceeds what the others can bend it by.
-  /// False says nothing.
+  /// True: the polynomial of scalar i is positive, since its last value exceeds the bend that the older values can
+  /// cause. False: undecided.
   [[nodiscard]] bool clearly_positive(std::size_t i) const { return value(0, i) > bent_[i]; }
-  /// On the last step scalar i differs from its last value by less than this.
+  /// Bound on the difference between scalar i on the last step and its last value.
   [[nodiscard]] double bend(std::size_t i) const { return bent_[i]; }
-  /// True: the polynomial of scalar i goes one way on the last step, for its values are too near to a straight line to
-  /// turn it: with e_b what they are off the line through the last two, and w_ib the weights of Bernstein coefficients,
+  /// True: the polynomial of scalar i is monotone on the last step, since its values are too close to a straight line
+  /// for a turning point: with e_b their distances from the line through the last two, and w_ib the weights of
+  /// Bernstein coefficients,
   ///   b_i+1 - b_i = (f_0 - f_1) / q + sum_b (w_i+1,b - w_ib) e_b
-  /// False says nothing.
+  /// False: undecided.
   [[nodiscard]] bool clearly_goes_one_way(std::size_t i) const;
   /// Integral of power i over the whole last step.
   [[nodiscard]] double integral(std::size_t i) const { return (times_[0] - times_[1]) * mean_[i]; }
   /// The polynomial of scalar i on the last step.
   [[nodiscard]] Bernstein polynomial(std::size_t i) const { return through(of_order(), i); }
-  /// The same of a power.
+  /// Polynomial of power i on the last step.
   [[nodiscard]] Bernstein power(std::size_t i) const { return through(of_powers_, i); }
   [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
-  /// The same, and bend(), of all scalars.
+  /// Last values of all scalars; bends(): their bend().
   [[nodiscard]] const double* lasts() const {
     return values_.data() + static_cast<std::size_t>(slot_[0]) * scalars_;
   }
@@ -60,13 +61,13 @@ class StepHistory {
   /// The polynomial through the last degree + 1 values.
   struct Basis {
     int degree = -1;
-    // What the weights below were made for: steps of equal lengths need them once.
+    // Nodes of the weights below: steps of equal lengths need these weights once.
     std::array<double, max_degree + 1> nodes{};
     // to_bernstein[i][b]: weight of the value b steps back in Bernstein coefficient i
     std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein{};
     std::array<double, max_degree + 1> integral{};  // weight of the value b steps back in the mean
     double bend = 0.0;  // greatest sum of |weights| of older values in a Bernstein coefficient
-    double turn = 0.0;  // 2 q max_i sum_b |w_i+1,b - w_ib|: the 2 so that rounding has no part in it
+    double turn = 0.0;  // 2 q max_i sum_b |w_i+1,b - w_ib|: the factor 2 covers rounding
   };
   void prepare(Basis& basis, int degree) const;
   [[nodiscard]] const Basis& of_order() const { return same_ ? of_powers_ : of_order_; }
@@ -74,14 +75,14 @@ class StepHistory {
 
   std::size_t scalars_;
   std::vector<double> values_;
-  // Of all scalars on the last step: twice what older values can bend its polynomial by (so that the rounding of
-  // the sums has no part in it), and as a power its mean.
+  // For all scalars on the last step: twice the bend that older values can cause (the factor 2 covers the rounding of
+  // the sums), and the mean of each power.
   std::vector<double> bent_, mean_;
-  std::array<int, max_degree + 1> slot_{};        // slot_[b]: where the values b steps back are kept
+  std::array<int, max_degree + 1> slot_{};        // slot_[b]: storage index of the values b steps back
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
-  std::array<double, max_degree + 1> lengths_{};  // of the step that ended at times_[b]
+  std::array<double, max_degree + 1> lengths_{};  // length of the step that ended at times_[b]
   int filled_ = 0;
-  bool same_ = true;  // one basis serves both
+  bool same_ = true;  // one basis serves scalars and powers
   Basis of_order_, of_powers_;
 };
 

@@ -20,7 +20,7 @@ class Slope {
     for (std::size_t k = degree_; k >= 1; --k) slope = slope * x + b_[k];
     return slope;
   }
-  /// Where it is zero, by Newton steps from a place; stays between low and high.
+  /// Zero of the slope, by Newton steps from a given place; stays between low and high.
   [[nodiscard]] double zero_from(double at, double low, double high) const {
     for (int newton = 0; newton < 4; ++newton) {
       double slope = 0.0, bend = 0.0;
@@ -38,8 +38,9 @@ class Slope {
   std::array<double, most_fall_degree + 1> b_;  // 1 .. degree
 };
 
-/// Where a polynomial that moves one way from `end`, or begins to, has turned before `next`: by halves, nearly. Newton steps from the
-/// end itself stay there where it is a turn of the other kind, as after a hit that stops a slip.
+/// Approximate place, by bisection, at which a polynomial that is monotone from `end` turns before `next`. Newton steps
+/// from the end itself would stay there if the end is a turning point of the other kind, as after a hit that stops a
+/// slip.
 double turned_beside(const double* a, std::size_t degree, double end, double next, double inward) {
   const Slope slope(a, degree);
   const double forth = next > end ? inward : -inward;  // sign of the slope at `next`
@@ -61,7 +62,7 @@ void TurningPoints::start(const Decision& decision) {
     for (std::size_t i = 0; i < now.size(); ++i) {
       Range& range = ranges_[watched.size() * c + i];
       values_[watched.size() * c + i] = now[i];
-      // Each landing has a peak of its own.
+      // Each landing has a separate peak.
       const bool lands = watched[i] == ContactSeries::N && began_ && decision.before[c].N == 0.0;
       if (lands) range = {now[i], now[i]};
       range.least = began_ ? std::min(range.least, now[i]) : now[i];
@@ -143,9 +144,9 @@ void TurningPoints::record(const Path& path, std::size_t place, double at) {
   range.see(turn);
 }
 
-/// Between an end and the sample next to it, where the samples go one way only: at a peak the slope there is of the
-/// other way, or none. One sided differences tell it to 0.04 of an amplitude whose samples, 0.5 rad apart, differ by 0.12 there:
-/// half of that difference is no slope of a peak.
+/// Turning point between an end and the adjacent sample, if the samples are monotone: at a peak the slope at the end
+/// has the opposite sign, or is zero. One-sided differences give the slope to 0.04 of an amplitude whose samples, 0.5
+/// rad apart, differ by 0.12 there: half of that difference excludes a peak.
 void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t place, const Samples& x,
                                 const Samples& value, Ends ends) {
   const bool first = end == 0;
@@ -154,21 +155,21 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
   const double inward = value[next] - value[end], slope = 2.0 * inward - 0.5 * (value[third] - value[end]);
   if (inward == 0.0 && slope == 0.0) return;
   if (inward * slope > 0.0 && std::abs(slope) >= 0.5 * std::abs(inward)) {
-    // Nobody has looked at where a part begins; what came before it may have risen up to here.
+    // The beginning of a part is not observed; the motion before it may have risen up to here.
     const bool hidden = first && ends == Ends::part;
     if (hidden && (inward < 0.0 ? value[end] > range.greatest : value[end] < range.least))
       record(path, place, x[end]);
     return;
   }
-  // Of a parabola that turns before `next` 1/8 of `third` less the end at most lies beyond the end; four times that, and all of
-  // `inward`, where it is none.
+  // A parabola that turns before `next` exceeds the end by at most 1/8 of the difference between `third` and the end;
+  // the limit is four times that, plus `inward` if the curve is not a parabola.
   const double beyond = std::abs(inward) + 0.5 * std::abs(value[third] - value[end]);
   if (inward > 0.0 ? value[end] - beyond >= range.least : value[end] + beyond <= range.greatest) return;
   record(path, place, turned_beside(path.a, path.degree, x[end], x[next], inward));
 }
 
-/// The sums of the magnitudes of its terms show that it stays within all that it was before: of those of f itself from the
-/// origin, of those of its slope from the middle.
+/// True if the sums of the magnitudes of the terms prove that f stays within its earlier range: terms of f from the
+/// origin, terms of its slope from the middle.
 bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x) {
   const double x_end = x[turn_samples];
   double reach = 0.0, power = 1.0;
@@ -202,14 +203,14 @@ void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& 
   for (std::size_t i = 1; i < turn_samples; ++i) {
     const double left = value[i] - value[i - 1], right = value[i + 1] - value[i];
     if (left * right > 0.0 || left == right) continue;
-    // The parabola through three values turns here; a tenth more for what it leaves out.
+    // The parabola through three values turns here; a tenth more for its error.
     const double rise = -(right + left) * (right + left) / (8.0 * (right - left));
     const double turn = value[i] + 1.1 * rise;
     if (turn >= range.least && turn <= range.greatest) continue;
     const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
     const double at = Slope(path.a, path.degree).zero_from(guess, x[i - 1], x[i + 1]);
     const double there = value_at(path.a, path.degree, at);
-    // Those steps may have led away from the turn.
+    // The Newton steps may have led away from the turning point.
     record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
   }
   find_beside(turn_samples, path, place, x, value, ends);

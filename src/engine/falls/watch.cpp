@@ -5,7 +5,7 @@
 
 namespace signorini {
 namespace {
-constexpr double resolution = 1e-12;  // of a step; the engine refines on its dense output
+constexpr double resolution = 1e-12;  // relative to a step; the engine refines on its dense output
 }
 
 void Watch::start(const std::vector<GuardStart>& guards, GuardForms forms, std::vector<double> levels) {

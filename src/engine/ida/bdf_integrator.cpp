@@ -22,27 +22,28 @@ namespace {
 
 constexpr int most_retries = 4;        // restarts with a tenth of the first step before giving up
 constexpr double surface_step = 0.25;  // rad of a surface's oscillation a step: 1e-7 of it at order 5
-// Of the step whose local error would just be accepted. After a rebound the error of the order-one start
-// stays in the gap for all of the flight, and each hit adds one: with rigid contacts a start five steps
-// longer is ten times sharper (case 04a, measured).
+// Part of the step whose local error would just be accepted. After a rebound the error of the order-one start stays in
+// the gap for the whole flight, and each hit adds one: with rigid contacts a start with five more steps is ten times
+// more accurate (case 04a, measured).
 constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
-// Chosen of 0.1 to 0.4: the least error over eight tolerances where a motion grows and where it is damped
+// Chosen between 0.1 and 0.4: the least error over eight tolerances of a growing and of a damped motion
 // (docs/decisions/ida-rehearses.md). Steps differ by a tenth.
 constexpr double rehearsed_part = 0.2;
-// Of what is left of the segment: whoever watches the steps sees more than its end where polynomials are the motion.
+// Part of the remaining segment: where polynomials are the motion, an observer of the steps sees points inside the
+// segment.
 constexpr double longest_rehearsed = 0.0625;
 constexpr double least_rehearsed =
-    1e3 * std::numeric_limits<double>::epsilon();  // of the time; IDA's own is 100
-constexpr double no_error_test = 1e-15;            // of the weights, while IDA rehearses
+    1e3 * std::numeric_limits<double>::epsilon();  // relative to the time; IDA's own limit is 100
+constexpr double no_error_test = 1e-15;            // relative to the weights, while IDA rehearses
 
-constexpr double sharp_newton = 1e-3;  // of the tolerance; IDA's default is a third
+constexpr double sharp_newton = 1e-3;  // relative to the tolerance; IDA's default is a third
 
 void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(fmt::format("{} failed ({})", what, flag));
 }
 
-/// IDA names its times "t = 0.5" and "h = 1e-9": in the scene's unit of time.
+/// Converts times in IDA's messages, such as "t = 0.5" and "h = 1e-9", to the scene's unit of time.
 std::string with_times_in(std::string text, double unit) {
   for (const char* name : {"t = ", "h = "}) {
     const std::size_t at = text.find(name);
@@ -86,10 +87,11 @@ struct BdfIntegrator::Memory {
     IDASetJacFn(ida, &Memory::jacobian);
     IDASetMaxNumSteps(ida, -1);
     IDASetMaxOrd(ida, max_order);
-    // Refactor at every change of cj: Newton is then exact for these linear systems, and the rows of the
-    // contacts hold to roundoff (default: 3 to 4 times the error in energy and more steps, measured).
+    // Refactor at every change of cj: Newton is then exact for these linear systems, and the rows of the contacts hold
+    // to rounding (default: 3 to 4 times the error in energy and more steps, measured).
     IDASetDeltaCjLSetup(ida, 0.0);
-    // Rows of friction that depends on the slip rate hold as well as Newton's method has converged; so do products.
+    // Rows of friction that depends on the slip rate hold only as well as Newton's method has converged; so do
+    // products.
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
                     [](const Contact& c) { return !c.is_linear(); }))
       IDASetNonlinConvCoef(ida, sharp_newton);
@@ -149,7 +151,7 @@ struct BdfIntegrator::Memory {
     static_cast<Memory*>(self)->message = text;
   }
 
-  /// (Re)starts IDA with the given first step at the segment's beginning, or `steps` such steps before it: these are
+  /// (Re)starts IDA with the given first step at the segment's beginning, or `steps` such steps before it, which are
   /// rehearsed.
   void begin(double h0, int steps = 0) {
     const double before = steps * h0;
@@ -159,11 +161,12 @@ struct BdfIntegrator::Memory {
     IDASetInitStep(ida, h0);
     first = h0;
     IDASetStopTime(ida, segment.end);
-    // Surfaces move in the guards alone, so the error test does not see them; their polynomials must.
+    // Surfaces move in the guards alone, so the error test does not see them; the guards' polynomials must resolve
+    // them.
     const double shaking = segment.forcing->surface_omega();
     const double longest = shaking > 0.0 ? surface_step / shaking : 0.0;
     IDASetMaxStep(ida, steps > 0 ? h0 : longest);
-    // A fresh root problem: IDA would keep guards switched off that were zero in the last segment.
+    // A new root problem: IDA would keep guards switched off that were zero in the last segment.
     IDARootInit(ida, 0, nullptr);
     IDARootInit(ida, static_cast<int>(problem.slots()), &Memory::roots);
     if (!directions.empty()) IDASetRootDirection(ida, directions.data());
@@ -173,7 +176,8 @@ struct BdfIntegrator::Memory {
     IDASetMaxStep(ida, longest);
   }
 
-  /// IDA's steps up to the segment's beginning. No test of theirs can fail, and they are far above the resolution of time.
+  /// IDA's steps up to the segment's beginning. Their error tests cannot fail, and they are far above the resolution of
+  /// time.
   void rehearse(int steps) {
     rehearsing = true;
     newton->rehearse(start);
@@ -184,9 +188,9 @@ struct BdfIntegrator::Memory {
     rehearsing = false;
   }
 
-  /// Functions of the user have no past that a step could be rehearsed in, and steps near the resolution of time none that
-  /// could be told from the beginning. Hits of rigid contacts come in sequences that shrink: their flights need shorter
-  /// steps than an error test asks for, at any order.
+  /// The rehearsed steps, or none: user functions have no past that a step could rehearse, and steps near the
+  /// resolution of time cannot be distinguished from the beginning. Hits of rigid contacts come in sequences that
+  /// shrink: their flights need shorter steps than an error test requires, at any order.
   [[nodiscard]] Rehearsal past() {
     if (rehearses)
       if (const Rehearsal r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
@@ -205,8 +209,8 @@ struct BdfIntegrator::Memory {
     return {Rehearsal::order, h};
   }
 
-  /// The order-one start errs by h^2 y''/2 + h^3 y'''/6 ...; the step that keeps the first of these in
-  /// bounds, or IDA's own choice if the solution does not move.
+  /// The order-one start has the error h^2 y''/2 + h^3 y'''/6 ...; returns the step that bounds the first of these, or
+  /// IDA's own choice if the solution does not move.
   double first_step() {
     const double remaining = segment.end - start->t;
     double h = remaining;
@@ -225,11 +229,10 @@ struct BdfIntegrator::Memory {
 
   [[nodiscard]] bool massless() const { return problem.layout().massive < problem.layout().dofs; }
 
-  /// One Newton correction of the velocities of massless degrees of freedom in y' at t, with the matrix of
-  /// the last step. The derivative of a step's polynomial is one order worse than the polynomial, after a
-  /// restart as bad as h u''/2; u itself is as sharp as every other unknown, and C v = P - K u - ... knows v
-  /// from it. Solving for v alone would blow the error of u up by K/C; where h K > C this keeps the
-  /// polynomial.
+  /// One Newton correction of the velocities of massless degrees of freedom in y' at t, with the matrix of the last
+  /// step. The derivative of a step's polynomial is one order less accurate than the polynomial; after a restart its
+  /// error is h u''/2. u itself is as accurate as every other unknown, and C v = P - K u - ... yields v from it.
+  /// Solving for v alone would amplify the error of u by K/C; if h K > C this keeps the polynomial.
   void settle_massless(double t) {
     double *derivative = NV_DATA_S(yp), *change = NV_DATA_S(work);
     const double cj = problem.linear().cj();
@@ -265,8 +268,8 @@ struct BdfIntegrator::Memory {
     }
   }
 
-  /// After a root that was no event IDA stops at the further roots of its step and at its end, which have been
-  /// handed on already with all that their polynomials show: on to the next step.
+  /// After a root without an event IDA stops at the further roots of its step and at its end; all these have already
+  /// been processed with their polynomials. Continues to the next step.
   int leave_step(int flag, double far, double& t) {
     for (double end = 0.0; flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN;
          flag = IDASolve(ida, far, &t, y, yp, IDA_ONE_STEP)) {
@@ -285,21 +288,21 @@ struct BdfIntegrator::Memory {
   std::unique_ptr<StepNewton> newton;
   bool rehearses = true;
   double start_part = first_step_part;
-  double first = 0.0;  // step of the segment
+  double first = 0.0;  // first step of the segment
   std::vector<int> directions;
   Segment segment;
   const Jet* start = nullptr;  // the motion at the segment's beginning
   std::string message;
   double unit_of_time;
   double t_previous = 0.0;    // beginning of the last accepted step
-  double reported_end = 0.0;  // end of the last step that was returned
-  double held_time = 0.0;     // time of what y and yp hold
-  bool rehearsing = false;    // its solutions are the series', and no test is failed
-  bool rooted = false;        // the last step that was returned ended at a root
+  double reported_end = 0.0;  // end of the last returned step
+  double held_time = 0.0;     // time of y and yp
+  bool rehearsing = false;    // solutions come from the series, and error tests cannot fail
+  bool rooted = false;        // the last returned step ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
   std::array<long, max_degree + 1> steps_by_order{};  // since the last count
-  Counters counted;                                   // what IDA has counted since its last restart
+  Counters counted;                                   // IDA's counts since its last restart
 };
 
 BdfIntegrator::BdfIntegrator(const Model& model, const Structure& structure, const Tolerance& tolerance,
@@ -311,7 +314,7 @@ BdfIntegrator::~BdfIntegrator() = default;
 void BdfIntegrator::count() { m_->add_counters(counters_); }
 
 Rehearsal BdfIntegrator::start(const Segment& segment, const Jet& jet, const Watch& watch) {
-  count();  // IDA forgets at a restart
+  count();  // IDA resets its counts at a restart
   m_->segment = segment;
   m_->start = &jet;
   m_->problem.start(segment, watch);
@@ -353,12 +356,12 @@ BdfStep BdfIntegrator::advance() {
   IDAGetLastStep(m_->ida, &step.length);
   double end = 0.0;
   IDAGetCurrentTime(m_->ida, &end);
-  if (flag == IDA_TSTOP_RETURN) end = t;  // the stop time itself, where IDA's clock is off by a rounding
+  if (flag == IDA_TSTOP_RETURN) end = t;  // the stop time itself: IDA's time may differ by a rounding
   step.begin = m_->reported_end;
   step.end = end;
   m_->reported_end = end;
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
-  // y' as IDA returns it is no velocity of massless degrees of freedom yet: evaluate() makes it one.
+  // y' as IDA returns it does not contain the velocity of massless degrees of freedom yet: evaluate() computes it.
   m_->held_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
   m_->rooted = flag == IDA_ROOT_RETURN;
   if (m_->rooted) {
@@ -394,8 +397,8 @@ ContactMotion BdfIntegrator::correction(std::size_t contact) const {
 }
 
 double BdfIntegrator::residual() {
-  // The formula's own derivative, y' = y'_predicted + cj (y - y_predicted): IDA returns that of the
-  // interpolating polynomial instead, which does not satisfy the equations.
+  // The formula's own derivative, y' = y'_predicted + cj (y - y_predicted): IDA returns that of the interpolating
+  // polynomial instead, which does not satisfy the equations.
   double end = 0.0, cj = 0.0;
   N_Vector y_predicted = nullptr, yp_predicted = nullptr, y = nullptr, yp = nullptr, r = nullptr;
   void* data = nullptr;

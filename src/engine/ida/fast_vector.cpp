@@ -16,7 +16,7 @@ constexpr int most = 6;  // vectors of a linear combination: order 5 has six dif
 
 using Index = sunindextype;
 
-/// T: Four, or double for what is left at the end. z_j = sum_i f_i x_ij. z may be x_0; later ones are distinct from it.
+/// T: Four, or double for the remaining entries. z_j = sum_i f_i x_ij. z may be x_0; later ones are distinct from it.
 template <class T, int count>
 [[gnu::always_inline]] inline void combined(const double* f, const double* const* x, Index j, double* z) {
   T sum = f[0] * lanes_at<T>(x[0] + j).v;
@@ -41,7 +41,7 @@ template <int count>
   for (; j < n; ++j) combined<double, count>(f.data(), x.data(), j, z);
 }
 
-/// At the end of a step all factors of y but the first are zero, and IDA asks for it at each.
+/// At the end of a step all factors of y except the first are zero, and IDA computes it at each end.
 SIGNORINI_WIDE_LANES int linear_combination(int count, double* c, N_Vector* x, N_Vector z_vector) {
   const Index n = NV_LENGTH_S(z_vector);
   double* z = NV_DATA_S(z_vector);
@@ -162,7 +162,7 @@ SIGNORINI_WIDE_LANES int linear_sums(int count, double a, N_Vector* x, double b,
 SIGNORINI_WIDE_LANES double wrms_norm(N_Vector x_vector, N_Vector w_vector) {
   const Index n = NV_LENGTH_S(x_vector);
   const double *x = NV_DATA_S(x_vector), *w = NV_DATA_S(w_vector);
-  // Four sums of four lanes: one would wait for itself.
+  // Four sums of four lanes: with a single sum each addition would wait for the previous one.
   Four s0{}, s1{}, s2{}, s3{};
   Index j = 0;
   for (; j + 15 < n; j += 16) {

@@ -42,7 +42,7 @@ void HistoryTurns::start(const Decision& decision, const Forcing& forcing) {
 
 void HistoryTurns::find(const StepHistory& history, double x_end) {
   turns_.open();
-  // Nearly always all stay within what was seen.
+  // Nearly always all values stay within their earlier ranges.
   const double *last = history.lasts() + first_, *bend = history.bends() + first_;
   const TurningPoints::Range* seen = turns_.ranges();
   const std::size_t shown = count();

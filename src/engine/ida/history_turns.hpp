@@ -1,9 +1,9 @@
 // history_turns.hpp: extreme values of contacts inside a BDF step.
 //
 //   N, T, g and ut are linear in y, so their polynomials through the last steps are those of the step
-//   ut = t.u - s(t) beside a surface that moves: p(x) - s(t_0 + h x), s in its own series, since no step follows it
+//   ut = t.u - s(t) on a moving surface: p(x) - s(t_0 + h x), s in its own series, since no step follows it
 //
-// Looked for only where a polynomial may leave what was seen, and does not go one way (its Bernstein coefficients).
+// Searched only if a polynomial may leave its earlier range and is not monotone (by its Bernstein coefficients).
 #pragma once
 
 #include <vector>
@@ -23,10 +23,10 @@ class HistoryTurns {
   [[nodiscard]] std::size_t count() const { return TurningPoints::watched.size() * contacts_; }
   /// The forcing must outlive the segment.
   void start(const Decision& decision, const Forcing& forcing);
-  /// The part [0, x_end] of the last step. Where a surface moves the history has t.u in the place of ut.
+  /// Examines the part [0, x_end] of the last step. On a moving surface the history contains t.u in place of ut.
   void find(const StepHistory& history, double x_end);
   [[nodiscard]] const std::vector<TurningPoints::Turn>& turns() const { return turns_.turns(); }
-  /// Ascending, of the last step.
+  /// Times of the turning points of the last step, ascending.
   [[nodiscard]] const std::vector<double>& times() const { return turns_.times(); }
 
  private:

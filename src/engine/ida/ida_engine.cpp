@@ -17,7 +17,7 @@
 namespace signorini {
 namespace {
 
-/// "run.atol.velocity (1e-09 m/s here)": the tolerance of a guard's value, as the scene has it.
+/// "run.atol.velocity (1e-09 m/s here)": the tolerance of a guard's value, in the units of the scene.
 std::string tolerance_in_force(Guard guard, const Tolerance& tolerance, const Model& model) {
   const auto as_key = [&](const char* key, double value, const Unit& unit, const std::string& name) {
     return fmt::format("run.atol.{} ({:.2g} {} here)", key, said(model, value, unit), name);
@@ -54,7 +54,7 @@ bool IdaEngine::follows_low_flights(const Model& model) {
   return std::none_of(model.contacts.begin(), model.contacts.end(), friction_varies);
 }
 
-/// Guards, powers, and what contacts show at the end of a step, for its polynomials.
+/// Writes guards, powers, and the contacts' quantities at the end of a step, for its polynomials.
 void IdaEngine::fill(double t, const Point& point, double* out) {
   const Decision& decision = *segment_.decision;
   double* shown = out + guard_count(model_.contacts.size()) + powers_.count();
@@ -63,15 +63,15 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
     const ContactMotion m = motion_of(contact, k, *segment_.forcing, t, point);
     const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
     const double ut = contact.body_tangent().dot(point.u) - still;      // history_turns.hpp
-    for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // as TurningPoints::watched
+    for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // order: TurningPoints::watched
     for (const GuardForm& guard : decision.forms[k])
       *out++ = guard.is_linear() ? QuickForm(guard.form).value(m) : guard.value(m);
   }
   powers_.at(*segment_.forcing, t, decision.mode, point, out);
 }
 
-/// Below the mean of tolerance and size half of a height's digits are gone: lower flights are left to the
-/// series (04a at rtol 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
+/// Below the mean of tolerance and size half of a height's digits are lost: the series takes lower flights (04a at rtol
+/// 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
 double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
   double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
   for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
@@ -80,9 +80,9 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
   return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
 }
 
-/// There are parts without mass, and no damper acts on one. Their velocities follow from K v = P' - ...; the derivative of
-/// a step's polynomial is off by h u''/2 after a restart, which is far above the tolerance of velocities in a short step.
-/// Where dampers act, C v = P - K u - ... would enlarge errors of u by K/C (BdfIntegrator).
+/// True if there are massless parts and no damper acts on one. Their velocities follow from K v = P' - ...; the
+/// derivative of a step's polynomial has the error h u''/2 after a restart, which is far above the tolerance of
+/// velocities in a short step. If dampers act, C v = P - K u - ... would amplify errors of u by K/C (BdfIntegrator).
 bool IdaEngine::follows_at_once() const {
   if (!consistent_.massless()) return false;
   const std::vector<DofKind>& kinds = segment_.decision->system->kinds();
@@ -104,7 +104,8 @@ void IdaEngine::start(const Segment& segment) {
     const GuardStart& guard = decision.guards[slot];
     const ContactMotion& motion = decision.after[contact_of_guard(slot)];
     double level = guard.noise + re_arm_tolerances * tolerance(decision.guard(slot), motion, tolerance_);
-    // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
+    // The decision's zero is limited by the resolution of time, which a stiff contact turns into a force above the
+    // tolerance.
     if (guard.at_zero) level += 2.0 * std::abs(decision.guard(slot).value(motion));
     levels.push_back(level);
     if (guard.at_zero && guard.kind != Guard::closing) add_touchable(slot);
@@ -119,7 +120,7 @@ void IdaEngine::start(const Segment& segment) {
   remember(jet, bdf_.start(segment, jet, watch_));
 }
 
-/// The past that IDA was given, and the beginning, for the polynomials of the first steps.
+/// Stores the past that IDA was given, and the beginning, for the polynomials of the first steps.
 void IdaEngine::remember(const Jet& jet, const Rehearsal& past) {
   const Decision& decision = *segment_.decision;
   const double t = jet.t;
@@ -148,16 +149,16 @@ void IdaEngine::evaluate(double t, Point& point) {
   if (consistently_)
     consistent_.make(segment_.decision->system, *segment_.forcing, t, point);
   else
-    point.a.resize(0);  // what stands there is of another time
+    point.a.resize(0);  // its entries belong to another time
 }
 
-/// From the equation of motion at the point's own u and v, which stay as they are.
+/// From the equation of motion at the point's own u and v, which remain unchanged.
 void IdaEngine::accelerate(double t, Point& point) {
   if (flight_ || (point.a.size() > 0 && !consistent_.massless())) return;
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
 }
 
-/// BDF's polynomials have the degree 5 at most.
+/// BDF's polynomials have at most degree 5.
 StepFacts IdaEngine::facts() const {
   StepFacts facts;
   if (flight_) {
@@ -215,7 +216,7 @@ Step IdaEngine::advance() {
   return step;
 }
 
-/// The earliest fall of a guard in the last step, refined.
+/// The first downward zero crossing of a guard in the last step, refined.
 std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, double resolution) {
   const double h = step.end - step.begin;
   const std::vector<GuardStart>& guards = segment_.decision->guards;
@@ -254,9 +255,9 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   return first;
 }
 
-/// A limit of friction vanishes with the compression, so that whatever the steps have left in the friction force of a
-/// contact that sticks exceeds the limit before the contact opens. Where the limit's own error covers the time between the
-/// two, the contact opens from stick: that it slips before is no more than this error.
+/// The limit of friction vanishes with the compression, so that any error of the steps in the friction force of a
+/// sticking contact exceeds the limit before the contact opens. If the limit's own error covers the time between the
+/// two, the contact opens from stick: the slip before is no more than this error.
 bool IdaEngine::opens_instead(const Located& slip, const Located& opening, double x, double h) const {
   const std::size_t contact = contact_of_guard(slip.slot);
   const std::vector<GuardStart>& guards = segment_.decision->guards;
@@ -268,9 +269,10 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
          tolerance(segment_.decision->guard(slip.slot), ContactMotion{}, tolerance_);
 }
 
-/// A guard that started at zero comes back to zero where the motion keeps its energy (a contact that sticks
-/// at its limit, on its own spring). How deep it sinks then is what the steps were off. A gap that opened and comes back to zero is a landing, however short its flight was. Where friction
-/// rises with the slip rate, what sinks goes on against friction that has turned round: nothing brings it back.
+/// A guard that started at zero returns to zero if the motion conserves energy (a contact that sticks at its limit, on
+/// its own spring). Its depth below zero is then the error of the steps. A gap that opened and returns to zero is a
+/// landing, however short its flight was. If friction rises with the slip rate, a sinking guard continues against
+/// reversed friction, and no force brings it back.
 bool IdaEngine::only_touches(std::size_t slot, double x) const {
   const GuardStart& guard = segment_.decision->guards[slot];
   if (guard.kind == Guard::closing || !guard.at_zero || !watch_.armed(slot)) return false;
@@ -295,8 +297,8 @@ void IdaEngine::add_touchable(std::size_t slot) {
   touchable_.push_back({slot, tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
 
-/// Adds the correction of each guard that began at zero. A step keeps its tolerance, so one tolerance is the most, and it
-/// is taken where the correction is not known.
+/// Adds the correction of each guard that began at zero. A step keeps its tolerance, so one tolerance is the upper
+/// limit; it is also used if the correction is unknown.
 void IdaEngine::add_errors() {
   if (touchable_.empty()) return;
   bdf_.keep_correction();
@@ -310,7 +312,7 @@ void IdaEngine::add_errors() {
   }
 }
 
-/// Possible error of a guard since the segment began: that of its steps, and one tolerance for the last value.
+/// Possible error of a guard since the segment began: that of its steps, plus one tolerance for the last value.
 double IdaEngine::allowance(std::size_t slot) const {
   const auto guard = std::lower_bound(touchable_.begin(), touchable_.end(), slot,
                                       [](const Touchable& g, std::size_t s) { return g.slot < s; });
@@ -351,7 +353,7 @@ StepperReport IdaEngine::report() {
   return report;
 }
 
-/// One tolerance; a guard that started at zero and never clearly rose is seen to fall at minus its level.
+/// One tolerance; for a guard that started at zero and never clearly rose, the event is triggered at minus its level.
 double IdaEngine::guard_error(const GuardForm& guard, const ContactMotion& motion,
                               std::size_t contact) const {
   return tolerance(guard, motion, tolerance_) + (flight_ ? 0.0 : watch_.leeway(contact, guard));

@@ -1,7 +1,7 @@
-// ida_engine.hpp: engine `ida`: IDA's steps, and proof that no guard falls unseen inside one.
+// ida_engine.hpp: engine `ida`: IDA's steps, and proof that no guard reaches zero unnoticed inside one.
 //
-//   advance: a step of IDA -> the guards' polynomials on it (step_history.hpp, watch.hpp) -> the earliest
-//            fall, refined with forces recomputed from u and v (locate.hpp)
+//   advance: a step of IDA -> the guards' polynomials on it (step_history.hpp, watch.hpp) -> the first
+//            zero crossing, refined with forces recomputed from u and v (locate.hpp)
 //
 // Works are integrals of the polynomials through the powers at the ends of steps.
 #pragma once
@@ -20,11 +20,11 @@ namespace signorini {
 
 class IdaEngine final : public Stepper, public DenseOutput {
  public:
-  /// The first three must outlive it.
+  /// The first three arguments must outlive the object.
   IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems, const Tolerance& tolerance,
             int max_order, double t_end, double flight_tolerances);
 
-  /// Short flights are taken by their series where friction is linear while they last.
+  /// True if friction is linear during short flights, so that their series can take them.
   [[nodiscard]] static bool follows_low_flights(const Model& model);
 
   void start(const Segment& segment) override;
@@ -44,10 +44,10 @@ class IdaEngine final : public Stepper, public DenseOutput {
     std::size_t slot;
     double time;
   };
-  /// A guard that began at zero, and is no gap that closes.
+  /// A guard that began at zero, other than a closing gap.
   struct Touchable {
     std::size_t slot;
-    double tolerance;  // of its value
+    double tolerance;  // tolerance of its value
     bool known;        // its change in a step follows from N, T, u and v
     double off;        // possible error of the steps so far
   };
@@ -74,17 +74,17 @@ class IdaEngine final : public Stepper, public DenseOutput {
   Watch watch_;
   Grazes grazes_;
   NearHits near_hits_;
-  std::vector<std::size_t> fallen_;  // guards whose falls ended the segment
+  std::vector<std::size_t> fallen_;  // guards whose zero crossings ended the segment
   ShortFlight flights_;
-  std::optional<Step> flight_;  // the step that a short flight has taken
+  std::optional<Step> flight_;  // the step taken by a short flight
   Segment segment_;
-  Jet jet_;  // whole, where the decision's is not
+  Jet jet_;  // whole jet, if the decision's jet is not
   Point point_;
   std::vector<double> integrals_;
-  bool accelerations_ = false;        // a guard needs them
+  bool accelerations_ = false;        // at least one guard needs accelerations
   bool consistently_ = false;         // points of the segment are made consistent
   std::vector<Touchable> touchable_;  // ascending slots
-  bool touched_ = false;              // has been said
+  bool touched_ = false;              // the warning has been issued
 };
 
 }  // namespace signorini

@@ -1,12 +1,12 @@
-// ida_linear_solver.hpp: IDA's linear systems, condensed to one unknown a degree of freedom.
+// ida_linear_solver.hpp: IDA's linear systems, condensed to one unknown for each degree of freedom.
 //
 //   | cj   -1          | |du|   |r1|        du = (dv + r1) / cj
 //   | K  cj M + C  n t | |dv| = |r2|   =>   (cj M + C + K/cj) dv + n dN + t dT = r2 - K r1 / cj
 //   | rows of contacts | |dF|   |r3|        rows of the contacts likewise
 //
-// The residual comes with r1/cj already in r2 and r3 (engine/ida/ida_problem.hpp), so the right side is at
-// hand. One matrix of the size of the structure plus two rows a contact, instead of twice that; of large structures with
-// compliant contacts and a narrow band one of the size of the structure (linear/condensed_matrix.hpp).
+// The residual comes with r1/cj already in r2 and r3 (engine/ida/ida_problem.hpp), so the right-hand side is available.
+// One matrix of the size of the structure plus two rows for each contact, instead of twice that; large structures with
+// compliant contacts and a narrow band need one of the size of the structure (linear/condensed_matrix.hpp).
 #pragma once
 
 #include <sundials/sundials_linearsolver.h>
@@ -21,8 +21,8 @@
 
 namespace signorini {
 
-/// Where u, v, N and T stand in IDA's vector: u of all n degrees of freedom, v of those with mass,
-/// then the forces of all contacts.
+/// Places of u, v, N and T in IDA's vector: u of all n degrees of freedom, v of those with mass, then the forces of all
+/// contacts.
 struct Layout {
   explicit Layout(const Model& model);
 
@@ -31,7 +31,7 @@ struct Layout {
   std::vector<int> velocity;  ///< index of v_i, or -1 where u_i' is the velocity
   [[nodiscard]] int normal(std::size_t contact) const { return force(contacts.normal(contact)); }
   [[nodiscard]] int tangent(std::size_t contact) const { return force(contacts.tangent(contact)); }
-  /// Its index, by that among the forces of all contacts.
+  /// Index of a force in the vector, from its index among the forces of all contacts.
   [[nodiscard]] int force(std::size_t place) const { return dofs + massive + static_cast<int>(place); }
   [[nodiscard]] int size() const { return dofs + massive + forces; }
 };
@@ -40,7 +40,7 @@ class IdaLinearSolver {
  public:
   IdaLinearSolver(const Model& model, const Structure& structure, const Layout& layout);
 
-  /// New mode: the next factorisation chooses fresh pivots.
+  /// New contact state: the next factorisation chooses new pivots.
   void set_mode(const Mode& mode);
   void set_cj(double cj) { cj_ = cj; }
   [[nodiscard]] double cj() const { return cj_; }
@@ -48,7 +48,7 @@ class IdaLinearSolver {
   void solve(const double* b, double* x);
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
   [[nodiscard]] const SharedRows& shared_rows() const { return matrix_.shared_rows(); }
-  /// Replaces a row by its tangent where it is not linear.
+  /// Replaces a nonlinear row by its tangent.
   void linearise(std::size_t contact, const Form& tangent) {
     rows_[contact].tangent = tangent;
     if (condensed_rows_) condensed_rows_->put(contact, rows_[contact]);
@@ -58,7 +58,7 @@ class IdaLinearSolver {
   }
   [[nodiscard]] long refactorisations() const { return matrix_.klu().refactorisations; }
 
-  /// SUNDIALS' view of it; the solver must outlive both.
+  /// SUNDIALS' view of the matrix; the solver must outlive both.
   SUNMatrix make_matrix(SUNContext context);
   SUNLinearSolver make_solver(SUNContext context);
 
@@ -66,14 +66,14 @@ class IdaLinearSolver {
   const Model& model_;
   const Layout& layout_;
   SystemMatrix matrix_;
-  std::optional<CondensedRows> condensed_rows_;  // where they are of use
-  std::optional<CondensedMatrix> condensed_;     // of those
-  bool on_band_ = false;                         // the last factors are its
+  std::optional<CondensedRows> condensed_rows_;  // used if they save time
+  std::optional<CondensedMatrix> condensed_;     // matrix of these rows
+  bool on_band_ = false;                         // the last factors are those of the band
   std::vector<Rows> rows_;
   std::vector<Weights> weights_;
   // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
   std::vector<Pinned> pinned_;
-  std::vector<double> held_;  // their values
+  std::vector<double> held_;  // values of the held accelerations
   std::vector<double> rhs_;
   double cj_ = 1.0;
   bool fresh_ = true;

@@ -14,16 +14,15 @@
 namespace signorini {
 namespace {
 
-// IDA's error test bounds what one step adds, a run adds up thousands: a step may spend this part of the
-// tolerance that was asked for. Measured on the reference cases: the sum then stays within a few hundred
-// tolerances over a hundred oscillations, at 1.3 times the steps.
+// IDA's error test bounds the error of one step, but a run adds up thousands: a step may use this part of the requested
+// tolerance. Measured on the reference cases: the sum then stays within a few hundred tolerances over a hundred
+// oscillations, at 1.3 times the steps.
 constexpr double local_part = 0.2;
-// Tolerances of forces stay above this many times the magnitudes whose difference they are: a tolerance
-// within the rounding of kn g cannot be met. Chosen; changing it moves where rtol 1e-13 ends (docs/theory.md,
-// limits).
+// Tolerances of forces stay above this many times the magnitudes whose difference the forces are: a tolerance within
+// the rounding of kn g cannot be met. Chosen; changing it moves the limit of rtol 1e-13 (docs/theory.md, Limits).
 constexpr double rounding_floor = 20.0 * rounding::eps;
-// T of an element beside friction of its rate is the rounding of ut - p, and of ut' - p' of a step, all along; Newton's
-// method asks for a thousandth of the tolerance there (bdf_integrator.cpp).
+// T of an element beside rate-dependent friction is the rounding of ut - p, and of ut' - p' of a step, throughout;
+// Newton's method requires a thousandth of the tolerance there (bdf_integrator.cpp).
 constexpr double above_sharp_newton = 100.0;
 
 /// r = y' - v,  u = y - step r
@@ -179,8 +178,8 @@ ContactMotion IdaProblem::change(std::size_t k, const double* of) const {
   return m;
 }
 
-/// s z z' f: what is the same for all shares of the forces would else only be extrapolated from step to step, and that
-/// grows like a polynomial from the rounding of its first values.
+/// s z z' f: the common part of all shares of the forces would otherwise only be extrapolated from step to step, and
+/// its error would grow like a polynomial from the rounding of its first values.
 void IdaProblem::add_shared(const double* y, double* r) const {
   for (const SharedForces& shared : shared_)
     for (std::size_t i = 0; i < shared.rows.size(); ++i)
@@ -269,8 +268,8 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
     const auto i = static_cast<std::size_t>(index);
     if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
   };
-  // One noise for all: contacts and rows that rounding alone fills hand it on. Rotations count as lengths, by
-  // the unit of the machine, the extent of the structure.
+  // One noise level for all: contacts and rows that contain only rounding propagate it. Rotations count as lengths, by
+  // the length unit of the machine units, the extent of the structure.
   double length = 0.0, greatest = 0.0;
   for (const Massless& own : massless_) {
     double force = 0.0;
@@ -295,7 +294,7 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
       const std::size_t slot = guard_slot(k, i);
       const Guard kind = segment_.decision->guards[slot].kind;
       const Form& form = forms[i].form;
-      // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
+      // IDA does not interpolate accelerations; the polynomial check examines guards that contain one.
       if (kind == Guard::none || form.an != 0.0 || !watch_->armed(slot)) {
         g[slot] = 1.0;
         continue;

@@ -1,9 +1,9 @@
-// ida_problem.hpp: residual, error weights and root functions that IDA calls; no solver state.
+// ida_problem.hpp: residual, error weights and root functions called by IDA; no solver state.
 //
 //   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   rows of contacts at u - r1/cj
 //
-// Rows are combined as the condensed solver needs them (engine/ida/ida_linear_solver.hpp): zero for the same
-// y and y' as without r1/cj, and a solve has no product with K of its own.
+// Rows are combined in the form that the condensed solver needs (engine/ida/ida_linear_solver.hpp): zero for the same y
+// and y' as without r1/cj, and a solve needs no extra product with K.
 #pragma once
 
 #include "engine/falls/watch.hpp"
@@ -22,16 +22,15 @@ class IdaProblem {
 
   /// r = F(t, y, y') with rows combined for cj = 1/step; step = 0: the rows themselves.
   void residual(double t, double step, const double* y, const double* yp, double* r);
-  /// Puts the tangents of rows that are not linear (friction that depends on the slip rate) into the linear
-  /// solver.
+  /// Writes the tangents of nonlinear rows (friction that depends on the slip rate) into the linear solver.
   void linearise(double t, const double* y, const double* yp);
   /// Greatest entry of the residual of the equation of motion. Unit: force.
   [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
-  /// Error weights; see below. rate: of the clock, 1/h; 0 before the first step is known.
+  /// Error weights; see below. rate: 1/h, for the resolution of time; 0 before the first step is known.
   void weights(const double* y, double rate, double* w) const;
-  /// Scaled guards, one a slot; masked ones are +1.
+  /// Scaled guards, one for each slot; masked guards are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;
-  /// y (derivative = 0) or y' (1) on the jet's polynomials, x after its instant.
+  /// y (derivative = 0) or y' (1) on the jet's polynomials, x after the jet's instant.
   void along(const Jet& jet, double x, int derivative, double* y) const;
   /// y^(order) from a jet.
   void fill(const Jet& jet, std::size_t order, double* y) const;
@@ -40,7 +39,7 @@ class IdaProblem {
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] std::size_t slots() const { return guard_count(model_.contacts.size()); }
 
-  /// A contact slips whose friction rises with its rate.
+  /// True if a contact slips whose friction rises with its slip rate.
   [[nodiscard]] bool has_knee() const { return knee_; }
 
   /// N, T, gap, ut, vn, vt of a contact for a change of the unknowns; velocities without those of massless parts.
@@ -50,11 +49,11 @@ class IdaProblem {
 
  private:
   void add_shared(const double* y, double* r) const;
-  /// step: at u - step (u' - v).
+  /// step: the motion is taken at u - step (u' - v).
   [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp,
                                      double step = 0.0) const;
 
-  /// f(i, v) by degree of freedom i, v the index of its velocity.
+  /// Calls f(i, v) for each degree of freedom i, v the index of its velocity.
   template <class F>
   struct ByDof {
     const Layout& layout;
@@ -69,11 +68,11 @@ class IdaProblem {
     return {layout_, f};
   }
 
-  /// No tolerance below the rounding of what determines massless degrees of freedom, and the contact forces
-  /// that they carry.
+  /// Keeps tolerances above the rounding of the forces that determine massless degrees of freedom, and of the contact
+  /// forces on them.
   void widen_massless(const double* y, double* w) const;
 
-  /// One more of stops_, where the form moves mass.
+  /// Adds an entry to stops_ if the form moves mass.
   void stop(const Combination& form, int force);
 
   const Model& model_;
@@ -83,33 +82,32 @@ class IdaProblem {
   const Tolerance tolerance_;
   Segment segment_;
   const Watch* watch_ = nullptr;
-  // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of its
-  // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
-  // structure does not dilute the few contacts.
+  // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of the contact's degrees
+  // of freedom another, all others one more, and the mean of every group counts in full: a large structure does not
+  // dilute the few contacts.
   std::vector<double> factor_, atol_;
-  std::vector<int> unused_;  // places of no force
-  // Degrees of freedom without mass follow from forces K u alone, which may be differences of large numbers:
-  // what slides far takes rounding along. Stiffness: of K and of closed contacts.
+  std::vector<int> unused_;  // places without a force
+  // Degrees of freedom without mass follow from forces K u alone, which may be differences of large numbers: a degree
+  // of freedom that slides far carries their rounding. Stiffness: that of K and of closed contacts.
   struct Massless {
     int dof = 0;
     double stiffness = 0.0;
-    std::vector<std::pair<int, double>> forces;  ///< of contacts on it: unknown, factor
+    std::vector<std::pair<int, double>> forces;  ///< contact forces on it: unknown, factor
   };
   std::vector<Massless> massless_;
-  // Forces without springs stop a mass: a velocity of the last step that is off by its rounding is made up
-  // for within one step, by m v eps / h. No tolerance below that can be met, and a smaller step would only
-  // raise it.
+  // Forces without springs stop a mass: the rounding of a velocity in the last step is corrected within one step, by a
+  // force m v eps / h. No tolerance below that can be met, and a smaller step would only raise it.
   struct Stop {
     const Combination* form;
     int force;
-    double mass;  ///< behind the form, of the diagonal of M
+    double mass;  ///< moved by the form, from the diagonal of M
   };
   std::vector<Stop> stops_;
-  std::vector<SharedForces> shared_;    // in this segment
-  std::vector<std::size_t> nonlinear_;  // contacts that slip with friction of their slip rate in this segment
+  std::vector<SharedForces> shared_;    // those of this segment
+  std::vector<std::size_t> nonlinear_;  // contacts in this segment that slip with rate-dependent friction
   bool knee_ = false;
   Momentum momentum_;
-  std::vector<double> forces_;  // of all degrees of freedom, where some have no mass
+  std::vector<double> forces_;  // forces on all degrees of freedom, if some have no mass
   std::vector<double> u_;       // displacements in a residual
 };
 

@@ -4,9 +4,9 @@
 //   else           the greatest order that is stable for every mode at every step: acos(zeta) <= alpha_q,
 //                  alpha_3 = 86.03, alpha_4 = 73.35, alpha_5 = 51.84 degrees; order 2 always is
 //
-// zeta: least damping ratio of any frequency up to the highest, in whatever state the contacts are; contact
-// springs have no part in the damping beta K. Source of the angles: Hairer, Wanner, Solving Ordinary
-// Differential Equations II, V.2.
+// zeta: least damping ratio of all frequencies up to the highest, for all contact states; contact springs do not
+// contribute to the damping beta K. Source of the angles: Hairer, Wanner, Solving Ordinary Differential Equations II,
+// V.2.
 #pragma once
 
 #include <string>

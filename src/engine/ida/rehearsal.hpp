@@ -1,16 +1,16 @@
-// rehearsal.hpp: a past for IDA, so that a segment begins at a higher order than one.
+// rehearsal.hpp: a past for IDA, so that a segment begins at an order higher than one.
 //
-//   y(t0 + x) = sum_k y^(k)(t0) x^k / k!       of the jet at the segment's beginning
+//   y(t0 + x) = sum_k y^(k)(t0) x^k / k!       from the jet at the segment's beginning
 //
-// IDA begins at order one, with steps far below those that it takes later, and raises both step by step. Its history is its
-// own; but it asks a nonlinear solver for the solution at the end of each step. So it is started q steps of length h before
-// the beginning, and its solver answers with the polynomials of the jet (StepNewton::rehearse): at t0 IDA has the history
-// of a motion with the same derivatives, and goes on at order q with the step h.
+// IDA begins at order one, with steps far below its later ones, and raises both step by step. Its history is internal,
+// but it calls a nonlinear solver for the solution at the end of each step. So IDA is started q steps of length h
+// before the beginning, and its solver answers with the polynomials of the jet (StepNewton::rehearse): at t0 IDA has
+// the history of a motion with the same derivatives, and continues at order q with the step h.
 //
-//   h = part ( (q + 1) / |y^(q+1)| )^(1/(q+1))     the local error of order q, h^(q+1) y^(q+1)/(q+1), is part^(q+1) tolerances
+//   h = part ( (q + 1) / |y^(q+1)| )^(1/(q+1))     error of order q: h^(q+1) y^(q+1)/(q+1) = part^(q+1) tolerances
 //
-// What the polynomials leave out of the past, (q h)^p y^(p)/p! with p = 5 (forces) to 7 (places), enters formulas that differ
-// by no more than that. Norms: IDA's weighted one.
+// The remainder of the polynomials in the past, (q h)^p y^(p)/p! with p = 5 (forces) to 7 (places), enters formulas and
+// changes them by at most that. Norms: IDA's weighted norm.
 #pragma once
 
 #include "motion/jet.hpp"
@@ -21,7 +21,7 @@ struct Rehearsal {
   int steps = 0;        ///< q; 0: IDA begins at order one
   double length = 0.0;  ///< h
 
-  /// Order of the start. Order 4 takes 5 % fewer steps on a beam, and more on bodies that bounce (measured).
+  /// Order of the start. Order 4 takes 5 % fewer steps on a beam, but more on bouncing bodies (measured).
   static constexpr int order = 3;
 };
 
@@ -32,19 +32,20 @@ template <class Row>
   for (Eigen::Index k = last; k >= p; --k) sum = row[k] + sum * x / static_cast<double>(k - p + 1);
   return sum;
 }
-/// The derivative up to which a place is known: without mass one or two less, wherefore those of forces count.
+/// Highest known derivative of a place: without mass one or two less, so that the forces' derivatives count.
 [[nodiscard]] inline Eigen::Index last_derivative(const Jet& jet, bool massless) {
   return massless ? Jet::orders : jet.u.cols() - 1;
 }
 
-/// The same of all rows, where `last` is that of every one.
+/// Same for all rows, where `last` is that of every row.
 inline void on_polynomials(const Eigen::MatrixXd& rows, Eigen::Index last, Eigen::Index p, double x,
                            Eigen::Ref<Vector> sums) {
   sums = rows.col(last);
   for (Eigen::Index k = last - 1; k >= p; --k) sums = rows.col(k) + sums * x / static_cast<double>(k - p + 1);
 }
 
-/// d^p/dx^p of all places, x after the jet's instant. is_massless: by degree of freedom, where there is one.
+/// d^p/dx^p of all places, x after the jet's instant. is_massless: called with the degree of freedom of a place that
+/// has one.
 template <class IsMassless>
 void places_along(const Jet& jet, Eigen::Index p, double x, bool any_massless, const IsMassless& is_massless,
                   Eigen::Ref<Vector> places) {

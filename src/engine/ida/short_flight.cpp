@@ -7,10 +7,10 @@
 namespace signorini {
 namespace {
 
-constexpr int looks = 16;  // at the height of a flight
+constexpr int looks = 16;  // samples of the height of a flight
 
-/// A series of a mode whose friction depends on the slip rate has no known radius; the limit of friction that depends on N
-/// is no polynomial where it sticks.
+/// The series of a state whose friction depends on the slip rate has no known radius; the limit of friction that
+/// depends on N is not a polynomial if the contact sticks.
 bool is_linear(const Model& model, const Mode& mode) {
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -39,7 +39,7 @@ std::optional<Step> ShortFlight::take(const Segment& segment,
   series_->start(segment);
   Step step = series_->advance();
   if (step.kind != Step::Kind::event) return std::nullopt;
-  // What ends the step may be another guard: a flight that is low up to there has to be known as well as one that ends there.
+  // Another guard may end the step: a flight that is low up to there has to be followed as well as one that ends there.
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     if (!leaves(slot)) continue;
     const Contact& contact = model_.contacts[contact_of_guard(slot)];

@@ -1,10 +1,10 @@
-// short_flight.hpp: flights of rigid contacts that stay below what an integrator's tolerance resolves.
+// short_flight.hpp: flights of rigid contacts below the resolution of an integrator's tolerance.
 //
-//   after a rebound  g = vn t + an t^2/2 + ...  returns to zero at t*, and g < level all the way
+//   after a rebound  g = vn t + an t^2/2 + ...  returns to zero at t*, and g < level up to t*
 //
-// An integrator's own polynomial says nothing there: its error is as large as the flight is high. The Taylor
-// series about the rebound knows it exactly (engine/exact/exact_engine.hpp), so it takes the step to the next
-// hit. Without it a ball at the end of its bounces falls through the floor by a tolerance, and further.
+// An integrator's own polynomial is useless there: its error is as large as the flight is high. The Taylor series about
+// the rebound gives the flight exactly (engine/exact/exact_engine.hpp), so it takes the step to the next hit. Without
+// it a ball at the end of its bounces would penetrate the floor by a tolerance, and further.
 #pragma once
 
 #include <functional>
@@ -18,11 +18,11 @@ class ShortFlight {
  public:
   ShortFlight(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
 
-  /// The step to the hit, or to another event before it, if the segment begins with such a flight. level: gap of a contact
-  /// from which on the integrator sees it by itself.
+  /// The step to the hit, or to another event before it, if the segment begins with such a flight. level: gap of a
+  /// contact from which on the integrator resolves it.
   [[nodiscard]] std::optional<Step> take(const Segment& segment,
                                          const std::function<double(const Contact&)>& level);
-  /// The motion and the works on the step that was taken.
+  /// The motion and the works on the step returned by take().
   [[nodiscard]] ExactEngine& motion() { return *series_; }
   [[nodiscard]] const ExactEngine& motion() const { return *series_; }
 

@@ -8,8 +8,8 @@
 namespace signorini {
 namespace {
 
-// Towards the solution along a knee of friction: each iteration is one scale of slip rates nearer, and beyond this many
-// friction is at its limit to the last digit. Elsewhere none is needed.
+// Iterations towards the solution along a knee of friction: each one is one scale of slip rates closer, and beyond this
+// many friction is at its limit to the last digit. Elsewhere none is needed.
 constexpr int most_towards = 40;
 
 StepNewton& newton_of(SUNNonlinearSolver solver) { return *static_cast<StepNewton*>(solver->content); }
@@ -24,7 +24,7 @@ StepNewton::StepNewton(IdaProblem& problem, void* ida, N_Vector like, SUNContext
   ops->solve = [](SUNNonlinearSolver s, N_Vector, N_Vector e, N_Vector w, realtype tolerance,
                   booleantype setup,
                   void* memory) { return newton_of(s).solve(e, w, tolerance, setup != 0, memory); };
-  // F and solves are called where they are; IDA may offer its own.
+  // F and the linear solves are called directly; IDA may offer its own functions.
   ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
   ops->setlsetupfn = [](SUNNonlinearSolver s, SUNNonlinSolLSetupFn f) {
     newton_of(s).setup_ = f;
@@ -67,7 +67,7 @@ int StepNewton::solve(N_Vector e, N_Vector weights, double tolerance, bool setup
   if (result == SUN_NLS_SUCCESS) return result;
   ++failures_;
   if (result < 0 || setup) return result;
-  // With the Jacobian of another step: once more with its own.
+  // The Jacobian was that of another step: repeats with the current one.
   N_VConst(0.0, e);
   result = iterate(e, weights, tolerance, true, true, memory);
   if (result != SUN_NLS_SUCCESS) ++failures_;
@@ -130,9 +130,10 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   return SUN_NLS_CONV_RECVR;
 }
 
-/// IDA's test does not know how fast iterations converge: it takes 1/20 of what it is asked for, and changes that shrink no
-/// more for failure. Along a knee each iteration has its own tangent, so that a change within the tolerance leaves less
-/// than itself; where it shrinks no more it is the rounding of great displacements whose difference T is.
+/// True if the correction is rounding. IDA's test does not know the rate of convergence: it accepts 1/20 of the
+/// requested tolerance, and treats changes that no longer shrink as a failure. Along a knee each iteration has its own
+/// tangent, so that a change within the tolerance leaves less than itself; a change that no longer shrinks is the
+/// rounding of large displacements whose difference T is.
 bool StepNewton::is_rounding(N_Vector weights, double tolerance) const {
   return problem_.has_knee() && N_VWrmsNorm(change_, weights) <= tolerance;
 }

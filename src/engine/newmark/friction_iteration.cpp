@@ -16,9 +16,9 @@
 namespace signorini {
 namespace {
 
-constexpr double unchanged = 1e-12;  // of the greatest contact force: a bound has stopped changing
-constexpr int slips = 100;           // key: T is given, whatever its direction
-constexpr int stops = 101;           // key: comes to rest within the step, without tangential stiffness
+constexpr double unchanged = 1e-12;  // relative to the greatest contact force: a bound has converged
+constexpr int slips = 100;           // key: T is given in either direction
+constexpr int stops = 101;           // key: stops within the step, without tangential stiffness
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void FrictionIteration::start(const Segment& segment) {
   ++counters.restarts;
 }
 
-/// The greatest contact force at a point, and how far off a bound may be that has stopped changing there.
+/// The greatest contact force at a point, and the error of a bound that has converged there.
 FrictionIteration::Known FrictionIteration::known_forces(const Point& point) const {
   Known known;
   double noise = 0.0;
@@ -63,7 +63,7 @@ FrictionIteration::Known FrictionIteration::known_forces(const Point& point) con
   return known;
 }
 
-/// Contacts at the beginning of a step: what a return to stick would hold, and the bounds.
+/// Initialises the contacts at the beginning of a step: anchors for a return to stick, and the bounds.
 void FrictionIteration::begin_sides() {
   bound_error_ = known_forces(begin_).error;
   for (std::size_t k = 0; k < sides_.size(); ++k) {
@@ -76,7 +76,7 @@ void FrictionIteration::begin_sides() {
   }
 }
 
-/// Rows of the states of this iterate; factorisations are kept by what of them is in the matrix.
+/// Sets the rows of this iterate's states; factorisations are kept by the part of the rows that stands in the matrix.
 void FrictionIteration::put_in_force() {
   std::vector<Rows>& rows = step_.own_rows();
   for (std::size_t k = 0; k < sides_.size(); ++k) {
@@ -86,7 +86,7 @@ void FrictionIteration::put_in_force() {
     key_[k] = static_cast<int>(side.state);
     Form& tangent = rows[k].tangent;
     if (const int s = slip_sign(side.state); s != 0) {
-      tangent = sliding_row(s, 0.0);  // T is a load, of the last iterate's bound
+      tangent = sliding_row(s, 0.0);  // T is a load, from the bound of the last iterate
       tangent.constant = -s * kinetic_friction(contact) * side.pressed;
       key_[k] = slips;
     } else if (side.state == State::stick && !contact.tangential_stiffness &&
@@ -101,12 +101,12 @@ void FrictionIteration::put_in_force() {
   step_.set(key_, std::move(rows));
 }
 
-/// The state that the iterate asks of contact k, its bound given.
+/// State of contact k that follows from the iterate for the given bound.
 State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
   const Side& side = sides_[k];
   const ContactMotion m = motion_of(contact, k, *segment_.forcing, t1_, end_);
-  // A dashpot presses where it closes, not on the way there.
+  // A dashpot presses while it closes, not while the contact approaches.
   if (contact.normal_force_given()
           ? is_open(side.state)
           : m.gap > 0.0 || contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
@@ -118,18 +118,19 @@ State FrictionIteration::state_of(std::size_t k) const {
     const double terms = std::abs(m.ut) + std::abs(m.T / *kt) + std::abs(side.anchor);
     return s * (slip_of(contact, m) - side.anchor) < -rounding::of_many * terms ? State::stick : side.state;
   }
-  // What slips goes on slipping; what does not is held by static friction.
+  // A slipping contact keeps slipping; static friction holds all others.
   const double friction =
       slip_sign(mode_[k].state) != 0 ? kinetic_friction(contact) : static_friction(contact);
   const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
-  // What rests at its limit goes on resting, whatever rounding makes of both; what comes to it slips.
+  // A contact that rests at its limit keeps resting, whatever the rounding of both forces; one that reaches the limit
+  // slips.
   const double loose = bound_error_ + rounding::of_many * terms;
   const bool rests = std::abs(m.T - begin_.T(model_.layout, k)) <= loose;
   if (std::abs(m.T) <= friction * side.pressed + (rests ? loose : 0.0)) return State::stick;
   return slip_along(m.T);
 }
 
-/// Takes the states that the iterate asks for. False: they are those that it was computed with.
+/// Adopts the states that follow from the iterate. False: they equal the states used to compute it.
 bool FrictionIteration::new_states() {
   bool changed = false;
   for (std::size_t k = 0; k < sides_.size(); ++k) {
@@ -141,7 +142,7 @@ bool FrictionIteration::new_states() {
   return changed;
 }
 
-/// Iterates the step to t1_. Empty, or why it does not converge.
+/// Iterates the step to t1_. Returns an empty string, or the reason why it does not converge.
 std::string FrictionIteration::iterate(double h, bool kept) {
   begin_sides();
   double change = 0.0, force = 0.0;
@@ -153,7 +154,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       return "the matrix of a step is singular; another dt may help";
     if (!end_.u.allFinite()) return "the motion overflows";
     switching = new_states();
-    if (switching) continue;  // with the bounds as they are
+    if (switching) continue;  // with unchanged bounds
     change = 0.0;
     const Known known = known_forces(end_);
     force = known.greatest;
@@ -166,11 +167,11 @@ std::string FrictionIteration::iterate(double h, bool kept) {
         change = kinetic_friction(contact) * std::abs(by);
         worst = k;
       }
-      // Only the bound of what slips acts in the next iterate; that of what sticks is what it has to be at
-      // once.
+      // Only the bound of a slipping contact acts in the next iterate; the bound of a sticking contact takes its final
+      // value at once.
       side.pressed += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
     }
-    // The states must hold with the new bounds, too.
+    // The states must also hold with the new bounds.
     switching = new_states();
     if (!switching && change <= bound_error_) return {};
   }
@@ -197,12 +198,12 @@ Step FrictionIteration::advance() {
   step.begin = step.end = t0_;
   step.resolution = resolution_at(t0_, 0.0);
   changed_ = false;
-  if (t0_ >= segment_.end) {  // states were adopted where the forcing breaks
+  if (t0_ >= segment_.end) {  // states were adopted at a break of the forcing
     std::swap(begin_, end_);
     return step;
   }
-  // Steps end at multiples of dt; after a discontinuity of the forcing a shorter one returns to them. Those within a short
-  // pulse count from its beginning.
+  // Steps end at multiples of dt; after a discontinuity of the forcing a shorter step returns to them. Steps within a
+  // short pulse are counted from its beginning.
   t1_ = within_ < dt_ ? t0_ + within_ : dt_ * (std::floor(t0_ / dt_ + same_length) + 1.0);
   if (segment_.end - t1_ <= same_length * within_) t1_ = segment_.end;
   double h = t1_ - t0_;
@@ -233,8 +234,8 @@ Step FrictionIteration::advance() {
   return step;
 }
 
-/// Of what has no mass the equation of motion, differentiated once, knows the velocity at the end of the step:
-/// the step's own swings about it from end to end.
+/// Velocities of massless degrees of freedom at the end of the step, from the equation of motion differentiated once:
+/// the step's own velocities oscillate about them from end to end.
 void FrictionIteration::settle_massless() {
   if (!consistent_.massless()) return;
   const ModeSystemPtr system = systems_.of(mode_);
@@ -245,8 +246,8 @@ void FrictionIteration::settle_massless() {
     if (model_.dofs[static_cast<std::size_t>(i)].massless) end_.v[i] = settled.v[i];
 }
 
-/// Of what has no mass; the step itself knows those of masses. Inside of a step the states are those of its
-/// beginning.
+/// Accelerations of massless degrees of freedom; the step itself knows those of masses. Inside the step the states are
+/// those of its beginning.
 void FrictionIteration::accelerate(double t, Point& point) {
   if (!consistent_.massless()) return;
   const ModeSystemPtr system = t == t1_ && changed_ ? systems_.of(mode_) : segment_.decision->system;
@@ -257,8 +258,8 @@ void FrictionIteration::accelerate(double t, Point& point) {
     if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
 }
 
-/// On a straight line between the ends of the step, which keeps |T| <= -f N; forces of a state that is about
-/// to change stay with it.
+/// Interpolates linearly between the ends of the step, which keeps |T| <= -f N; forces of a state that is about to
+/// change belong to that state.
 void FrictionIteration::evaluate(double t, Point& point) {
   if (t == t1_ || !(t1_ > t0_)) {
     point = end_;
@@ -268,7 +269,7 @@ void FrictionIteration::evaluate(double t, Point& point) {
   if (changed_) point.forces = begin_.forces;
 }
 
-/// Of the whole step, in the states that it ends with.
+/// Integrates over the whole step, in the states at its end.
 void FrictionIteration::integrate(double from, double to, Works& works) {
   if (!(t1_ > t0_)) return;
   works_.add(*segment_.forcing, mode_, begin_, t0_, end_, t1_, (to - from) / (t1_ - t0_), works);

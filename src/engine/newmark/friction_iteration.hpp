@@ -1,4 +1,4 @@
-// friction_iteration.hpp: engine `friction-iteration`: the method that the paper compares its own with.
+// friction_iteration.hpp: engine `friction-iteration`: the reference method of the paper.
 //
 //   repeat within a step of fixed length, the bounds B_k = f |N_k| taken from the last iterate:
 //     states of the contacts with that bound given:
@@ -6,9 +6,9 @@
 //     B := B + w (f |N| - B)
 //   until no bound changes
 //
-// No event is localised: a change of state takes effect at the end of its step, and closing counts from the
-// beginning of it. T = s B is a load, so the matrices are symmetric. The iteration may cycle (high friction
-// couples T back to N); it then stops the run and says so.
+// Events are not localised: a change of state takes effect at the end of its step, and closing counts from the
+// beginning of it. T = s B is a load, so the matrices are symmetric. The iteration may cycle (high friction couples T
+// back to N); it then stops the run and reports this.
 // Source: Lukashevich et al. 2021, the iterative algorithm.
 #pragma once
 
@@ -24,7 +24,7 @@ namespace signorini {
 
 class FrictionIteration final : public Stepper, public DenseOutput {
  public:
-  /// The first three must outlive it. run.dt must be given.
+  /// The first three arguments must outlive the object. run.dt must be given.
   FrictionIteration(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run);
 
   void start(const Segment& segment) override;
@@ -33,7 +33,7 @@ class FrictionIteration final : public Stepper, public DenseOutput {
   void evaluate(double t, Point& point) override;
   void accelerate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
-  /// Parabolas between its ends.
+  /// The motion is a parabola on the step.
   [[nodiscard]] StepFacts facts() const override {
     StepFacts facts;
     facts.radians = 2.0 * std::numbers::pi;
@@ -49,9 +49,9 @@ class FrictionIteration final : public Stepper, public DenseOutput {
  private:
   /// A contact during a step.
   struct Side {
-    State state = State::open;  // in the last iterate
+    State state = State::open;  // state in the last iterate
     double anchor = 0.0;        // p at the beginning of the step
-    double pressed = 0.0;       // |N| of the last iterate, which bounds |T|
+    double pressed = 0.0;       // |N| of the last iterate, the bound of |T|
   };
   struct Known {
     double greatest = 0.0, error = 0.0;  // forces
@@ -75,12 +75,12 @@ class FrictionIteration final : public Stepper, public DenseOutput {
   Segment segment_;
   std::vector<Side> sides_;
   NewmarkStep::Key key_, key_in_force_;
-  Mode mode_;  // at the end of the last step
+  Mode mode_;  // states at the end of the last step
   bool changed_ = false;
-  double bound_error_ = 0.0;  // of |T| <= f |N|, force
+  double bound_error_ = 0.0;  // error of |T| <= f |N|, force
   Point begin_, end_;
   double t0_ = 0.0, t1_ = 0.0;
-  double within_ = 0.0;  // length of whole steps: dt, or what a short pulse asks for
+  double within_ = 0.0;  // length of whole steps: dt, or the length that a short pulse requires
 };
 
 }  // namespace signorini

@@ -6,10 +6,11 @@
 namespace signorini {
 namespace {
 
-/// Of a consistent mass matrix of beams M^-1 decays by 2 - sqrt(3) an element, an element is some three places of a width of
-/// five: to rounding after 28 elements. Chosen: where it decays more slowly, the radius grows.
+/// Number of band widths. M^-1 of beams with a consistent mass matrix decays by 2 - sqrt(3) per element, and an element
+/// is about three places of a width of five: it reaches rounding after 28 elements. Chosen; the radius grows if the
+/// decay is slower.
 constexpr std::size_t first_radius = 16;  // widths
-constexpr std::size_t least_parts = 4;    // W is at most such a part of the structure
+constexpr std::size_t least_parts = 4;    // limit: W is at most this part of the structure
 
 }  // namespace
 
@@ -39,7 +40,7 @@ std::optional<NearStep::Window> NearStep::window(std::size_t contact) const {
     w.begin = std::min<std::size_t>(w.begin, rows_.touch(i).place);
     w.end = std::max<std::size_t>(w.end, rows_.touch(i).place + 1);
   }
-  if (w.begin >= w.end) return std::nullopt;  // it touches nothing
+  if (w.begin >= w.end) return std::nullopt;  // the contact acts on no degree of freedom
   w.begin -= std::min(w.begin, radius_);
   w.end = std::min(n, w.end + radius_);
   if (least_parts * (w.end - w.begin) > n) return std::nullopt;
@@ -57,7 +58,7 @@ void NearStep::know_motion(const Window& w, const Point& from, double h) {
   }
 }
 
-/// b_W, and what the contacts add to the matrix there.
+/// Computes b_W and adds the contact terms to the matrix there.
 void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Rows>& rows, double t1) {
   for (std::size_t place = w.begin; place < w.end; ++place) {
     const std::size_t i = rows_.dof_at(place);
@@ -80,7 +81,7 @@ void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Ro
   for (const std::size_t k : contacts_) {
     const Contact& contact = model_.contacts[k];
     const CondensedRows::Held& held = rows_.held(k);
-    ContactMotion m;  // as far as it is known
+    ContactMotion m;  // known part only
     set_place(contact, end_.u, forcing.surface(k, t1, 0), m);
     set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
     m.pressing = forcing.pressing(k, t1, 0);
@@ -120,7 +121,7 @@ bool NearStep::solve(const Window& w, const Point& from, double h, const Point& 
   return true;
 }
 
-/// Into the point: what the contact's degrees of freedom move, and its forces.
+/// Writes the motion of the contact's degrees of freedom and its forces into the point.
 void NearStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
   double &N = end_.forces.data()[model_.layout.normal(k)], &T = end_.forces.data()[model_.layout.tangent(k)];
   for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i) {

@@ -1,11 +1,11 @@
-// near_step.hpp: the end of a step at one contact, from what is near to it.
+// near_step.hpp: the end of a step at one contact, from its neighbourhood in the structure.
 //
 //   A_WW x_W = b_W - A_WO y      A, b, x: the step's (newmark_step.hpp), condensed (linear/condensed_matrix.hpp)
-//   y = a0 + h/H (a1 - a0)       what lies beside W, from a step of length H with the same beginning
+//   y = a0 + h/H (a1 - a0)       motion outside W, from a step of length H with the same beginning
 //
-// W: places of the band up to a radius from the contact's. The influence of what lies beyond decays as A^-1 does; how far
-// y is off is second order. No bound is assumed: whoever looks near checks what it has led to by a whole step, and looks
-// farther if that tells otherwise.
+// W: places of the band up to a radius from the contact's. The influence of the places beyond decays as A^-1 does; the
+// error of y is of second order. The method assumes no bound: the caller checks the result by a whole step, and doubles
+// the radius if that step differs.
 #pragma once
 
 #include "linear/band_factors.hpp"
@@ -16,12 +16,12 @@ namespace signorini {
 
 class NearStep {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive the object.
   NearStep(const Model& model, const CondensedRows& rows);
 
-  /// The end of the step from `from` at t1 - h to t1, as far as it is seen at the contact: nothing else of it is to be read.
-  /// rows: in force, those of the constructor's; whole: the end of the step of length `longer`. Null: W is no small part of
-  /// the structure, or elimination loses digits.
+  /// End of the step from `from` at t1 - h to t1, valid only at the contact. rows: in force, with the matrix pattern of
+  /// the constructor's rows; whole: the end of the step of length `longer`. Null: W is too large a part of the
+  /// structure, or elimination loses digits.
   [[nodiscard]] const Point* end(std::size_t contact, const Forcing& forcing, const std::vector<Rows>& rows,
                                  const Point& from, double t1, double h, const Point& whole, double longer);
   /// Doubles the radius.
@@ -30,7 +30,7 @@ class NearStep {
  private:
   struct Window {
     std::size_t begin = 0, end = 0;   // W
-    std::size_t first = 0, last = 0;  // with what couples to it
+    std::size_t first = 0, last = 0;  // W and the places that couple to it
   };
   struct Places {
     std::size_t begin = 0, end = 0;
@@ -44,13 +44,13 @@ class NearStep {
   const Model& model_;
   const CondensedRows& rows_;
   std::size_t radius_;
-  std::optional<BandFactors> band_;  // as large as the last window
+  std::optional<BandFactors> band_;  // sized for the last window
   Weights weights_;
-  Vector load_, b_;                    // one a degree of freedom, true in W alone; one a place of W
-  std::vector<Places> loads_;          // where each acts, from the first to the last
-  std::vector<double> by_N_, by_T_;    // one a touch
-  std::vector<std::size_t> contacts_;  // in the window
-  Point end_;                          // u, v: what is known of them, until it is read
+  Vector load_, b_;                    // by degree of freedom, valid in W only; by place of W
+  std::vector<Places> loads_;          // range of degrees of freedom on which each load acts
+  std::vector<double> by_N_, by_T_;    // one entry for each touch
+  std::vector<std::size_t> contacts_;  // contacts in the window
+  Point end_;                          // u, v: their known parts, until read
 };
 
 }  // namespace signorini

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int most_halvings = 60;
-constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
-constexpr int most_tangents = 4;                  // a fall that these do not find is bracketed
-constexpr double spare = 1.0 / 16.0;              // doubling: of the tolerance, below which steps grow again
+constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
+constexpr int most_tangents = 4;                  // a crossing that these do not find is bracketed
+constexpr double spare = 1.0 / 16.0;              // doubling: of the tolerance; below it steps grow again
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
-constexpr double least_part = 1e-12;  // doubling: of dt
+constexpr double least_part = 1e-12;  // doubling: relative to dt
 constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
 
 }  // namespace
@@ -58,20 +58,20 @@ void NewmarkEngine::start(const Segment& segment) {
   second_ = false;
   guards_.start(segment);
   guards_.weigh(end_, t1_);
-  // What sticks does not move, so that doubling sees nothing of the load on it.
+  // A sticking contact does not move, so doubling does not see the load on it.
   if (const double omega = doubling_ ? segment.forcing->greatest_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
   within_ = doubling_ ? dt_ : step_within(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
-/// Where a guard that is positive at both ends may fall between them, and not at once.
+/// Place where a guard that is positive at both ends may reach zero between them, if it is not at the beginning.
 std::optional<double> NewmarkEngine::dip_of(std::size_t slot, double h) const {
   const std::optional<double> x = guards_.dip(slot, h, h_before_);
   return x && *x * h > resolution_at(t0_, h) ? x : std::nullopt;
 }
 
-/// A step of length h from the beginning of this one, to t.
+/// Takes a step of length h from the beginning of this one, to t.
 bool NewmarkEngine::take(double h, double t, bool kept, Point& to) {
   if (!step_.take(*segment_.forcing, begin_, t, h, kept, to)) return false;
   if (settles_) consistent_.make(segment_.decision->system, *segment_.forcing, t, to);
@@ -88,7 +88,7 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
   return guards_.value(slot, t0_ + h, inner_);
 }
 
-/// The same by what is near to the contact; end_: of the step of length `longer`. NaN: nothing is.
+/// Same, from the contact's neighbourhood; end_: end of the step of length `longer`. NaN: no neighbourhood result.
 double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   const Point* near = step_.near(contact_of_guard(slot), *segment_.forcing, begin_, t0_ + h, h, end_, longer);
   if (near == nullptr) return nan;
@@ -96,14 +96,15 @@ double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   return guards_.value(slot, t0_ + h, *near);
 }
 
-/// Contacts without an element have forces that follow accelerations, and what is left of a gap, a slip rate or a force of
-/// theirs the decision takes out at once: modes above the step keep that blow, and blows make the next events.
+/// True if the contact has springs. Forces of contacts without springs follow accelerations, and the decision removes
+/// the remainder of their gap, slip rate or force at once: modes above the step keep that impulse, and such impulses
+/// cause the next events.
 bool NewmarkEngine::is_soft(std::size_t slot) const {
   const Contact& contact = model_.contacts[contact_of_guard(slot)];
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
-/// Up to this value a guard is zero: a search for its fall would follow its rounding.
+/// A guard up to this value is zero: a root search would follow its rounding.
 double NewmarkEngine::zero_of(std::size_t slot) const {
   return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
@@ -121,8 +122,8 @@ double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, dou
   return root_between(value, lo, hi, 0.25 * resolution_at(t0_ + hi, hi));
 }
 
-/// Along tangents and secants to the fall, by what is near to the contact: a whole step has to confirm it. Nothing: it
-/// is not found like this.
+/// Follows tangents and secants to the zero crossing, from the contact's neighbourhood; a whole step has to confirm the
+/// result. nullopt: not found by this method.
 std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t slot, double h, Tangent first) {
   Tangent next = first;
   double lo = 0.0, hi = h, before = nan, g_before = nan;
@@ -140,8 +141,8 @@ std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t sl
   return std::nullopt;
 }
 
-/// The fall of a guard that holds at the beginning of the step and not at its end: looked for first where its values and
-/// rates at both ends say, from there along tangents and secants.
+/// Zero crossing of a guard that is positive at the beginning of the step and not at its end: first searched at the
+/// root of the Hermite cubic, from there along tangents and secants.
 double NewmarkEngine::fall_near(std::size_t slot, double h) {
   const GuardPath path = guards_.path(slot, h);
   double lo = 0.0, g_lo = path.g0, hi = h, g_hi = path.g1;
@@ -174,14 +175,14 @@ double NewmarkEngine::fall_near(std::size_t slot, double h) {
     next.at -= g / next.slope;
   }
   if (next.slope < 0.0 && g_before != 0.0)
-    (void)narrow(before - 2.0 * g_before / next.slope);  // to the other side of the fall
+    (void)narrow(before - 2.0 * g_before / next.slope);  // to the other side of the root
   return fall_between(slot, lo, g_lo, hi, g_hi);
 }
 
 bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
 
-/// The paper's single interpolation. If the guard has not fallen there, the event would not fire: on by
-/// twice the next interpolation, until it has.
+/// The paper's single interpolation. If the guard has not reached zero there, the event would not be triggered: the
+/// step grows by twice the next interpolation until it has.
 double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
   const GuardPath path = guards_.path(slot, hi);
   const double g_hi = path.g1;
@@ -194,8 +195,8 @@ double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
   return h;
 }
 
-/// The guard that falls first in the step. `located`: the one of `slot` was found at its end, so only what
-/// has clearly fallen before counts.
+/// The guard that reaches zero first in the step. `located`: the root of `slot` was found at its end, so only guards
+/// that are clearly negative count.
 NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::size_t slot) {
   Candidate first;
   const auto consider = [&](Candidate::Kind kind, std::size_t s, double x) {
@@ -215,7 +216,7 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
   return first;
 }
 
-/// The same guard brought the states to be decided at the beginning of this step, and was left as it was.
+/// True if the same guard caused the decision at the beginning of this step, and its state did not change.
 bool NewmarkEngine::has_sunk(std::size_t slot) const {
   return sunk_ && sunk_->slot == slot && sunk_->guard == segment_.decision->guards[slot].kind &&
          std::abs(t0_ - sunk_->t) <= resolution_at(t0_, 0.0);
@@ -231,7 +232,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       h = interpolates(slot) ? linear_fall(slot, h) : fall_near(slot, h);
       return true;
     case Candidate::Kind::dip: {
-      // Down and up again within the step: the step redone to the least value tells.
+      // Down and up again within the step: the step redone to the least value decides.
       const double x = candidate.x * h;
       ++counters.rolled_back;
       const double g = value_after(slot, x);
@@ -243,8 +244,8 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       return true;
     }
     case Candidate::Kind::sink: {
-      // It began at zero, rose, and fell again within the step. Decided again where it never rose, it rises by less than
-      // its rounding: then it falls where it leaves that.
+      // The guard began at zero, rose, and reached zero again within the step. If it was decided again and never rose,
+      // it rises by less than its rounding: its root is then where it leaves the rounding.
       const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
       double hi = h, g_hi = path.g1;
       for (int i = 0; i < most_halvings; ++i) {
@@ -259,7 +260,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         hi = lo;
         g_hi = g;
       }
-      h = hi;  // it never rose: the states are decided again
+      h = hi;  // the guard never rose: the states are decided again
       sunk_ = Sunk{t0_ + h, slot, segment_.decision->guards[slot].kind};
       return true;
     }
@@ -275,7 +276,7 @@ Step NewmarkEngine::failed(std::string reason) const {
   return step;
 }
 
-/// The length at which a step of twice it changes the result by less than the tolerance.
+/// Step length at which a step of twice the length changes the result by less than the tolerance.
 double NewmarkEngine::doubled(double remaining) {
   if (std::exchange(second_, !second_)) return regular_;
   // A stretch that one step would span is compared with two halves, like any other.
@@ -301,12 +302,12 @@ double NewmarkEngine::doubled(double remaining) {
     }
     regular_ = h;
     second_ = !(change < spare && 2.0 * h <= dt_ && 2.0 * h < remaining);
-    if (!second_) regular_ = 2.0 * h;  // from the next step on
+    if (!second_) regular_ = 2.0 * h;  // for the next step
     return h;
   }
 }
 
-/// The step ends after h instead: where it was tried last, as a rule.
+/// Ends the step after h instead, which is usually the length of the last trial.
 bool NewmarkEngine::end_after(double h) {
   t1_ = t0_ + h;
   if (tried_ == h)
@@ -319,7 +320,7 @@ bool NewmarkEngine::end_after(double h) {
 }
 
 Step NewmarkEngine::advance() {
-  // What began the last step is the one before now; its vectors take the new end.
+  // The beginning of the last step becomes the previous one; its vectors take the new end.
   std::swap(a_before_, begin_.a);
   if (h_ == 0.0) a_before_.resize(0);
   std::swap(begin_, end_);
@@ -369,16 +370,16 @@ Step NewmarkEngine::advance() {
   return step;
 }
 
-/// Does a guard that holds at both ends fail at t? Where a step is far longer than the periods of the
-/// highest modes, the step redone need not pass where the step itself went.
+/// True if a guard that is positive at both ends is negative at t. If a step is far longer than the periods of the
+/// highest modes, the redone step need not follow the step itself.
 bool NewmarkEngine::strays(double t, const Point& point) const {
   for (std::size_t s = 0; s < guards_.arming().size(); ++s)
     if (!guards_.arming().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
   return false;
 }
 
-/// The solution inside the last step: the step redone to t. Should that stray, the straight line between the
-/// ends, on which every law holds, since all are linear or cones.
+/// The solution inside the last step: the step redone to t. If it strays, the straight line between the ends, on which
+/// every law holds, since all are linear or cones.
 const Point& NewmarkEngine::inside(double t) {
   if (t == t1_) return end_;
   if (t == t0_) return begin_;
@@ -392,7 +393,7 @@ const Point& NewmarkEngine::inside(double t) {
 
 void NewmarkEngine::evaluate(double t, Point& point) { point = inside(t); }
 
-/// Of what has no mass; the step itself knows those of masses.
+/// Accelerations of massless degrees of freedom; the step itself knows those of masses.
 void NewmarkEngine::accelerate(double t, Point& point) {
   if (!settles_) return;
   const Vector of_step = point.a;
@@ -423,7 +424,7 @@ void NewmarkEngine::integrate(double from, double to, Works& works) {
   until(to, 1.0);
 }
 
-/// Of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
+/// Errors of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
 double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, std::size_t k) const {
   const Form& form = guard.form;
   if (begin_.a.size() == 0) return 0.0;  // at the start, before any step

@@ -1,16 +1,15 @@
 // newmark_engine.hpp: engine `newmark`: the paper's step-by-step algorithm.
 //
-//   trial step in the mode in force (newmark_step.hpp) -> guards at its end -> the earliest that falls
-//   -> the step redone to the time of the fall -> event
+//   trial step in the state in force (newmark_step.hpp) -> guards at its end -> the first one that reaches zero
+//   -> the step redone to the time of its root -> event
 //
-//   refine = "root"    redone with shorter steps until the guard at their end is zero to the clock (Brent)
-//   refine = "linear"  redone once to the interpolated time, (8) to (10); again only if it did not fire;
-//                      contacts without an element as with "root"
+//   refine = "root"    redone with shorter steps until the guard at their end is zero to the resolution of time (Brent)
+//   refine = "linear"  redone once to the interpolated time, (8) to (10); again only if no event was triggered;
+//                      contacts without springs as with "root"
 //
-// After an event the next step has the full length again: its factorisation is kept by states and length, so
-// only the modes themselves cost one. Between the ends of a step the solution is the step redone to that
-// time, which satisfies equilibrium and the laws too. Source: Lukashevich et al. 2021, (5) to (11), corrected
-// as docs/theory.md says.
+// After an event the next step has the full length again: its factorisation is kept by states and length, so only new
+// contact states cost one. Between the ends of a step the solution is the step redone to that time, which satisfies
+// equilibrium and the laws too. Source: Lukashevich et al. 2021, (5) to (11), corrected according to docs/theory.md.
 #pragma once
 
 #include <numbers>
@@ -28,7 +27,7 @@ namespace signorini {
 
 class NewmarkEngine final : public Stepper, public DenseOutput {
  public:
-  /// The first three must outlive it. run.dt must be given.
+  /// The first three arguments must outlive the object. run.dt must be given.
   NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run,
                 const Tolerance& tolerance);
 
@@ -39,7 +38,7 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   void accelerate(double t, Point& point) override;
   void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
-  /// Parabolas between its ends.
+  /// The motion is a parabola on the step.
   [[nodiscard]] StepFacts facts() const override {
     StepFacts facts;
     facts.radians = 2.0 * std::numbers::pi;
@@ -52,18 +51,18 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
                                    std::size_t contact) const override;
 
  private:
-  /// Where a guard falls in the step: not yet located.
+  /// A guard that may reach zero in the step, not yet located.
   struct Candidate {
     enum class Kind { none, fall, dip, sink } kind = Kind::none;
     std::size_t slot = 0;
-    double x = 2.0;  // about where, of the step
+    double x = 2.0;  // approximate place in the step
   };
 
   [[nodiscard]] bool take(double h, double t, bool kept, Point& to);
   [[nodiscard]] bool strays(double t, const Point& point) const;
   [[nodiscard]] const Point& inside(double t);
   [[nodiscard]] std::optional<double> dip_of(std::size_t slot, double h) const;
-  /// At the end of the step: below this the sign of a guard is rounding.
+  /// Below this value at the end of the step the sign of a guard is rounding.
   [[nodiscard]] double level(std::size_t slot) const { return guards_.level(slot, t1_, end_); }
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] double value_near(std::size_t slot, double h, double longer);
@@ -72,7 +71,7 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   [[nodiscard]] double zero_of(std::size_t slot) const;
   [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
                                     double floor = 0.0);
-  /// Where a guard is thought to fall: its value there is over its slope away from zero.
+  /// Estimated root of a guard: its value and slope at a place away from the root.
   struct Tangent {
     double at = 0.0, slope = 0.0;
   };
@@ -81,7 +80,7 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
   [[nodiscard]] bool has_sunk(std::size_t slot) const;
-  /// Narrows the step to the candidate. False: it is none.
+  /// Shortens the step to the candidate's event. False: the candidate is no event.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool end_after(double h);
   [[nodiscard]] double doubled(double remaining);
@@ -97,16 +96,16 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   NewmarkWorks works_;
   Segment segment_;
   StepGuards guards_;
-  bool settles_ = false;  // parts without mass: their velocities follow from the equations
+  bool settles_ = false;  // massless parts: their velocities follow from the equations
   Point begin_, end_, inner_, fine_, coarse_;
-  Vector a_before_;                  // at the beginning of the step before; empty: there was none
-  double inner_time_ = 0.0;          // of inner_; NaN: it holds nothing
-  double tried_ = 0.0;               // length of the step that inner_ is the end of; 0: of none
+  Vector a_before_;                  // at the beginning of the previous step; empty: none
+  double inner_time_ = 0.0;          // time of inner_; NaN: not set
+  double tried_ = 0.0;               // length of the step that ends at inner_; 0: none
   double t0_ = 0.0, t1_ = 0.0;       // the last step
-  double h_ = 0.0, h_before_ = 0.0;  // its length, that of the one before (0: none)
+  double h_ = 0.0, h_before_ = 0.0;  // its length, and that of the previous step (0: none)
   double regular_ = 0.0;             // length of steps without events
-  double within_ = 0.0;              // the same with fixed steps: dt, or what a short pulse asks for
-  double counted_from_ = 0.0;        // these end at counted_from_ + k counted_length_, without drift
+  double within_ = 0.0;              // same with fixed steps: dt, or the length that a short pulse requires
+  double counted_from_ = 0.0;        // fixed steps end at counted_from_ + k counted_length_, without drift
   double counted_length_ = 0.0;
   long counted_ = 0;
   /// A guard that began at zero and never rose within a step.
@@ -115,7 +114,7 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
     std::size_t slot = 0;
     Guard guard = Guard::none;
   };
-  std::optional<Sunk> sunk_;  // the last one
+  std::optional<Sunk> sunk_;  // the last such guard
   bool second_ = false;       // doubling: the second step of a pair
 };
 

@@ -15,14 +15,14 @@ namespace {
 // bytes as much as mode systems may take (motion/mode_systems.hpp).
 constexpr CacheBounds most_kept{32, std::size_t{8} << 20};
 
-// A factorisation of a banded matrix, with all that is read of it, over a solve: 0.64 + 0.3 ms over 0.045 at 3000
-// unknowns.
+// Cost ratio of a factorisation of a banded matrix, with the preparation of its factors, to a solve: 0.64 + 0.3 ms to
+// 0.045 ms at 3000 unknowns.
 constexpr double solves_a_factorisation = 20.0;
-constexpr double bytes_a_number = 12.0;  // of triangular_factors.hpp
-// Refining goes on while each round leaves a tenth; eight rounds of solve and product cost a factorisation.
+constexpr double bytes_a_number = 12.0;  // one number of triangular_factors.hpp
+// Refinement continues while each round leaves a tenth; eight rounds of solve and product cost a factorisation.
 constexpr double least_gain = 0.1;
 constexpr int most_rounds = 8;
-constexpr double left_of_rounding = rounding::eps / 16.0;  // of what a refined solution may be off, in parts
+constexpr double left_of_rounding = rounding::eps / 16.0;  // relative error of a refined solution
 
 }  // namespace
 
@@ -74,14 +74,14 @@ void NewmarkStep::weigh(double h) {
                                                          : Weights{0.0, 0.0, 1.0};
 }
 
-/// Pivots of other states serve where each contact's forces are their own pivots.
+/// Pivots of other states can be reused if each contact's forces are their own pivots.
 bool NewmarkStep::factor(SystemMatrix& matrix, double h, bool fresh) {
   weigh(h);
   return matrix.set(*rows_, weights_, fresh && !(economical_ && !own_forces(*rows_).empty()),
                     in_rows_.undamped);
 }
 
-/// What the rows in force have beyond those of the base, in the columns of the matrix at its length.
+/// Differences between the rows in force and the base rows, in the columns of the matrix at its length.
 std::vector<ChangedRow> NewmarkStep::changed_rows() const {
   std::vector<ChangedRow> changed;
   const auto n = static_cast<std::size_t>(structure_.size);
@@ -120,7 +120,7 @@ bool NewmarkStep::update(double h) {
   return updates_ = updates_ && spent_ <= factorisation;
 }
 
-/// x_ := A^-1 x_ by factors of a band. False: there are none, and x_ is as it was.
+/// x_ := A^-1 x_ by factors of a band. False: there are none, and x_ is unchanged.
 bool NewmarkStep::solve_condensed(double h, bool kept) {
   if (!condensed_) return false;
   const Weights weights{1.0, 0.5 * h, 0.25 * h * h};
@@ -142,7 +142,7 @@ void NewmarkStep::look_farther() {
   if (near_) near_->look_farther();
 }
 
-/// x_ := A^-1 x_, A of a length that will come again.
+/// x_ := A^-1 x_ for a length that will recur.
 bool NewmarkStep::solve_kept(double h) {
   if (last_ == nullptr || last_h_ != h) {
     last_h_ = h;
@@ -198,8 +198,8 @@ void NewmarkStep::take_rest(const Vector& b, const Vector& x, double h) {
   rest_.noalias() = b - product_;
 }
 
-/// x_ := A^-1 x_ at length h by the factors of the last odd one, from the solution there. False: it converges slowly, and
-/// x_ is as it was.
+/// x_ := A^-1 x_ at length h by the factors of the last odd length, starting from the solution there. False: slow
+/// convergence, and x_ is unchanged.
 bool NewmarkStep::refine(double h) {
   const Eigen::Index n = structure_.size, m = x_.size() - n;
   const auto greatest = [](const auto& of) { return of.size() > 0 ? of.cwiseAbs().maxCoeff() : 0.0; };
@@ -231,7 +231,7 @@ bool NewmarkStep::refine(double h) {
   return false;
 }
 
-/// x_ := A^-1 x_, A of a length that will hardly come again.
+/// x_ := A^-1 x_ for a length that will hardly recur.
 bool NewmarkStep::solve_odd(double h) {
   const bool same_rows = odd_key_ == key_ && odd_h_ != 0.0;
   if (!(same_rows && odd_h_ == h)) {
@@ -245,7 +245,7 @@ bool NewmarkStep::solve_odd(double h) {
   return true;
 }
 
-/// What is known of the motion at the end of the step: u_ and v_.
+/// Known parts of the motion at the end of the step: u_ and v_.
 void NewmarkStep::know_motion(const Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
@@ -293,7 +293,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   const std::vector<Rows>& rows = *rows_;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    ContactMotion m;  // as far as it is known
+    ContactMotion m;  // known part only
     set_place(contact, u_, forcing.surface(k, t1, 0), m);
     set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
@@ -305,7 +305,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
     if (!(kept ? solve_kept(h) : solve_odd(h))) return false;
     if (economical_) {
       if (!kept) odd_x_ = x_;
-      know_motion(from, h);  // refining has used its room
+      know_motion(from, h);  // refinement has overwritten them
     }
   }
 
@@ -313,7 +313,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   to.forces.resize(x_.size() - from.u.size());
   const double* x = x_.data();
   for (std::size_t i = n; i < static_cast<std::size_t>(x_.size()); ++i) to.forces.data()[i - n] = x[i];
-  // The limit itself, not what the solve leaves of it: no drift.
+  // The limit itself, not the result of the solve: no drift.
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
       to.forces.data()[model_.layout.tangent(k)] = -tangent.N * to.forces.data()[model_.layout.normal(k)];

@@ -5,14 +5,15 @@
 //
 // Equilibrium and the contacts' laws hold at the end of every step, not only in the limit; a slipping
 // contact's row T = -s f N is the paper's compensating load (11), predicted and corrected in one solve.
-// The unknown of a degree of freedom is a1, v1 where it has a damper but no mass, u1 where it has neither:
-// nothing is divided by h, so a step may be as short as the clock tells.
+// The unknown of a degree of freedom is a1, v1 if it has a damper but no mass, u1 if it has neither: no division by h,
+// so a step may be as short as the resolution of time.
 //
-// Large structures (`economical_from`) with compliant contacts and a narrow band are factorised anew for each length that
-// will not come again; for others, factors follow changes of state (linear/condensed_matrix.hpp). Factorisations of others:
-//   after a change of state at the full length   an update of low rank of the last one (linear/updated_factors.hpp), until
-//                                                its solves have cost as much as a factorisation
-//   at a length near the last odd one            x += A_odd^-1 (b - A x), until rounding is left
+// Large structures (`economical_from`) with compliant contacts and a narrow band are factorised anew for each length
+// that will not recur; for lengths that recur, factors follow changes of state (linear/condensed_matrix.hpp).
+// Factorisations of other structures:
+//   after a change of state at the full length   an update of low rank of the last one (linear/updated_factors.hpp)
+//                                                until its solves have cost as much as a factorisation
+//   at a length near the last odd one            x += A_odd^-1 (b - A x), until only rounding remains
 #pragma once
 
 #include <optional>
@@ -28,36 +29,36 @@
 
 namespace signorini {
 
-/// Lengths that differ by less than this part of a step are one length: a rest of a segment that is longer is
-/// taken in one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below what a step is good
-/// for.
+/// Lengths that differ by less than this part of a step are equal: a slightly longer remainder of a segment is taken in
+/// one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
 inline constexpr double same_length = 1e-9;
 
 class NewmarkStep {
  public:
-  /// Names what of the rows stands in the matrix: equal keys, equal matrices.
+  /// Identifies the part of the rows that stands in the matrix: equal keys, equal matrices.
   using Key = std::vector<int>;
 
-  /// widest_band: up to which a matrix is factorised as a band.
+  /// widest_band: greatest width for which a matrix is factorised as a band.
   NewmarkStep(const Model& model, const Structure& structure,
               std::size_t widest_band = CondensedMatrix::widest);
 
   /// Puts rows in force.
   void set(Key key, std::vector<Rows> rows);
-  /// The same of rows that are somebody else's.
+  /// Same, with shared rows of another owner.
   void set(Key key, std::shared_ptr<const std::vector<Rows>> rows);
-  /// Of rows that are its own: constants may change without a new factorisation.
+  /// Rows owned by this object: their constants may change without a new factorisation.
   [[nodiscard]] std::vector<Rows>& own_rows() { return *own_rows_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return *rows_; }
-  /// From `from` at t1 - h to `to` at t1. `kept`: steps of this length will come again, so their
-  /// factorisation is kept. False: the matrix is singular.
+  /// Steps from `from` at t1 - h to `to` at t1. `kept`: steps of this length will recur, so their factorisation is
+  /// kept. False: the matrix is singular.
   [[nodiscard]] bool take(const Forcing& forcing, const Point& from, double t1, double h, bool kept,
                           Point& to);
-  /// What of the end of such a step is seen at one contact, by what is near to it: the rest of the point is not to be read.
-  /// whole: the end of the step of length `longer` from the same point. Null: nothing is near, or it would save nothing.
+  /// End of such a step at one contact, computed from its neighbourhood: the rest of the point is invalid. whole: the
+  /// end of the step of length `longer` from the same point. Null: no neighbourhood is available, or it would not save
+  /// time.
   [[nodiscard]] const Point* near(std::size_t contact, const Forcing& forcing, const Point& from, double t1,
                                   double h, const Point& whole, double longer);
-  /// What near() has told was not near enough.
+  /// The neighbourhood used by near() was too small: doubles its radius.
   void look_farther();
   void count(Counters& counters) const;
 
@@ -80,26 +81,26 @@ class NewmarkStep {
   Key key_;
   std::shared_ptr<std::vector<Rows>> own_rows_;
   std::shared_ptr<const std::vector<Rows>> rows_;
-  const std::vector<DofKind> own_kinds_;  // by the structure alone
+  const std::vector<DofKind> own_kinds_;  // kinds by the structure alone
   const bool massless_;
-  MotionKinds in_rows_;  // which unknown each degree of freedom has
+  MotionKinds in_rows_;  // unknown of each degree of freedom
   SystemMatrix workshop_;
   BoundedCache<std::pair<Key, double>, Factors> kept_;  // by rows and length
-  SystemMatrix odd_;                                    // for a length that will not come again
+  SystemMatrix odd_;                                    // matrix for a length that will not recur
   Key odd_key_;
-  double odd_h_ = 0.0;  // 0: it holds nothing
-  Factors last_;        // of a length that is kept, used last; null after a change of rows
+  double odd_h_ = 0.0;  // 0: no factors
+  Factors last_;        // last used factors of a kept length; null after a change of rows
   double last_h_ = 0.0;
   const bool economical_;
-  std::optional<CondensedRows> condensed_;    // where the band is narrow
-  std::optional<CondensedMatrix> kept_band_;  // of those, for a length that comes again
-  std::optional<CondensedMatrix> odd_band_;   // for others
+  std::optional<CondensedRows> condensed_;    // used if the band is narrow
+  std::optional<CondensedMatrix> kept_band_;  // band matrix for a length that recurs
+  std::optional<CondensedMatrix> odd_band_;   // for other lengths
   std::optional<NearStep> near_;
-  UpdatedFactors updated_;       // of rows in force from base_rows_, both at base_h_
-  std::vector<Rows> base_rows_;  // of its base
+  UpdatedFactors updated_;       // rows in force as changes of base_rows_, both at base_h_
+  std::vector<Rows> base_rows_;  // rows of the base matrix
   double base_h_ = 0.0;
-  bool updates_ = false;           // it is in force, for last_h_
-  double spent_ = 0.0;             // numbers that its solves took since rows changed
+  bool updates_ = false;           // updated_ is in force, for last_h_
+  double spent_ = 0.0;             // operations that its solves took since the rows changed
   Vector odd_x_, rest_, product_;  // the last solution at an odd length; scratch
   std::vector<Weights> weights_;
   Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch

@@ -1,11 +1,11 @@
-// newmark_works.hpp: what a step of average acceleration brings and loses.
+// newmark_works.hpp: work of the loads and dissipation in a step of average acceleration.
 //
 //   loads     1/2 (P0 + P1) . du
 //   damping   h v^T C v + sum_closed cn vn dg          v, vn: means of both ends
 //   friction  1/2 (T0 + T1) dp
 //   surface  -1/2 (T0 + T1) ds
 //
-// With these the energy balance of a step holds to rounding: it is that of the trapezoidal rule, which keeps
+// With these works the energy balance of a step holds to rounding: it is that of the trapezoidal rule, which conserves
 // the energy of a linear system.
 #pragma once
 

@@ -10,32 +10,32 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t finest = 1024;  // parts: of a half wave T is off by pi^2 / 12 / 1024^2
-// Of int |f|. Four steps of a half sine err by less, as steps of a method of second order may; three do not.
+constexpr std::size_t finest = 1024;  // parts: relative error of T for a half wave is pi^2 / 12 / 1024^2
+// Error limit relative to int |f|: four steps of a half sine stay below it, three do not.
 constexpr double lost = 1.0 / 16.0;
-constexpr double passed = 1e-4;  // of int |f|
+constexpr double passed = 1e-4;  // relative to int |f|
 
 using Values = std::array<double, finest + 1>;
 
-/// A polynomial that is no straight line.
+/// True for a polynomial of degree 2 or higher.
 bool curves(const std::vector<double>& c) {
   return std::any_of(c.begin() + std::min<std::ptrdiff_t>(2, std::ssize(c)), c.end(),
                      [](double x) { return x != 0.0; });
 }
 
-/// No straight line.
+/// True if the piece is not a straight line.
 bool bends(const Piece& piece) {
   return piece.function || piece.amplitude != 0.0 || curves(piece.coefficients);
 }
 
-/// T of the values, every stride-th of them, over the length of the stretch.
+/// T of every stride-th value, divided by the length of the segment.
 double trapezoid(const Values& f, std::size_t stride) {
   double sum = 0.5 * (f.front() + f.back());
   for (std::size_t i = stride; i < finest; i += stride) sum += f[i];
   return sum * static_cast<double>(stride) / static_cast<double>(finest);
 }
 
-/// T of the steps of length dt and the rest, over the length.
+/// T of the steps of length dt and the remainder, divided by the length.
 double of_own_steps(const Piece& piece, double begin, double end, double dt) {
   double sum = 0.0, from = begin, before = piece.value(begin);
   for (int i = 1; from < end; ++i) {
@@ -48,9 +48,9 @@ double of_own_steps(const Piece& piece, double begin, double end, double dt) {
   return sum / (end - begin);
 }
 
-/// A cubic that stays within its values at both ends, as those between the rows of a table do.
+/// True for a cubic that stays between its values at both ends, as those between the rows of a table do.
 bool between_rows(const Piece& piece, double begin, double end) {
-  constexpr int looks = 16;  // a cubic that turns inside goes beyond its ends at several of them
+  constexpr int looks = 16;  // a cubic that turns inside exceeds its ends at several of these samples
   if (piece.function || piece.amplitude != 0.0 || piece.coefficients.size() != 4) return false;
   const auto [least, greatest] = std::minmax({piece.value(begin), piece.value(end)});
   for (int i = 1; i < looks; ++i)
@@ -59,8 +59,8 @@ bool between_rows(const Piece& piece, double begin, double end) {
   return true;
 }
 
-/// dt is told to do without an integral: of a wave on a straight line steps of h err by h^2/12 |f''| at most, and int |f| is
-/// no less than |J|.
+/// True if dt is short enough, decided without an integral: for a wave plus a straight line the error of steps of h is
+/// at most h^2/12 |f''|, and int |f| is at least |J|.
 bool clearly_passed(const Piece& piece, double begin, double end, double dt) {
   if (piece.function || curves(piece.coefficients)) return false;
   const double turn = piece.omega * std::min(dt, end - begin);
@@ -68,7 +68,7 @@ bool clearly_passed(const Piece& piece, double begin, double end, double dt) {
   return error <= lost * (std::abs(of_own_steps(piece, begin, end, dt)) - error);
 }
 
-/// As many parts as this piece needs, 1 where dt does.
+/// Number of parts that this piece needs, 1 if dt suffices.
 std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
   if (between_rows(piece, begin, end) || clearly_passed(piece, begin, end, dt)) return 1;
   Values f, size;

@@ -47,7 +47,7 @@ void StepGuards::gather(std::size_t k) {
   mode_[k] = decision.mode[k];
   Seen& seen = seen_[k];
   seen = {};
-  // Of what sticks rigidly others may hold a guard.
+  // A neighbouring contact may hold a guard of a contact that sticks rigidly.
   seen.plain = is_plain(rows.normal) && is_plain(rows.tangent) && rows.normal.vn == 0.0 &&
                !segment_.forcing->drives(k) && !model_.contacts[k].sticks_rigidly();
   seen.gap = model_.contacts[k].gap;
@@ -71,7 +71,7 @@ void StepGuards::gather(std::size_t k) {
   }
 }
 
-/// Does the derivative of the guard follow from displacements, velocities and accelerations?
+/// True if the derivative of the guard follows from displacements, velocities and accelerations.
 bool StepGuards::rates_known(std::size_t slot) const {
   const std::size_t k = contact_of_guard(slot);
   const Form& form = segment_.decision->form(slot);
@@ -128,7 +128,7 @@ void StepGuards::weigh_plain(std::size_t k, const Point& point) {
 void StepGuards::weigh_any(std::size_t k, const Point& point, double t) {
   const Forcing& forcing = *segment_.forcing;
   const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
-  ContactMotion d;  // its derivative as far as it is known
+  ContactMotion d;  // known part of the derivative
   d.gap = m.vn;
   d.ut = m.vt;
   d.vn = m.an;

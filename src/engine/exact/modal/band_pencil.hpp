@@ -2,9 +2,8 @@
 //
 //   P (K - s M) P^T = L D L^T,   negative pivots in D = number of omega_i^2 < s   (Sylvester)
 //
-// P orders the degrees of freedom so that the band is narrow (reverse Cuthill-McKee). R is double for
-// counting and long double where digits count: what rounding makes of a low frequency grows with the highest
-// one.
+// P orders the degrees of freedom so that the band is narrow (reverse Cuthill-McKee). R is double for counting and long
+// double for accurate digits: the rounding error of a low frequency grows with the highest one.
 #pragma once
 
 #include <cmath>
@@ -15,7 +14,7 @@
 
 namespace signorini {
 
-/// Place of each degree of freedom in an order that keeps the band of both matrices narrow.
+/// Place of each degree of freedom in an order in which the band of both matrices is narrow.
 [[nodiscard]] std::vector<int> narrow_order(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
 template <class R>
@@ -44,7 +43,7 @@ class BandPencil {
     std::size_t negative = 0;
     for (std::size_t j = 0; j < n_; ++j) {
       R* column = factor_.data() + j * rows;
-      // A pivot of zero is one rounding away from being one of either sign.
+      // A zero pivot is one rounding away from either sign.
       if (column[0] == R(0))
         column[0] = std::numeric_limits<R>::epsilon() * (std::abs(k_[j * rows]) + R(1e-300L));
       if (column[0] < R(0)) ++negative;

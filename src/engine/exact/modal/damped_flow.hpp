@@ -11,7 +11,7 @@ namespace signorini {
 
 class DampedFlow final : public ModalFlow {
  public:
-  /// All but t_end must outlive it. kept: as of DampedMotion.
+  /// All arguments except t_end must outlive the object. kept: see DampedMotion.
   DampedFlow(const Model& model, const OpenBasis& basis, double t_end, DampedSystem* kept = nullptr)
       : motion_(model, basis, t_end, kept),
         proof_(motion_),

@@ -15,11 +15,11 @@ using Long = DampedPencil::Long;
 using Wide = DampedPencil::Wide;
 using Local = DampedPencil::Local;
 
-constexpr Long equal_roots = 1e-13L;  // relative distance of roots that were found to be one
+constexpr Long equal_roots = 1e-13L;  // relative distance at which roots are the same root
 
 struct Root {
   Wide l;
-  std::size_t members = 1;  // equal roots, of which this is the first
+  std::size_t members = 1;  // number of equal roots, of which this is the first
 };
 
 class Search {
@@ -50,7 +50,7 @@ class Search {
   const DampedPencil& pencil_;
   const Index n_;
   std::vector<Root> roots_;
-  Index next_ = 0;  // column of the result
+  Index next_ = 0;  // next column of the result
   std::string failure_;
 };
 
@@ -69,7 +69,7 @@ bool Search::find_roots() {
   return true;
 }
 
-/// Equal ones follow each other, and the first one knows how many they are.
+/// Stores equal roots consecutively; the first one holds their number.
 void Search::merge_roots() {
   std::sort(roots_.begin(), roots_.end(), [](const Root& a, const Root& b) {
     return std::pair(size_of(a.l), a.l.re) < std::pair(size_of(b.l), b.l.re);
@@ -87,7 +87,7 @@ void Search::merge_roots() {
   roots_ = std::move(parted);
 }
 
-/// Of all modes, from the null vectors of T; right: null where the shape is known otherwise.
+/// Shapes in all modes, from the null vectors of T; right: null if the shape is known otherwise.
 void Search::spread(const Local& local, Wide l, const SmallVector<Wide>* right, const SmallVector<Wide>& left,
                     Vectors& out) const {
   const auto near = [&](Index j) { return std::find(local.near.begin(), local.near.end(), j); };
@@ -134,7 +134,7 @@ Wide Search::product(Wide l, const Vectors& left, const Vectors& right) const {
 
 std::complex<double> narrow(Wide a) { return {static_cast<double>(a.re), static_cast<double>(a.im)}; }
 
-/// x of length 1, y^T L' x = 1.
+/// Scales to x of length 1 and y^T L' x = 1.
 void Search::keep(Wide l, const Vectors& v, Wide product, DampedModes& out) {
   Long size = 0, left = 0, from = 0;
   for (const Wide x : v.x) size += x.re * x.re + x.im * x.im;
@@ -208,7 +208,7 @@ bool Search::add_seen(const Root& root, DampedModes& out) {
   return true;
 }
 
-/// The two roots of a mode that drives nothing, and what drives it.
+/// Adds the two roots of a mode that no term sees, and the mode's excitation.
 bool Search::add_unseen(Index j, DampedModes& out) {
   const Long c = pencil_.decay()[j], d = pencil_.square()[j], inside = c * c / 4 - d;
   std::vector<Wide> roots;

@@ -7,11 +7,11 @@
 //   T = | 1 + kappa_a sum_j v_ja u_jb / P_j    -kappa_a v_ja |      j outside G in sums, inside in columns
 //       | u_jb                                  P_j          |      kappa_a = k_a + l c_a
 //
-// Where a is rigid the 1 is absent and kappa = 1: the limit of infinite stiffness. G holds the modes whose P_j
-// is small, so that nothing is divided by small differences. Roots are begun from a dense problem in doubles
-// and made sharp by Newton's steps on T in extended precision; shapes follow from its null vectors. A mode that
-// no term sees (v_j = 0) has its own two roots. Equal poles are turned so that as few as possible are seen;
-// equal roots take all null vectors of T. Roots that are nearly equal and have one shape fail.
+// If a is rigid, the 1 is absent and kappa = 1: the limit of infinite stiffness. G contains the modes whose P_j is
+// small, which avoids divisions by small differences. Roots start from a dense problem in doubles and are refined by
+// Newton steps on T in extended precision; shapes follow from its null vectors. A mode that no term sees (v_j = 0) has
+// its own two roots. Modes of equal poles are rotated so that the terms see as few as possible; equal roots take all
+// null vectors of T. Nearly equal roots with a common shape are a failure.
 //
 //   motion   q = Re sum_k shape_k y_k,  y_k' = l_k y_k + from_rate_k . p,   y = from_q q + from_rate q'
 //
@@ -24,24 +24,24 @@
 
 namespace signorini {
 
-/// u: direction of the force, v: the form that it follows; of all modes.
+/// u: direction of the force, v: form that the force follows; both in all modes.
 struct ModalTerm {
   Eigen::VectorXd u, v;
   double stiffness = 0.0, damping = 0.0;
   bool rigid = false;
 };
 
-/// More columns of T than this are not handled: terms and modes in G.
+/// Limit for the columns of T: terms and modes in G.
 inline constexpr std::size_t most_damped_terms = 9;
 
 struct DampedModes {
-  std::string failure;                 ///< why the modes cannot be used; empty: they can
-  Eigen::VectorXcd root;               ///< im >= 0, |l| ascending; one of each pair
-  Eigen::MatrixXcd shape;              ///< n x roots; a pair's is doubled, so that real parts add up
-  Eigen::MatrixXcd force;              ///< terms x roots: lambda, likewise
+  std::string failure;                 ///< reason why the modes cannot be used; empty: they can
+  Eigen::VectorXcd root;               ///< im >= 0, |l| ascending; one root of each pair
+  Eigen::MatrixXcd shape;              ///< n x roots; doubled for a pair, so that real parts add up
+  Eigen::MatrixXcd force;              ///< terms x roots: lambda, doubled for a pair
   Eigen::MatrixXcd from_q, from_rate;  ///< roots x n
   double condition = 1.0;              ///< greatest |x| |y| of a root, 1 without damping and slip
-  double round_trip = 0.0;             ///< greatest error of what the modes give back of a motion of size 1
+  double round_trip = 0.0;             ///< greatest error of a motion of size 1 after a round trip
 };
 
 /// square, decay: d_j, ascending, and c_j.

@@ -9,13 +9,13 @@
 namespace signorini {
 namespace {
 
-/// What rounding may be multiplied with where a slow mode, or one near resonance, answers a force: as much as
-/// the closed form of works bears (modal_works.cpp).
+/// Limit for the amplification of rounding in the response of a slow mode, or one near resonance, to a force: the same
+/// limit as for the closed form of works (modal_works.cpp).
 constexpr double most_loss = 1e3;
 
 }  // namespace
 
-/// u_c: what constraints hold, in open modes.
+/// u_c: the displacement held by constraints, in open modes.
 Eigen::MatrixXd DampedMotion::held(const Segment& segment, const Vector& q) const {
   const auto rigid = static_cast<Eigen::Index>(state_->rigid.size());
   Eigen::MatrixXd asked = Eigen::MatrixXd::Zero(rigid, time_.size());
@@ -34,7 +34,7 @@ Eigen::MatrixXd DampedMotion::held(const Segment& segment, const Vector& q) cons
   return state_->static_shapes * asked;
 }
 
-/// Of loads, and of contacts whose forces follow no term.
+/// Forces of loads, and of contacts whose forces follow no term.
 Eigen::MatrixXd DampedMotion::forces() const {
   const double t = decision_->jet.t;
   Eigen::MatrixXd p = Eigen::MatrixXd::Zero(basis_.square().size(), time_.size());
@@ -56,7 +56,7 @@ Eigen::MatrixXd DampedMotion::forces() const {
   return p;
 }
 
-/// u_c'' + C u_c' + K u_c, springs and dashpots of contacts with it.
+/// u_c'' + C u_c' + K u_c, including springs and dashpots of contacts.
 Eigen::MatrixXd DampedMotion::inertia_of(const Eigen::MatrixXd& held) const {
   const Eigen::MatrixXd rate = time_.derivative(held);
   Eigen::MatrixXd p =

@@ -3,8 +3,9 @@
 //   q = Q b(x) + Re sum_k shape_k y_k,   y_k(x) = e^(l_k x) y_k(0),   x = t - t0
 //   f = Re sum_k row_k y_k + course . b(x)          gaps, slides, forces, guards
 //
-// Q is what forces and moving constraints ask for: mode by mode the answer to them (time_basis.hpp), and the
-// displacement u_c that constraints hold. A constraint's force is that of the modes and what forces press on it:
+// Q is the response to forces and moving constraints: the response of each mode to them (time_basis.hpp), and the
+// displacement u_c held by constraints. The force of a constraint is that of the modes plus that of the forces acting
+// on it:
 //   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p
 #pragma once
 
@@ -34,7 +35,7 @@ struct ModalQuantity {
 
 class DampedMotion {
  public:
-  /// kept: of a structure that is alike (modal_memory.hpp), or null.
+  /// kept: system of a structure with the same matrices (modal_memory.hpp), or null.
   DampedMotion(const Model& model, const OpenBasis& basis, double t_end, DampedSystem* kept = nullptr)
       : model_(model),
         basis_(basis),
@@ -42,7 +43,7 @@ class DampedMotion {
         own_(kept == nullptr ? std::make_unique<DampedSystem>(model, basis, t_end) : nullptr),
         system_(kept == nullptr ? *own_ : *kept) {}
 
-  /// As ModalFlow::start.
+  /// Same meaning as ModalFlow::start.
   [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now);
   void advance(const ModalPoint& from, double time, ModalPoint& to) const;
@@ -67,9 +68,9 @@ class DampedMotion {
   [[nodiscard]] ModalQuantity derivative(const ModalQuantity& f) const {
     return {f.row.cwiseProduct(root()), time_.derivative(f.course)};
   }
-  /// A form on a contact.
+  /// Quantity of a form on a contact.
   [[nodiscard]] ModalQuantity of(const Form& form, std::size_t contact) const;
-  /// What modes show of a form on the structure, in open modes.
+  /// Quantity of a form on the structure, given in open modes.
   [[nodiscard]] ModalQuantity of(const Vector& form) const {
     return {state_->modes.shape.transpose() * form, place_.transpose() * form};
   }
@@ -77,13 +78,13 @@ class DampedMotion {
   [[nodiscard]] double value(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseProduct(at.y).sum().real() + f.course.dot(time_.at(at.time));
   }
-  /// Of the modes with |l| > omega, as ModalFlow asks for it.
+  /// Bounds of the modes with |l| > omega, as in ModalFlow.
   [[nodiscard]] Ripple ripple(const ModalPoint& from, double time, double omega) const;
-  /// Sum of the magnitudes of its terms.
+  /// Sum of the magnitudes of the terms of f.
   [[nodiscard]] double magnitude(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseAbs().dot(at.y.cwiseAbs()) + f.course.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
   }
-  /// As ModalFlow::terms.
+  /// Same meaning as ModalFlow::terms.
   [[nodiscard]] SumTerms terms(const ModalPoint& at) const;
 
  private:
@@ -101,7 +102,7 @@ class DampedMotion {
   const Decision* decision_ = nullptr;
   TimeBasis time_;
   Eigen::MatrixXd place_, rate_, change_;
-  Eigen::VectorXd lengths_, swings_;  // of the shapes, and of omega times them
+  Eigen::VectorXd lengths_, swings_;  // lengths of the shapes, and of omega times the shapes
   Eigen::VectorXd place_lengths_, rate_lengths_, place_swings_;
   std::vector<ContactQuantities> contacts_;
 };

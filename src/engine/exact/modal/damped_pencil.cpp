@@ -11,11 +11,11 @@ namespace {
 
 using Long = DampedPencil::Long;
 
-constexpr Long near_pole = 0.03L;      // |P_j| beside |l|^2 + d_j: such a mode stands in G; chosen
-constexpr std::size_t most_near = 3;   // modes in G
-constexpr double equal_poles = 1e-13;  // relative distance of poles that are equal but for rounding
-constexpr double unseen_part = 1e-13;  // of equal poles: what rounding shows of one that no term sees
-constexpr int most_steps = 30;         // Newton's; 3 to 5 are usual
+constexpr Long near_pole = 0.03L;      // limit for |P_j| relative to |l|^2 + d_j of the modes in G; chosen
+constexpr std::size_t most_near = 3;   // limit for the modes in G
+constexpr double equal_poles = 1e-13;  // relative distance at which poles are equal up to rounding
+constexpr double unseen_part = 1e-13;  // equal poles: residual of a mode that no term sees
+constexpr int most_steps = 30;         // limit of Newton steps; 3 to 5 are usual
 
 }  // namespace
 
@@ -37,7 +37,7 @@ DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd&
         std::any_of(terms_.begin(), terms_.end(), [&](const ModalTerm& term) { return term.v[j] != 0.0; });
     (any ? seen_ : unseen_).push_back(j);
   }
-  double pull = 0.0;  // what terms make of free modes
+  double pull = 0.0;  // effect of the terms on free modes
   for (const ModalTerm& term : terms_)
     pull = std::max(pull, term.u.cwiseAbs().maxCoeff() * term.v.cwiseAbs().maxCoeff());
   const auto stiff = std::find_if(seen_.begin(), seen_.end(), [&](Index j) { return square_[j] > 0.0; });
@@ -47,7 +47,7 @@ DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd&
     softest_ = std::sqrt(static_cast<Long>(pull));
 }
 
-/// So that v has as few rows that are not zero among equal poles as there are terms.
+/// Rotates v so that it has no more nonzero rows among equal poles than there are terms.
 void DampedPencil::turn_equal_poles() {
   const auto terms = static_cast<Index>(terms_.size());
   for (Index first = 0, last = 0; first < size(); first = last) {
@@ -75,7 +75,7 @@ void DampedPencil::turn_equal_poles() {
   }
 }
 
-/// Scaled so that stiff and soft modes stand beside each other.
+/// Scaled so that stiff and soft modes have comparable entries.
 Eigen::VectorXcd DampedPencil::begin() const {
   const auto m = static_cast<Index>(seen_.size());
   Eigen::MatrixXd k = square_(seen_).asDiagonal(), c = decay_(seen_).asDiagonal();
@@ -103,7 +103,7 @@ Eigen::VectorXcd DampedPencil::begin() const {
   const double least = count > 0 ? 1e-6 * s.maxCoeff() + 1e-300 : 0.0;
   s = s.cwiseMax(least);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(2 * count, 2 * count);
-  for (Index i = 0; i < count; ++i) {  // from high to low, a mode's place and rate beside each other
+  for (Index i = 0; i < count; ++i) {  // from high to low; place and rate of a mode are adjacent
     const Index row = count - 1 - i;
     all(2 * i, 2 * i + 1) = s[row];
     for (Index j = 0; j < count; ++j) {
@@ -115,7 +115,7 @@ Eigen::VectorXcd DampedPencil::begin() const {
   return count > 0 ? general_eigenvalues(all) : Eigen::VectorXcd();
 }
 
-/// What a mode outside G adds to T.
+/// Adds the contribution of a mode outside G to T.
 void DampedPencil::add_far(Index j, Wide l, Local& local) const {
   const Wide p = inverse(pole(j, l)), down = -((l * Long(2) + Wide(decay_[j])) * p * p);
   for (std::size_t a = 0; a < rank(); ++a) {
@@ -147,7 +147,7 @@ bool DampedPencil::gather(Wide l, Local& local) const {
     }
     add_far(j, l, local);
   }
-  if (local.near.size() > most_near) {  // the farthest ones can be divided by
+  if (local.near.size() > most_near) {  // division by the farthest ones is safe
     std::sort(local.near.begin(), local.near.end(), [&](Index i, Index j) {
       return size_of(pole(i, l)) * (own + Long(square_[j])) < size_of(pole(j, l)) * (own + Long(square_[i]));
     });
@@ -192,7 +192,7 @@ std::optional<DampedPencil::Wide> DampedPencil::polished(Wide l) const {
     if (!std::isfinite(size)) return size_of(value) == Long(0) ? std::optional(l) : std::nullopt;
     l += step;
     if (size <= 8 * std::numeric_limits<Long>::epsilon() * own) return l;
-    if (size <= Long(1e-15) * own && size >= last) return l;  // it goes to and fro in its rounding
+    if (size <= Long(1e-15) * own && size >= last) return l;  // the step oscillates within rounding
     last = size;
   }
   return std::nullopt;

@@ -1,9 +1,9 @@
-// damped_pencil.hpp: T(l) of damped_modes.hpp, and where it is singular.
+// damped_pencil.hpp: T(l) of damped_modes.hpp, and its roots.
 //
-//   T(l) (lambda, x_G) = 0,   l <- l - d^T T c / d^T T' c      d, c: what T nearly takes to zero
+//   T(l) (lambda, x_G) = 0,   l <- l - d^T T c / d^T T' c      d, c: approximate null vectors of T
 //
-// Terms are scaled, springs by sqrt(k) and constraints to length 1, and equal poles are turned so that as few
-// as possible are seen. Near a pole the mode stands in G, elsewhere in the sums.
+// Terms are scaled: springs by sqrt(k), constraints to length 1. Modes of equal poles are rotated so that the terms see
+// as few as possible. A mode is in G if its pole is near, otherwise in the sums.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace signorini {
 
-/// Of the greatest pivot of T, or of 1: a pivot that is zero; chosen.
+/// Pivot that counts as zero, relative to the greatest pivot of T, or to 1; chosen.
 inline constexpr long double singular_pencil = 1e-10L;
 
 class DampedPencil {
@@ -31,11 +31,11 @@ class DampedPencil {
     std::vector<Index> near;
     Long unit = 1;  ///< sigma: lengths are in units of 1 / sigma
     std::vector<Wide> kappa;
-    std::vector<Long> scale;  ///< of terms: forces are in units of 1 / scale
+    std::vector<Long> scale;  ///< scale of each term: forces are in units of 1 / scale
     std::size_t size = 0;
   };
 
-  /// As of damped_modes.
+  /// Arguments as for damped_modes().
   DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
                const std::vector<ModalTerm>& terms);
 
@@ -43,23 +43,24 @@ class DampedPencil {
   [[nodiscard]] std::size_t rank() const { return terms_.size(); }
   [[nodiscard]] const Eigen::VectorXd& square() const { return square_; }
   [[nodiscard]] const Eigen::VectorXd& decay() const { return decay_; }
-  /// Turned and scaled; kappa = stiffness + l damping of scaled ones, lambda that of the given one by scale.
+  /// Rotated and scaled terms; kappa = stiffness + l damping with scaled values, lambda is that of the given term
+  /// divided by scale.
   [[nodiscard]] const std::vector<ModalTerm>& terms() const { return terms_; }
   [[nodiscard]] double stiffness(std::size_t term) const { return stiffness_[term]; }
   [[nodiscard]] double damping(std::size_t term) const { return damping_[term]; }
   [[nodiscard]] double scale(std::size_t term) const { return term_scale_[term]; }
-  /// Modes that a term sees, and those that none does.
+  /// Modes that at least one term sees; unseen(): all others.
   [[nodiscard]] const std::vector<Index>& seen() const { return seen_; }
   [[nodiscard]] const std::vector<Index>& unseen() const { return unseen_; }
-  /// First of equal poles and how they were turned: given = vectors x turned.
+  /// First index of each group of equal poles and its rotation: given = vectors x rotated.
   [[nodiscard]] const std::vector<std::pair<Index, Eigen::MatrixXd>>& turns() const { return turns_; }
 
   [[nodiscard]] Wide pole(Index j, Wide l) const { return l * l + l * decay_[j] + Wide(square_[j]); }
-  /// Roots of the seen modes in doubles, from  x' = (0 1; -K -C) x  on what the constraints leave.
+  /// Roots of the seen modes in doubles, from  x' = (0 1; -K -C) x  in the null space of the constraints.
   [[nodiscard]] Eigen::VectorXcd begin() const;
   /// False: too many modes are near.
   [[nodiscard]] bool gather(Wide l, Local& local) const;
-  /// By Newton's steps; nothing: they do not settle.
+  /// Refines a root by Newton steps; nullopt: they do not converge.
   [[nodiscard]] std::optional<Wide> polished(Wide l) const;
 
  private:
@@ -71,7 +72,7 @@ class DampedPencil {
   std::vector<double> term_scale_, stiffness_, damping_;
   std::vector<std::pair<Index, Eigen::MatrixXd>> turns_;
   std::vector<Index> seen_, unseen_;
-  Long softest_ = 1;  // frequency that slow roots are measured by
+  Long softest_ = 1;  // reference frequency for slow roots
 };
 
 }  // namespace signorini

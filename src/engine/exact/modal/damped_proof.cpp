@@ -9,8 +9,8 @@
 namespace signorini {
 namespace {
 
-constexpr double quarter_of_guard = 0.25;          // that fast modes may take together
-constexpr double noise_beside_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr double quarter_of_guard = 0.25;          // limit for all fast modes together
+constexpr double noise_beside_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
 constexpr double turn_of_step = 4.0;               // |l| h of the fastest slow mode
 constexpr std::size_t highest_degree = 30;
 constexpr double slow_rounding = 1.0 + 1e-12;
@@ -61,7 +61,7 @@ void DampedProof::measure(const ModalPoint& at) {
   for (Watched& guard : guards_) guard.now = motion_.value(watched(guard), at);
 }
 
-/// Modes below which all others together show at most `most`, `first` at least.
+/// Number of slow modes, `first` at least, such that the sum of all others is at most `most`.
 Eigen::Index DampedProof::slow_for(const ModalQuantity& f, Eigen::Index first, double most) const {
   double sum = 0.0;
   Eigen::Index k = amplitude_.size();
@@ -129,7 +129,7 @@ DampedProof::Part DampedProof::part_of(const ModalQuantity& f, const ModalPoint&
   const auto row = f.row.head(slow_);
   const Eigen::VectorXd modes = (terms_.transpose() * row).real();
   for (std::size_t j = 0; j < count_; ++j) part.p[j] += modes[static_cast<Eigen::Index>(j)];
-  // each mode's series falls by half and more a term from here on
+  // each further term of a mode's series is at most half of the previous one
   part.rest = waves.rest + 2.0 * row.cwiseAbs().dot(terms_.col(terms_.cols() - 1).cwiseAbs());
   for (Eigen::Index k = slow_; k < size_.size(); ++k) {
     const double most =
@@ -174,7 +174,7 @@ Passage DampedProof::pass(const ModalPoint& at, double remaining) {
   return done ? *done : pass(at, remaining);
 }
 
-/// As TurningPoints::watched.
+/// Quantities of a contact in the order of TurningPoints::watched.
 std::array<const ModalQuantity*, 4> DampedProof::shown(std::size_t c) const {
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   return {&own.N, &own.T, &own.gap, &own.ut};
@@ -192,7 +192,7 @@ double DampedProof::within(const ModalPoint& at, const TurningPoints& known, dou
           stays_above(rate.data(), rate.size() - 1, x_end, rate[0] < 0.0 ? -1.0 : 1.0, -off, room);
       const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
       const double off_place = part.ripple + part.rest;
-      if (range.is_left(part.p[0], part.p[1], off_place) &&  // as ModalProof::within
+      if (range.is_left(part.p[0], part.p[1], off_place) &&  // as in ModalProof::within
           range.is_left(part.p[0], part.p[1],
                         off_place + rounding::of_elimination * motion_.magnitude(*shown(c)[f], at)))
         return 0.0;
@@ -237,7 +237,7 @@ const std::vector<ContactSeries>& DampedProof::series(const ModalPoint& at) {
   return series_;
 }
 
-/// What rose up to the end of the passage before and falls from there on has its peak between them.
+/// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
 void DampedProof::see_begin(const ModalPoint& at, double time, TurningPoints& turning,
                             LastTurns& turns) const {
   for (std::size_t c = 0; c < series_.size(); ++c)

@@ -1,7 +1,7 @@
-// damped_proof.hpp: how far no guard falls, in complex modes: modal_proof.hpp for roots of any kind.
+// damped_proof.hpp: intervals without a guard's zero, in complex modes: modal_proof.hpp for roots of any kind.
 //
 //   g(t + h x) = sum of modes with |l| h <= 4 (a polynomial in x) + course + ripple,
-//   |ripple| <= sum |row_k y_k| e^max(0, Re l_k h)  of the others
+//   |ripple| <= sum |row_k y_k| e^max(0, Re l_k h)  over the other modes
 #pragma once
 
 #include "engine/exact/modal/damped_motion.hpp"
@@ -15,14 +15,14 @@ class DampedProof {
  public:
   explicit DampedProof(const DampedMotion& motion) : motion_(motion) {}
 
-  /// After motion.start.
+  /// Called after motion.start.
   void start();
   [[nodiscard]] Passage pass(const ModalPoint& at, double remaining);
   void rearm(const ModalPoint& at);
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at) const;
 
-  // As passage_turns.hpp asks.
+  // Interface required by passage_turns.hpp.
   [[nodiscard]] double unit() const { return h_; }
   [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
   double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
@@ -33,8 +33,8 @@ class DampedProof {
   struct Watched {
     std::size_t slot = 0;
     double noise = 0.0;
-    ModalQuantity guard, lead;  // lead: derivative number arming.leading of it
-    double now = 0.0;           // the value, or the leading derivative's
+    ModalQuantity guard, lead;  // lead: derivative number arming.leading of guard
+    double now = 0.0;           // value of guard or lead
   };
   struct Part {  // a quantity on a step
     std::vector<double> p;
@@ -61,10 +61,10 @@ class DampedProof {
   Arming arming_;
   std::vector<Watched> guards_;
   Eigen::VectorXd amplitude_, size_;  // |y|, |l|
-  Eigen::Index slow_ = 0;             // modes
-  std::size_t count_ = 0;             // coefficients of the slow ones
-  double h_ = 0.0, turn_ = 0.0;       // turn_: of waves that are slow
-  bool full_ = false;                 // the next step takes all modes as slow
+  Eigen::Index slow_ = 0;             // number of slow modes
+  std::size_t count_ = 0;             // number of coefficients of the slow modes
+  double h_ = 0.0, turn_ = 0.0;       // turn_: angle of slow waves
+  bool full_ = false;                 // the next step treats all modes as slow
   Eigen::MatrixXcd terms_;            // y_k (l_k h)^j / j!, slow modes
   std::vector<ContactSeries> series_;
 };

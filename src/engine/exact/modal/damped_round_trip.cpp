@@ -7,7 +7,7 @@
 namespace signorini {
 namespace {
 
-constexpr double worst_loss_of_trip = 1e-12, worst_dependence = 1e4;  // as of real modes, spectrum.cpp
+constexpr double worst_loss_of_trip = 1e-12, worst_dependence = 1e4;  // as for real modes, spectrum.cpp
 
 }  // namespace
 

@@ -15,8 +15,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr Index most_damper_dofs = 24;  // that discrete dampers act on
-constexpr double hardly = 1e-3;         // |l_k + l_i| t_end: the integral of both is a series in it
+constexpr Index most_damper_dofs = 24;  // limit for degrees of freedom with discrete dampers
+constexpr double hardly = 1e-3;         // |l_k + l_i| t_end: below, the integral is a series in it
 
 /// C = alpha M + beta K + R, R = sum of stiffness-like terms of a few dampers.
 struct Damping {
@@ -24,8 +24,8 @@ struct Damping {
   std::vector<std::pair<double, Vector>> dampers;
 };
 
-/// What C is more than alpha M + beta K, and the sums of the terms it is the difference of, on the degrees of freedom where
-/// rounding of these does not explain it.
+/// Excess of C over alpha M + beta K, and sums of the magnitudes of its terms, on the degrees of freedom where rounding
+/// of these terms does not explain it.
 struct Rest {
   std::vector<int> dofs;
   Eigen::MatrixXd more, terms;
@@ -57,16 +57,16 @@ Rest rest_of(const Model& model, double alpha, double beta) {
   return rest;
 }
 
-/// R = sum of r d d^T over eigenvectors of D^-1/2 R D^-1/2, d = D^1/2 x, D: the diagonal of the terms, so that forces and moments
-/// have one unit. An eigenvalue moves by no more than the norm of what rounding leaves in the matrix (Weyl): beside stiff
-/// members a damper that is not along the axes has eigenvalues of that size, of either sign, which are none.
+/// R = sum of r d d^T over eigenvectors of D^-1/2 R D^-1/2, d = D^1/2 x, D: the diagonal of the terms, so that forces
+/// and moments have one unit. Rounding moves an eigenvalue by at most the norm of the rounding in the matrix (Weyl):
+/// beside stiff members an inclined damper has spurious eigenvalues of that size and either sign, which are dropped.
 std::optional<Damping> dampers_of(const Model& model, double alpha, double beta) {
   const Rest rest = rest_of(model, alpha, beta);
   if (static_cast<Index>(rest.dofs.size()) > most_damper_dofs) return std::nullopt;
   Damping result{alpha, beta, {}};
   if (rest.dofs.empty()) return result;
   const Eigen::VectorXd root = rest.terms.diagonal().cwiseSqrt();
-  if (!(root.minCoeff() > 0.0)) return std::nullopt;  // a row without a diagonal is of no damper
+  if (!(root.minCoeff() > 0.0)) return std::nullopt;  // a row without a diagonal belongs to no damper
   const Eigen::VectorXd inverse = root.cwiseInverse();
   const double rounded =
       rounding::of_many * (inverse.asDiagonal() * rest.terms * inverse.asDiagonal()).norm();
@@ -82,7 +82,7 @@ std::optional<Damping> dampers_of(const Model& model, double alpha, double beta)
   return result;
 }
 
-/// With the scene's factors, or with those that fit best.
+/// Uses the scene's factors, or those with the best fit.
 std::optional<Damping> damping_of(const Model& model) {
   if (auto given = dampers_of(model, model.alpha, model.beta)) return given;
   const auto product = [](const SparseMatrix& a, const SparseMatrix& b) { return a.cwiseProduct(b).sum(); };
@@ -99,7 +99,7 @@ std::optional<Damping> damping_of(const Model& model) {
 
 namespace {
 
-/// Rigid terms whose forces are not unique (linear/shared_rows.hpp).
+/// True if there are rigid terms whose forces are not unique (linear/shared_rows.hpp).
 bool holds_twice(const std::vector<ModalTerm>& terms) {
   std::vector<Index> rigid;
   for (std::size_t a = 0; a < terms.size(); ++a)
@@ -201,7 +201,7 @@ void DampedSystem::find_constraints(DampedState& out) const {
     v.col(i) = term.v;
   }
   out.from_forces = solve_dense(v.transpose() * u, v.transpose());
-  // Soft motions take what constraints ask for, so that stiff modes have little to give back.
+  // Soft motions satisfy the constraints, so that stiff modes have small contributions.
   const Vector soft = (basis_.square().array() + basis_.square()[std::min(n - 1, m + 3)]).inverse().matrix();
   const Eigen::MatrixXd weighted = soft.asDiagonal() * v;
   out.static_shapes = weighted * solve_dense(v.transpose() * weighted, Eigen::MatrixXd::Identity(m, m));

@@ -1,4 +1,4 @@
-// damped_system.hpp: contact states as terms on the open modes, and what their complex modes show.
+// damped_system.hpp: contact states as terms on the open modes, and contact quantities in their complex modes.
 //
 //   C = alpha M + beta K + sum_i r_i d_i d_i^T:   c_j = alpha + beta omega_j^2, and a dashpot for each d_i
 //
@@ -20,25 +20,25 @@
 
 namespace signorini {
 
-/// Why a scene cannot be followed in complex modes; empty: it can.
+/// Reason why a scene cannot be followed in complex modes; empty: it can.
 [[nodiscard]] std::string damped_refusal(const Model& model);
-/// Springs, constraints and dampers of a state in which all contacts are closed and stick.
+/// Number of springs, constraints and dampers of a state in which all contacts are closed and stick.
 [[nodiscard]] std::size_t most_state_terms(const Model& model);
 
-/// What complex modes show of one contact: forms times shapes, zero where a constraint holds them.
+/// Quantities of one contact in complex modes: forms times shapes, zero if a constraint holds them.
 struct ContactRows {
   Eigen::VectorXcd gap, slide;
-  int normal_term = -1, tangent_term = -1;  ///< the contact's terms
-  Form normal, tangent;                     ///< its rows in the state
+  int normal_term = -1, tangent_term = -1;  ///< indices of the contact's terms
+  Form normal, tangent;                     ///< the contact's rows in the state
 };
 
-/// 1 / (l_k + l_i), and with the conjugate of l_i; zero where the two hardly differ in a run.
+/// 1 / (l_k + l_i), and with the conjugate of l_i; zero if the sum is negligible during a run.
 struct RootSums {
   Eigen::MatrixXcd plain, turned;
   struct Slow {
     Eigen::Index k, i;
     bool turned;
-    std::complex<double> loss;  ///< as DampedState::loss, not divided
+    std::complex<double> loss;  ///< DampedState::loss without the division
   };
   std::vector<Slow> slow;
 };
@@ -47,11 +47,11 @@ struct DampedState {
   DampedModes modes;
   std::vector<ModalTerm> terms;  ///< dampers of the structure first
   std::vector<ContactRows> contacts;
-  std::vector<Eigen::Index> rigid;  ///< terms
+  std::vector<Eigen::Index> rigid;  ///< indices of rigid terms
   Eigen::MatrixXd from_forces;      ///< rigid x n: (V^T U)^-1 V^T
   Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes = 1
   RootSums sums;
-  /// What damping takes of rates of two modes, times root sums.
+  /// Dissipation by the rates of two modes, times root sums.
   Eigen::MatrixXcd loss, loss_turned;
   [[nodiscard]] std::size_t bytes() const;
 };
@@ -60,13 +60,13 @@ inline constexpr CacheBounds most_damped_states{1024, std::size_t{1} << 28};
 
 class DampedSystem {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive the object.
   DampedSystem(const Model& model, const OpenBasis& basis, double t_end);
 
-  /// From the cache or made; its modes may have failed.
+  /// Data of a state, from the cache or new; its modes may have failed.
   [[nodiscard]] std::shared_ptr<const DampedState> state(const Mode& mode);
   [[nodiscard]] long made() const { return made_; }
-  /// c_j, and the dampers beside them.
+  /// c_j; dampers(): the dampers in addition to them.
   [[nodiscard]] const Vector& decay() const { return decay_; }
   [[nodiscard]] const std::vector<ModalTerm>& dampers() const { return dampers_; }
   [[nodiscard]] bool damped() const { return damped_; }

@@ -23,7 +23,7 @@ void DampedWorks::start() {
   const double t = motion_.decision().jet.t;
   courses_meet_ = false;
   loads_.clear();
-  std::vector<std::pair<Course, ModalQuantity>> alike;  // loads of one history act as one
+  std::vector<std::pair<Course, ModalQuantity>> alike;  // loads with the same history act as one load
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Course factor = motion_.time().of(model.loads[i].history.piece(t));
     if (factor.isZero(0.0)) continue;
@@ -58,7 +58,7 @@ void DampedWorks::pair_contact(std::size_t c) {
   }
 }
 
-/// int q'^T C q', as far as a segment knows it.
+/// int q'^T C q', as far as it is known per segment.
 void DampedWorks::pair_loss() {
   loss_answers_.resize(0, 0);
   still_loss_.resize(0, 0);
@@ -122,7 +122,7 @@ double DampedWorks::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& 
   return sum;
 }
 
-/// Of what the modes of a segment do beside its courses.
+/// Integral of the modes of a segment with its courses.
 double DampedWorks::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
   if (answers.size() == 0) return 0.0;
   return (s.to.y.transpose() * (answers * s.b_to) - s.from.y.transpose() * (answers * s.b_from))

@@ -3,9 +3,9 @@
 //   int y_k y_i = [y_k y_i] / (l_k + l_i)       and with the conjugate of y_i
 //   int y_k (c . b) = [y_k (r . b)],  r D = -l_k r + c                       time_basis.hpp
 //
-// Damping takes int q'^T C q', friction int T p', surfaces int -T s', loads int f d . u', each a sum over pairs
-// of modes, of modes with courses and of courses. Pairs whose l_k + l_i is small beside the run take the series
-// of (e^(s h) - 1) / s. So the balance of energy is not computed from itself.
+// Damping dissipates int q'^T C q', friction int T p', surfaces int -T s', loads int f d . u', each a sum over pairs of
+// modes, of modes with courses and of courses. Pairs whose l_k + l_i is small relative to the run use the series of
+// (e^(s h) - 1) / s. The energy balance is therefore an independent check.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ class DampedWorks {
  public:
   explicit DampedWorks(const DampedMotion& motion) : motion_(motion) {}
 
-  /// After motion.start.
+  /// Called after motion.start.
   void start();
   void add(const ModalPoint& from, const ModalPoint& to, Works& works) const;
 
@@ -27,9 +27,10 @@ class DampedWorks {
   struct Stretch {
     const ModalPoint &from, &to;
     Eigen::VectorXd b_from, b_to;
-    Eigen::MatrixXd products;  // of courses; empty where no two meet
+    Eigen::MatrixXd products;  // products of courses; empty if none overlap
   };
-  /// The integral of f g, as far as a segment knows it: of modes beside courses y . answers b, at the ends of a stretch.
+  /// Integral of f g, as far as it is known per segment: modes times courses give y . answers b at the ends of a
+  /// stretch.
   struct Pairing {
     ModalQuantity f, g;
     Eigen::MatrixXcd answers;  // modes x b; empty: none
@@ -47,14 +48,14 @@ class DampedWorks {
   void add_contact(std::size_t c, const Stretch& s, Works& works) const;
 
   const DampedMotion& motion_;
-  std::vector<Pairing> loads_;  // rates along loads that act, and how strongly they act
+  std::vector<Pairing> loads_;  // rates along active loads, and the courses of the loads
   struct ContactPairings {
     std::optional<Pairing> pressing, slip, surface, dashpot;
   };
   std::vector<ContactPairings> contacts_;
-  Eigen::MatrixXd still_loss_;     // b x b: of courses alone
-  Eigen::MatrixXcd loss_answers_;  // what damping takes of modes beside courses
-  bool courses_meet_ = false;      // in the segment
+  Eigen::MatrixXd still_loss_;     // b x b: courses only
+  Eigen::MatrixXcd loss_answers_;  // dissipation by modes together with courses
+  bool courses_meet_ = false;      // at least two courses overlap in the segment
 };
 
 }  // namespace signorini

@@ -16,11 +16,10 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t most_parts = 256;  // of a step: each holds the amplitudes of all modes
-constexpr int most_touches = 5;          // warnings about one and the same thing
-constexpr double lost_in_modes =
-    1e-12;                           // what modes may lose of a motion: spectrum.cpp, damped_round_trip.cpp
-constexpr int most_corrections = 4;  // of the time of a fall; one is enough but where two guards graze
+constexpr std::size_t most_parts = 256;  // limit for parts of a step: each holds the amplitudes of all modes
+constexpr int most_touches = 5;          // warnings of the same kind
+constexpr double lost_in_modes = 1e-12;  // limit for the loss in modes: spectrum.cpp, damped_round_trip.cpp
+constexpr int most_corrections = 4;      // corrections of an event time; one suffices unless two guards graze
 
 }  // namespace
 
@@ -35,7 +34,7 @@ ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSys
       taylor_(model, structure, systems, t_end, {false, use.step_seed}),
       turning_(model.contacts.size()),
       peaks_(use.peaks) {
-  knows_low_flights = true;  // a guard that leaves zero is followed by its leading derivative
+  knows_low_flights = true;  // the leading derivative follows a guard that leaves zero
   if (!basis_.failure().empty()) return;
   if (proportional_refusal(model).empty()) {
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
@@ -55,7 +54,7 @@ void ModalEngine::say_fallback(double t, const std::string& why) {
                                  said_time(model_, t), why));
 }
 
-/// The series takes over within a segment: from its beginning, past what has been told already.
+/// The series takes over within a segment: from its beginning, skipping the part already reported.
 Step ModalEngine::give_way() {
   say_fallback(t_, "a guard stays too near to zero for what modes can prove");
   modal_ = false;
@@ -69,7 +68,7 @@ Step ModalEngine::give_way() {
 std::string ModalEngine::follow(const Segment& segment) {
   if (!basis_.failure().empty()) return basis_.failure();
   const Decision& decision = *segment.decision;
-  // The decision leaves most motions as they are: then nothing is lost on the way through the physical ones.
+  // The decision leaves most motions unchanged: then q is kept, without rounding by a conversion to u and back.
   if (!modal_ || q_.size() == 0 || decision.u != end_.u || decision.v != end_.v) {
     q_ = basis_.amplitudes(decision.u);
     rate_ = basis_.amplitudes(decision.v);
@@ -94,8 +93,8 @@ void ModalEngine::start(const Segment& segment) {
   ++restarts_;
 }
 
-/// Loads that slow modes answer make terms far greater than the motion, which cancel. Their rounding, over what a round
-/// trip through the modes loses of the motion so far.
+/// Responses of slow modes to loads have terms far greater than the motion, which cancel. Computes the ratio of their
+/// rounding to the loss of a round trip through the modes for the motion so far.
 void ModalEngine::see_terms() {
   const StructureEnergy energy = energy_of(q_, rate_);
   swung_ = std::max(swung_, std::sqrt(2.0 * (energy.kinetic + energy.elastic)));
@@ -118,8 +117,8 @@ void ModalEngine::see_touches(const Passage& passage, double begin) {
           said_time(model_, begin)));
 }
 
-/// How far off the fall of a guard lies by the u, v and forces that the decision will see, and how far off
-/// the rounding of the modes may put it.
+/// Time from here to the root of the guard according to u, v and the forces that the decision will use, and its
+/// uncertainty due to the rounding of the modes.
 ModalEngine::Fall ModalEngine::fall_of(std::size_t slot, const Point& point) const {
   const std::size_t c = contact_of_guard(slot);
   const ContactMotion now = motion_of(model_.contacts[c], c, *segment_.forcing, t_, point);
@@ -129,8 +128,9 @@ ModalEngine::Fall ModalEngine::fall_of(std::size_t slot, const Point& point) con
           -rounding::of_many * flow_->magnitude(slot, now_) / slope};
 }
 
-/// The end of the last part moves to where the guard falls in u, v and the forces that they make: in modes it
-/// is zero to the rounding of the modes, which is more than the decision allows. Returns how sharp that is.
+/// Moves the end of the last part to the root of the guard according to u, v and the forces that follow from them: in
+/// modes the guard is zero only to the rounding of the modes, which is more than the decision allows. Returns the
+/// uncertainty of that time.
 double ModalEngine::sharpen(std::size_t slot) {
   Part& part = parts_.back();
   for (int i = 0;; ++i) {
@@ -193,7 +193,7 @@ Step ModalEngine::advance() {
     if (parts_.size() >= most_parts) break;
   }
   for (const auto& [kind, time] : last_turns_)
-    if (time < t_) turns_.push_back(time);  // the event was moved since
+    if (time < t_) turns_.push_back(time);  // the event was moved later
   std::sort(turns_.begin(), turns_.end());
   step.end = t_;
   step.resolution = std::max(step.resolution, resolution_at(t_, parts_.back().length));
@@ -205,7 +205,7 @@ Step ModalEngine::advance() {
 ModalPoint ModalEngine::at(double t) const {
   if (t == t_) return now_;
   ModalPoint point;
-  if (t > t_) {  // an event that was moved
+  if (t > t_) {  // the event was moved
     flow_->advance(now_, t - t_, point);
     return point;
   }
@@ -216,7 +216,7 @@ ModalPoint ModalEngine::at(double t) const {
   return point;
 }
 
-/// 1/2 (q'^2 + omega^2 q^2): no terms that cancel.
+/// 1/2 (q'^2 + omega^2 q^2): no terms cancel.
 StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
   return {0.5 * rate.squaredNorm(), 0.5 * basis_.square().dot(q.cwiseAbs2())};
 }
@@ -234,14 +234,14 @@ ModalEngine::Motion ModalEngine::motion(const ModalPoint& z, bool accelerations)
   return m;
 }
 
-/// Forces and energy, where u and v are known.
+/// Computes forces and energy from known u and v.
 void ModalEngine::fill_rest(const ModalPoint& z, const Motion& motion, Point& point) const {
   point.forces.resize(model_.force_count());
   flow_->forces(z, point);
   point.energy = energy_of(motion.q, motion.rate);
 }
 
-/// u, v, a where there is one, and forces; keeps q of the end of the step.
+/// Computes u, v, a if present, and forces; keeps q of the end of the step.
 void ModalEngine::fill(const ModalPoint& z, Motion&& motion, Point& point) {
   if (motion.change.size() > 0) {
     basis_.motions({&motion.q, &motion.rate, &motion.change}, {&point.u, &point.v, &point.a});
@@ -256,7 +256,7 @@ void ModalEngine::fill(const ModalPoint& z, Motion&& motion, Point& point) {
   }
 }
 
-/// Of all contacts and some more.
+/// Rows of all contacts and of some other degrees of freedom.
 ModalEngine::Rows ModalEngine::rows_of(std::vector<int> dofs) const {
   for (const Contact& contact : model_.contacts)
     for (const Combination* form : {&contact.normal, &contact.tangent, &contact.body_tangent()})
@@ -267,7 +267,7 @@ ModalEngine::Rows ModalEngine::rows_of(std::vector<int> dofs) const {
   return {std::move(dofs), std::move(shapes)};
 }
 
-/// The same of a few rows, digit by digit; the others are no numbers.
+/// Same for a few rows, bit by bit; all other entries are NaN.
 void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, Point& point) const {
   Vector u, v, a;
   const bool accelerations = motion.change.size() > 0;
@@ -336,7 +336,7 @@ StepFacts ModalEngine::facts() const {
     return facts;
   }
   facts = taylor_.facts();
-  facts.contact_turns = nullptr;  // points are made as a whole
+  facts.contact_turns = nullptr;  // points are computed as a whole
   return facts;
 }
 
@@ -344,8 +344,9 @@ std::optional<Ripple> ModalEngine::fast_mode_bound(double omega) const {
   return flow_->ripple(parts_.front().at, t_ - parts_.front().begin, omega);
 }
 
-/// Each amplitude is a sum over the whole structure, known to some roundings of |q|, not of itself: velocities and
-/// accelerations with w times and w^2 times that, w the highest frequency. Forces of springs and dashpots.
+/// Each amplitude is a sum over the whole structure, with a rounding error relative to |q| instead of the amplitude:
+/// for velocities and accelerations w and w^2 times that, w the highest frequency. Forces: those of springs and
+/// dashpots.
 Ripple ModalEngine::term_sizes() const {
   const Motion m = motion(parts_.front().at, false);
   const auto norm = [](const Vector& of) { return of.norm(); };

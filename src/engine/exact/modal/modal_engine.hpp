@@ -1,11 +1,11 @@
-// modal_engine.hpp: engine `exact` whose flow follows the motion, not the mesh.
+// modal_engine.hpp: engine `exact` in modes: its cost depends on the motion, not on the mesh.
 //
 //   start     q = Phi^T M u,  z = Y q
 //   advance   proof of a stretch, z in closed form
 //   event     q = X z,  u = Phi q
 //
-// What the modes cannot do, a state whose modes are not good enough or forces that change, is followed by the
-// Taylor series of ExactEngine for as long as it lasts, counted as a fallback and said once.
+// The Taylor series of ExactEngine follows states whose modes are not accurate enough and forces that change, for as
+// long as they last; each such fallback is counted and reported once.
 #pragma once
 
 #include "engine/exact/exact_engine.hpp"
@@ -14,24 +14,25 @@
 
 namespace signorini {
 
-/// What its steps are used for.
+/// Intended use of the steps.
 struct ModalUse {
-  ModalShare* share = nullptr;                   ///< of a listener, or null
-  bool peaks = true;                             ///< turning points of contacts are looked for
-  std::uint64_t step_seed = 0;                   ///< of steps that are taken in series
+  ModalShare* share = nullptr;                   ///< data shared with a listener, or null
+  bool peaks = true;                             ///< true: turning points of contacts are searched
+  std::uint64_t step_seed = 0;                   ///< seed for steps taken in series
   std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched; nullopt: all
 };
 
 class ModalEngine final : public Stepper, public DenseOutput, private FastModes {
  public:
-  /// All but t_end must outlive it. Finds the open modes; without them all is left to the series.
+  /// All arguments except t_end must outlive the object. Finds the open modes; without them the series follows the
+  /// whole motion.
   ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
               const ModalUse& use = {});
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
   [[nodiscard]] DenseOutput& dense_output() override { return *this; }
-  /// Without accelerations inside of a step: a third of the work.
+  /// Without accelerations inside a step: a third of the work.
   void evaluate(double t, Point& point) override;
   void evaluate_watched(double t, std::optional<std::size_t> contact, Point& point) override;
   void accelerate(double t, Point& point) override;
@@ -44,7 +45,7 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
     return modal_ ? 0.0 : taylor_.guard_error(guard, motion, contact);
   }
   [[nodiscard]] StepFacts facts() const override;
-  /// The modes that it follows motions in; null: it knows none.
+  /// The modes in which the engine follows motions; null: none.
   [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
   [[nodiscard]] StepperReport report() override;
 
@@ -63,12 +64,12 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
   [[nodiscard]] std::string follow(const Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
   [[nodiscard]] StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
-  /// Amplitudes of the open modes; change: empty where no accelerations are wanted.
+  /// Amplitudes of the open modes; change: empty if no accelerations are needed.
   struct Motion {
     Vector q, rate, change;
   };
   [[nodiscard]] Motion motion(const ModalPoint& z, bool accelerations) const;
-  /// Entries of u, and their rows of Phi.
+  /// Indices of entries of u, and their rows of Phi.
   struct Rows {
     std::vector<int> dofs;
     RowMatrix shapes;
@@ -87,7 +88,7 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
 
   const Model& model_;
   const Structure& structure_;
-  std::shared_ptr<ModalMemory::Kept> kept_;  // null: nothing is
+  std::shared_ptr<ModalMemory::Kept> kept_;  // null: no memory is in use
   std::unique_ptr<OpenBasis> own_basis_;
   const OpenBasis& basis_;
   Rows watched_, of_contacts_;
@@ -98,18 +99,18 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
   bool modal_ = false;
   long fallbacks_ = 0, steps_ = 0, proofs_ = 0, restarts_ = 0;
   Segment segment_;
-  std::vector<Part> parts_;  // of the last step
-  ModalPoint now_;           // at its end
+  std::vector<Part> parts_;  // parts of the last step
+  ModalPoint now_;           // point at the end of the last step
   double t_ = 0.0;
-  Vector q_, rate_;  // at the end of the last step, and the motion that they stand for
+  Vector q_, rate_;  // at the end of the last step, with the corresponding motion
   Point end_;
   double reached_ = 0.0,
-         swung_ = 0.0;      // greatest motion so far, as places and as velocities in the norm of M
-  double cancelled_ = 1.0;  // of the last step: see_terms
-  double worked_to_ = 0.0;  // the time up to which works were taken, and the motion there
+         swung_ = 0.0;      // greatest motion so far, displacements and velocities in the norm of M
+  double cancelled_ = 1.0;  // ratio for the last step: see_terms()
+  double worked_to_ = 0.0;  // time up to which works were added, and the motion there
   ModalPoint worked_;
   bool has_worked_ = false;
-  LastTurns last_turns_;  // of the last step
+  LastTurns last_turns_;  // turning points of the last step
   std::vector<double> turns_;
   int touches_ = 0;
 };

@@ -5,7 +5,7 @@
 namespace signorini {
 namespace {
 
-// Chosen: a search's transient is some 40 periods long; runs to a section are short, and of their works none are asked for.
+// Chosen: the transient of a search takes about 40 periods; runs to a section are short, and their works are not used.
 constexpr double headroom = 8.0, much_longer = 1e4;
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace signorini {
 namespace {
 
-constexpr double quarter = 0.25;                  // of a guard, that fast modes may take together
-constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr double quarter = 0.25;                  // of a guard: limit for all fast modes together
+constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
 
 double sum_of(const Amplitudes& weights, const Amplitudes& values) {
   double sum = 0.0;
@@ -28,7 +28,7 @@ double size_of_sum(const Amplitudes& weights, const Amplitudes& values) {
   return sum;
 }
 
-/// The guard's form as one on g, ut and their rates, with the constants of the forces.
+/// Rewrites the guard's form in terms of g, ut and their rates, with the constants of the forces.
 Shown reduced(const Form& form, const ForceLaw& law, double& constant) {
   Shown result;
   const double N = form.N;
@@ -114,7 +114,7 @@ double ModalProof::magnitude(std::size_t slot, const ModalPoint& at) const {
   return std::abs(guard->constant) + size_of_sum(guard->place, at.z) + size_of_sum(guard->rate, at.rate);
 }
 
-/// Of the guard's leading order.
+/// Value of the guard's leading derivative.
 double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
   const std::size_t order = arming_.leading(guard.slot);
   double sum = 0.0;
@@ -160,7 +160,7 @@ void ModalProof::measure(const ModalPoint& at) {
   }
 }
 
-/// What the bound on mode k is multiplied with: |w_k|, times omega^m where the leading derivative is watched.
+/// Factor of the bound on mode k: |w_k|, times omega^m if the leading derivative is watched.
 double ModalProof::weight_of(const Watched& guard, std::size_t k) const {
   double weight = guard.size[k];
   if (leaves(guard)) weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * order_of(guard));
@@ -192,7 +192,7 @@ void ModalProof::choose_step(double remaining) {
     const double fastest = l[std::min(first, l.size() - 1)];
     if (fastest > 0.0) h_ = std::min(h_, turn / std::sqrt(fastest));
   }
-  // Pairs may grow: they are slow unless the step is long beside them and they hardly show.
+  // Pairs may grow: they are slow unless the step is long relative to their period and their contribution is small.
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
       const double root = std::sqrt(size_of(pairs[k]));
@@ -231,7 +231,7 @@ void ModalProof::bound_ripples() {
   }
 }
 
-/// The guard's slow part, and what it may be off without the ripple.
+/// Computes the guard's slow part, and its error bound without the ripple.
 void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
   const std::size_t c = contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);

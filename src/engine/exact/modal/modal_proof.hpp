@@ -1,15 +1,14 @@
-// modal_proof.hpp: how far no guard falls, on intervals that adapt to the amplitudes of the modes.
+// modal_proof.hpp: intervals without a guard's zero, adapted to the amplitudes of the modes.
 //
 //   g(t0 + h x) = sum of slow modes (a polynomial in x) + ripple of fast modes,   |ripple| <= sum |w_k| A_k
 //
-// A_k is the amplitude of mode k and w_k what the guard shows of it. Slow are the modes below J, where the
-// amplitudes above J together stay below a quarter of every guard; h = 4 / omega_J. The slow part is positive
-// beyond the ripple's bound, the polynomial's rest and rounding on all of the step
-// (engine/falls/first_fall.hpp), or up to a place, from which the next step goes on with more modes slow. A
-// fall is an event where the guard decreases throughout the stretch in which it may lie: slow part and ripple
-// of its rate are negative; then the closed form with all modes is zero once. A guard that starts at zero is
-// held by its first derivative that is not. What this rests on besides is the modes themselves: computed
-// eigenvalues, tested by their residual.
+// A_k is the amplitude of mode k and w_k its coefficient in the guard. The modes below J are slow; J is chosen so that
+// the amplitudes above J together stay below a quarter of every guard; h = 4 / omega_J. The slow part exceeds the
+// ripple's bound, the polynomial's remainder and rounding on all of the step (engine/falls/first_fall.hpp), or up to a
+// place, from which the next step continues with more slow modes. A zero crossing is an event if the guard decreases
+// throughout the interval that may contain it: slow part and ripple of its rate are negative; then the closed form with
+// all modes is zero once. A guard that starts at zero is represented by its first nonzero derivative. The proof also
+// relies on the modes themselves: computed eigenvalues, tested by their residual.
 #pragma once
 
 #include <array>
@@ -22,7 +21,7 @@
 
 namespace signorini {
 
-/// What a contact shows.
+/// Kinematic quantities of a contact.
 struct Shown {
   double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0;
 };
@@ -35,14 +34,14 @@ class ModalProof {
   void start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
              const Amplitudes& forces);
   [[nodiscard]] Passage pass(const ModalPoint& at, double remaining);
-  /// After a passage without event: which guards are armed now.
+  /// Called after a passage without an event: updates the armed guards.
   void rearm(const ModalPoint& at);
   /// Sum of the magnitudes of a guard's terms.
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] Shown shown(std::size_t contact, const ModalPoint& at) const;
   [[nodiscard]] ForceLaw law(std::size_t contact) const { return laws_[contact]; }
 
-  // As passage_turns.hpp asks.
+  // Interface required by passage_turns.hpp.
   [[nodiscard]] double unit() const { return h_; }
   [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
   double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
@@ -58,10 +57,10 @@ class ModalProof {
     std::size_t slot = 0;
     Shown form;
     double constant = 0.0, noise = 0.0;
-    Amplitudes place, rate;                  // what of z and z' the guard shows
+    Amplitudes place, rate;                  // coefficients of z and z' in the guard
     std::vector<double> size;                // |place| + |rate| sqrt(l), real modes
-    double now = 0.0;                        // the value, or the leading derivative's
-    double ripple = 0.0, ripple_rate = 0.0;  // bounds; of the leading derivative where it leaves
+    double now = 0.0;                        // value of the guard, or of its leading derivative
+    double ripple = 0.0, ripple_rate = 0.0;  // bounds; for the leading derivative if leaves()
   };
   struct Size {
     double place = 0.0, rate = 0.0;
@@ -84,7 +83,7 @@ class ModalProof {
   void combine(const Watched& guard, std::vector<double>& p, double& slack) const;
   [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
                             double& event);
-  /// It starts at zero, and its leading derivative is watched; or nothing is known of it.
+  /// The guard starts at zero, and its leading derivative is watched.
   [[nodiscard]] bool leaves(const Watched& guard) const { return arming_.leading(guard.slot) > 0; }
   [[nodiscard]] bool unknown(const Watched& guard) const {
     return !arming_.armed(guard.slot) && !leaves(guard);
@@ -107,13 +106,13 @@ class ModalProof {
   std::vector<std::vector<double>> still_normal_, still_tangent_;  // sums of a_k p_k / l_k from k on
   std::vector<double> amplitude_, pair_amplitude_, coefficients_;
   std::vector<Complex> pair_coefficients_;
-  std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes, for rounding
+  std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes, for rounding bounds
   std::vector<Size> normal_rest_, tangent_rest_;
   std::vector<ContactSeries> slow_;
   std::vector<bool> pair_slow_;
-  std::size_t fast_ = 0, degree_ = 0, count_ = 0;  // slow modes; degree and length of their series
+  std::size_t fast_ = 0, degree_ = 0, count_ = 0;  // number of slow modes; degree and length of their series
   double h_ = 0.0;
-  bool full_ = false;  // the next step takes all modes as slow
+  bool full_ = false;  // the next step treats all modes as slow
 };
 
 }  // namespace signorini

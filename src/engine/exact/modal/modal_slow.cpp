@@ -1,4 +1,4 @@
-// The slow part of what contacts show: polynomials on a step, and what fast modes add to them.
+// The slow part of contact quantities: polynomials on a step, and bounds on the contribution of fast modes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_degree = 30;
 
-/// What g and ut may be off by, as TurningPoints::watched: of N, T, g and ut.
+/// Errors of N, T, g and ut (TurningPoints::watched) that follow from errors of g and ut.
 std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent) {
   return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
           tangent};
@@ -22,7 +22,7 @@ std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent)
 
 }  // namespace
 
-/// Which modes a step of length h_ follows as polynomials.
+/// Selects the modes that a step of length h_ follows as polynomials.
 void ModalProof::part_modes(bool all_slow) {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
@@ -35,8 +35,8 @@ void ModalProof::part_modes(bool all_slow) {
   for (std::size_t k = 0; k < pairs.size(); ++k) pair_slow_[k] = size_of(pairs[k]) * h_ * h_ <= square;
 }
 
-/// What fast modes and the rest of the slow ones may add to N, T, g and ut (TurningPoints::watched), or to
-/// their rates: each mode moves by at most A, and by sqrt(l) A in a unit of time.
+/// Bounds on the contributions of fast modes and of the remainder of the slow ones to N, T, g and ut
+/// (TurningPoints::watched), or to their rates: each mode moves by at most A, and by sqrt(l) A in a unit of time.
 ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
   const ForceLaw& law = laws_[c];
   double normal = of_rate ? normal_rest_[c].rate : normal_rest_[c].place;
@@ -49,8 +49,8 @@ ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
   return of_law(law, normal, tangent);
 }
 
-/// How far each of N, T, g and ut goes one way only, or not at all, of [0, 1]: without a turn. N goes with g,
-/// and T with g in slip, with ut in stick.
+/// Part of [0, 1] on which each of N, T, g and ut is monotone or constant, without a turning point. N follows g; T
+/// follows g in slip and ut in stick.
 ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
   const Watch4 ripple = ripples(c, true);
@@ -67,7 +67,7 @@ ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<
 double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, double x_end) const {
   if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
   std::vector<double> p(degree_ + 1);
-  double safe = 1.0;  // of x_end
+  double safe = 1.0;  // part of x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
     const Watch4 ripple = ripples(c, false), forth = one_way(c, x_end, p);
     const Watch4 unsure = of_law(laws_[c], rounding::of_elimination * normal_size_[c].place,
@@ -75,7 +75,7 @@ double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, 
     for (std::size_t f = 0; f < ripple.size(); ++f) {
       const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
       const double* a = slow_[c].of(TurningPoints::watched[f]);
-      // see_begin has another sum for the slope: where that is nothing but rounding, of another sign perhaps.
+      // see_begin sums the slope in another order: if the slope is only rounding, its sign may differ.
       if (range.is_left(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
       if (forth[f] >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
@@ -87,7 +87,7 @@ double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, 
   return safe * x_end;
 }
 
-/// What rose up to the end of the passage before and falls from there on has its peak between them.
+/// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
 void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& turning,
                            LastTurns& turns) const {
   for (std::size_t c = 0; c < laws_.size(); ++c) {
@@ -177,8 +177,8 @@ void ModalProof::expand_modes(const ModalPoint& at) {
                      pairs.size(), pair_coefficients_.data() + k);
 }
 
-/// What a row shows of the modes: of slow ones a polynomial, of fast ones what they rest at; and a bound on
-/// the rest.
+/// Sum of a row over the modes: a polynomial for slow ones, the static value for fast ones; returns a bound on the
+/// remainder.
 ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vector<double>& out) const {
   const std::vector<Complex>& pairs = oscillators_->pairs();
   out.assign(count_, 0.0);
@@ -187,7 +187,7 @@ ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vecto
       coefficients_.data(), terms, slow);
   const Eigen::Map<const Eigen::VectorXd> shown(row.real.data(), slow);
   Eigen::Map<Eigen::VectorXd>(out.data(), terms).noalias() = of_modes * shown;
-  // each mode's series falls by half and more a term from here on
+  // each further term of a mode's series is at most half of the previous one
   const auto rest = static_cast<Eigen::Index>(count_ - degree_ - 1);
   double left = 2.0 * (of_modes.bottomRows(rest).cwiseAbs() * shown.cwiseAbs()).sum();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -205,7 +205,7 @@ ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vecto
   return {left, left * static_cast<double>(degree_ + 3) / h_};
 }
 
-/// Gaps and slides of all contacts as polynomials in t / h, of slow modes and of what fast ones rest at.
+/// Gaps and slides of all contacts as polynomials in t / h, from slow modes and the static values of fast ones.
 void ModalProof::expand(const ModalPoint& at) {
   expand_modes(at);
   const std::size_t contacts = model_.contacts.size();

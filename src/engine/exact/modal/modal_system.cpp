@@ -18,7 +18,8 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double pre
   return law;
 }
 
-/// Of works: they divide by (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) (modal_works.hpp), so eps (omega/alpha)^2 of them is lost.
+/// Relative loss of works: they divide by (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) (modal_works.hpp) and lose eps
+/// (omega/alpha)^2.
 constexpr double most_lost = 1e-12;
 
 std::string coupling_refusal(const Model& model) {
@@ -97,7 +98,7 @@ std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
                        bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * mode.size())));
 }
 
-/// Diagonal plus two columns a contact at most.
+/// The matrix is a diagonal plus at most two columns for each contact.
 StateModes ModalSystem::make(const Mode& mode) const {
   std::vector<Vector> u, v;
   bool symmetric = true;

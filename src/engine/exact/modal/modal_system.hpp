@@ -17,7 +17,7 @@
 
 namespace signorini {
 
-/// Forces of one contact as functions of its gap and its slide; empty lines where a state has no force.
+/// Forces of one contact as functions of its gap and its slide; coefficients are zero if a state has no force.
 struct ForceLaw {
   double N_gap = 0.0, N_constant = 0.0;
   double T_gap = 0.0, T_ut = 0.0, T_constant = 0.0;
@@ -27,42 +27,42 @@ struct ForceLaw {
   [[nodiscard]] double N_rate(double vn) const { return N_gap * vn; }
   [[nodiscard]] double T_rate(double vn, double vt) const { return T_gap * vn + T_ut * vt; }
 };
-/// pressing: of a slider, constant.
+/// pressing: constant applied normal force of a slider.
 [[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing);
 
-/// Why damping or contacts couple the modes of contact states; empty: neither does.
+/// Reason why damping or contacts couple the modes of contact states; empty: they do not.
 [[nodiscard]] std::string coupling_refusal(const Model& model);
-/// Why a scene cannot be followed in modes without coupling; empty: it can.
+/// Reason why a scene cannot be followed in uncoupled modes; empty: it can.
 [[nodiscard]] std::string proportional_refusal(const Model& model);
-/// Springs of a state in which all contacts are closed and stick.
+/// Number of springs of a state in which all contacts are closed and stick.
 [[nodiscard]] std::size_t most_state_springs(const Model& model);
 
 /// One combination of contact states.
 struct StateModes {
   Spectrum spectrum;
-  std::vector<Amplitudes> normal, tangent;            ///< what each mode shows of n_k . u and t_k . u
+  std::vector<Amplitudes> normal, tangent;            ///< coefficients of each mode in n_k . u and t_k . u
   std::vector<Amplitudes> from_normal, from_tangent;  ///< Y n_k, Y t_k
-  std::vector<Amplitudes> load, from_load;            ///< of each load's direction
-  ModePairs pairs;                                    ///< where a contact slips and X is written out
+  std::vector<Amplitudes> load, from_load;            ///< for each load's direction
+  ModePairs pairs;                                    ///< if a contact slips and X is written out
 };
 
-/// Y p: what loads and the constant parts of contact forces do to the modes of the state from t on.
+/// Y p: modal forces by loads and the constant parts of contact forces in the state, from t on.
 [[nodiscard]] Amplitudes constant_forces(const Model& model, const StateModes& state, const Mode& mode,
                                          const Forcing& forcing, double t);
 
-/// At once in memory: those of a motion that comes back to its states.
+/// Limit of states in memory: those of a motion that returns to its states.
 inline constexpr CacheBounds most_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive the object.
   ModalSystem(const Model& model, const OpenBasis& basis);
 
   [[nodiscard]] double alpha() const { return alpha_; }
   [[nodiscard]] const OpenBasis& basis() const { return basis_; }
-  /// The modes of a state, from the cache or made. Its spectrum may have failed.
+  /// The modes of a state, from the cache or new. Its spectrum may have failed.
   [[nodiscard]] std::shared_ptr<const StateModes> state(const Mode& mode);
-  /// How many were made.
+  /// Number of states computed.
   [[nodiscard]] long made() const { return made_; }
 
  private:

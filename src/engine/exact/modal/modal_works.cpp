@@ -10,8 +10,8 @@ namespace signorini {
 namespace {
 
 constexpr double least_velocity =
-    1e-9;  // of the greatest modal one: pairs with less change no digit of a balance
-constexpr double no_frequency = 1e-12, least_frequency = 1e-3;  // of omega^2 t_end^2
+    1e-9;  // of the greatest modal velocity: smaller pairs change no digit of a balance
+constexpr double no_frequency = 1e-12, least_frequency = 1e-3;  // relative to omega^2 t_end^2
 
 template <class S>
 using Ends = ModalWorks::Ends<S>;
@@ -29,7 +29,7 @@ Integrals<S> integrals(const Ends<S>& k, const Ends<S>& l, double alpha) {
   const S yr = k.y1 * l.r1 - k.y0 * l.r0, ry = k.r1 * l.y1 - k.r0 * l.y0;
   Integrals<S> result;
   result.changed = yy;
-  if (!(size_of(k.l) + size_of(l.l) > 0.0)) {  // both only die out, y = -y'/alpha
+  if (!(size_of(k.l) + size_of(l.l) > 0.0)) {  // both only decay, y = -y'/alpha
     result.rates = rr * (-0.5 / alpha);
     result.mixed = rr * (0.5 / (alpha * alpha));
     return result;
@@ -111,7 +111,7 @@ ModalWorks::Stretch ModalWorks::stretch(const ModalPoint& from, const ModalPoint
   return s;
 }
 
-/// What drifts add to int z_k' z_l'.
+/// Contribution of drifts to int z_k' z_l'.
 double ModalWorks::with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const {
   const auto change = [&](std::size_t i) { return s.real[i].y1 - s.real[i].y0; };
   return product * (s.drift[k] * s.drift[l] * s.time + s.drift[k] * change(l) + s.drift[l] * change(k));
@@ -132,7 +132,7 @@ std::vector<std::size_t> ModalWorks::moving(const Stretch& s) const {
   return result;
 }
 
-/// Two modes of which one has no frequency.
+/// Adds two modes, at least one of which has no frequency.
 void ModalWorks::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const {
   const Integrals<double> both = integrals(s.real[k], s.real[l], alpha_);
   const double x = state_->spectrum.product(k, l);
@@ -142,7 +142,7 @@ void ModalWorks::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& s
                        state_->normal[c].real[l] * state_->tangent[c].real[k] * (both.changed - both.mixed);
 }
 
-/// Of all modes up to the last that moves; zero for those that do not, and for those without frequency.
+/// Lanes of all modes up to the last moving one; zero for modes that do not move or have no frequency.
 ModalWorks::Lanes ModalWorks::lanes(const Stretch& s, const std::vector<std::size_t>& oscillating) const {
   const Eigen::Index n = oscillating.empty() ? 0 : static_cast<Eigen::Index>(oscillating.back()) + 1;
   Lanes lanes;
@@ -159,7 +159,7 @@ ModalWorks::Lanes ModalWorks::lanes(const Stretch& s, const std::vector<std::siz
   return lanes;
 }
 
-/// All modes that oscillate with all before them.
+/// Adds all oscillating modes, each with all those before it.
 void ModalWorks::add_oscillating(const Lanes& lanes, Sums& sums) const {
   const ModePairs& pairs = state_->pairs;
   const Eigen::Index n = lanes.l.size();
@@ -195,7 +195,7 @@ void ModalWorks::add_real(const Stretch& s, const std::vector<std::size_t>& movi
   add_oscillating(lanes(s, oscillating), sums);
 }
 
-/// Pairs with real modes, with each other and with each other's conjugates.
+/// Adds pairs with real modes, with each other and with each other's conjugates.
 void ModalWorks::add_pairs(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const {
   const Spectrum& spectrum = state_->spectrum;
   const std::size_t rank = spectrum.rank();

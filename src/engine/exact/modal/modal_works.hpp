@@ -3,10 +3,10 @@
 //   y'' + alpha y' + l y = 0:   int y_k' y_l' and int y_k y_l' are forms on the values of y and y' at both
 //   ends, divided by (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l)
 //
-// Damping takes alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l', which is alpha sum int z_k'^2 where no
-// contact slips; friction takes int T p', in which g and ut' are sums over modes as well. So the balance of
-// energy is not computed from itself. Forces are constant on the stretch; modes without frequency move like
-// z = a + d t + y, d = p / alpha.
+// Damping dissipates alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l', which is alpha sum int z_k'^2 if no contact
+// slips; friction dissipates int T p', in which g and ut' are sums over modes as well. The energy balance is therefore
+// an independent check. Forces are constant on the stretch; modes without frequency move like z = a + d t + y, d = p /
+// alpha.
 #pragma once
 
 #include "engine/exact/modal/modal_proof.hpp"
@@ -18,22 +18,22 @@ class ModalWorks {
  public:
   ModalWorks(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
 
-  /// False: a frequency is too low for the closed form of works and too high to be none.
+  /// False: a frequency is too low for the closed form of works and too high to count as zero.
   [[nodiscard]] static bool suits(const Spectrum& spectrum, double t_end);
 
-  /// All but t_end must live until the next start.
+  /// All arguments except t_end must live until the next start.
   void start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
              const Amplitudes& forces, double t_end);
   /// Adds the integrals over the time between two points of the segment.
   void add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to, double time,
            Works& works) const;
 
-  /// A mode's frequency squared, and its homogeneous part with its rate at both ends.
+  /// Square of a mode's frequency, and the mode's homogeneous part with its rate at both ends.
   template <class S>
   struct Ends {
     S l{}, y0{}, r0{}, y1{}, r1{};
   };
-  /// The same of all modes, for sums over pairs of them.
+  /// Same for all modes, for sums over pairs of them.
   struct Lanes {
     Eigen::ArrayXd l, y0, r0, y1, r1;
   };
@@ -47,7 +47,7 @@ class ModalWorks {
     std::vector<double> drift;  // d of real modes
     Amplitudes area;            // int z
   };
-  /// int q'^T q', and of each contact int (sum a_k y_k)(sum b_k y_k')
+  /// int q'^T q', and for each contact int (sum a_k y_k)(sum b_k y_k')
   struct Sums {
     double rates = 0.0;
     std::vector<double> crossed;
@@ -70,8 +70,8 @@ class ModalWorks {
   const StateModes* state_ = nullptr;
   const Oscillators* oscillators_ = nullptr;
   const Amplitudes* forces_ = nullptr;
-  std::vector<std::pair<std::size_t, double>> loads_;  // that act, and how strongly
-  std::vector<std::size_t> slipping_;                  // contacts
+  std::vector<std::pair<std::size_t, double>> loads_;  // active loads, and their values
+  std::vector<std::size_t> slipping_;                  // indices of slipping contacts
 };
 
 }  // namespace signorini

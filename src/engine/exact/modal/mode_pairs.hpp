@@ -1,4 +1,4 @@
-// mode_pairs.hpp: what any two modes of a state have to do with each other, whatever moves.
+// mode_pairs.hpp: coefficients of pairs of modes of a state that do not depend on the motion.
 //
 //   e_kl = 1 / ( (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l) ),      shared_kl = x_k^T x_l e_kl
 //
@@ -11,13 +11,13 @@
 
 namespace signorini {
 
-/// Empty where the state's X is not written out either.
+/// Empty if the state's X is not written out.
 class ModePairs {
  public:
   ModePairs() = default;
   ModePairs(const Spectrum& spectrum, double alpha);
   [[nodiscard]] bool known() const { return !shared_.empty(); }
-  /// shared_kl of all l < k.
+  /// shared_kl for all l < k.
   [[nodiscard]] const double* of(Eigen::Index k) const { return shared_.data() + k * (k - 1) / 2; }
   [[nodiscard]] std::size_t bytes() const { return sizeof(double) * shared_.size(); }
 
@@ -25,7 +25,7 @@ class ModePairs {
   std::vector<double> shared_;  // k = 1, 2, ... one after the other
 };
 
-/// shared_kl of all l < k.
+/// Computes shared_kl for all l < k.
 void pairs_of_mode(const Spectrum& spectrum, double alpha, Eigen::Index k, double* shared);
 
 }  // namespace signorini

@@ -8,20 +8,20 @@
 
 namespace signorini {
 
-/// But for rounding.
+/// True if the matrix is symmetric up to rounding.
 [[nodiscard]] bool is_symmetric(const SparseMatrix& a);
-/// All loads, compressions and surfaces stand still between their jumps.
+/// True if all loads, compressions and surfaces are constant between their jumps.
 [[nodiscard]] bool stands_still(const Model& model);
 
 class OpenBasis {
  public:
   explicit OpenBasis(const Model& model);
 
-  /// Why there are no modes; empty: there are.
+  /// Reason why there are no modes; empty: there are.
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// omega^2, ascending.
   [[nodiscard]] const Vector& square() const { return square_; }
-  /// Forms of contacts and directions of loads, one entry a mode each.
+  /// Forms of contacts and directions of loads, one entry for each mode.
   [[nodiscard]] const Vector& normal(std::size_t contact) const { return normal_[contact]; }
   [[nodiscard]] const Vector& tangent(std::size_t contact) const { return tangent_[contact]; }
   [[nodiscard]] const Vector& load(std::size_t load) const { return load_[load]; }
@@ -34,7 +34,7 @@ class OpenBasis {
   /// Phi^T M
   [[nodiscard]] const Eigen::MatrixXd& projection() const { return projection_; }
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
-  /// What the modes show of a form or a direction of the structure.
+  /// Modal coefficients of a form or a direction of the structure.
   [[nodiscard]] Vector amplitudes_of_form(const Vector& form) const { return shapes_.transpose() * form; }
   [[nodiscard]] Vector amplitudes_of(const Combination& form) const {
     Vector q = Vector::Zero(shapes_.cols());

@@ -44,7 +44,7 @@ std::vector<int> narrow_order(const SparseMatrix& mass, const SparseMatrix& stif
   std::vector<int> order;
   for (std::size_t i = 0; i < n; ++i) {
     if (seen[i]) continue;
-    // From the far end of a walk: its levels are narrow.
+    // Starts at the far end of a walk: its levels are narrow.
     std::vector<bool> tried = seen;
     std::vector<int> trial;
     walk(static_cast<int>(i), tried, trial);
@@ -60,21 +60,21 @@ namespace {
 using Long = long double;
 using LongVector = std::vector<Long>;
 
-constexpr std::size_t widest_band = 48;  // on one side of the diagonal
-constexpr double free_share = 1e-14;     // of the highest omega^2: below, a motion is free
-constexpr double doubtful = 100.0;       // times that: a mode so low cannot be told from a free motion
-constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are found together
-constexpr int more_halvings = 11;  // of a bracket that holds one mode: inverse iteration gains 2000 a solve
+constexpr std::size_t widest_band = 48;  // half-width of the band, without the diagonal
+constexpr double free_share = 1e-14;     // of the highest omega^2: below this, a motion is free
+constexpr double doubtful = 100.0;       // factor: such a low mode is indistinguishable from a free motion
+constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are computed together
+constexpr int more_halvings = 11;  // limit for a bracket with one mode: inverse iteration gains 2000 a solve
 constexpr int quick_solves = 3;
 constexpr int most_quotients = 6;
-constexpr double worst_product = 1e-4;  // of two shapes, before they are made orthogonal
+constexpr double worst_product = 1e-4;  // limit for the product of two shapes before orthogonalisation
 
 struct Bracket {
   double low = 0.0, high = 0.0;
   std::size_t below = 0, up_to = 0;  // modes below low and below high
 };
 
-/// Brackets with one mode each, or with several that are as good as equal; ascending.
+/// Brackets with one mode each, or with several nearly equal ones; ascending.
 std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
   std::vector<Bracket> unsettled{all}, done;
   while (!unsettled.empty()) {
@@ -83,7 +83,7 @@ std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
     if (now.up_to == now.below) continue;
     const bool one = now.up_to - now.below == 1;
     if (!one && now.high - now.low > same_frequency * now.high) {
-      // Frequencies are spread over decades.
+      // Frequencies extend over decades.
       const double middle =
           now.high > 4.0 * now.low ? std::sqrt(now.low * now.high) : 0.5 * (now.low + now.high);
       const std::size_t count = std::clamp(pencil.factor(middle), now.below, now.up_to);
@@ -104,7 +104,7 @@ class Shapes {
  public:
   explicit Shapes(BandPencil<Long>& pencil) : pencil_(pencil), mx_(pencil.size()) {}
 
-  /// M-orthonormal columns that span the motions nearest to the shift, with their Rayleigh quotients.
+  /// M-orthonormal columns that span the motions closest to the shift, with their Rayleigh quotients.
   void find(Long shift, std::size_t count, int solves, std::vector<LongVector>& x, LongVector& square) {
     x.assign(count, LongVector(pencil_.size()));
     for (LongVector& column : x)
@@ -114,7 +114,7 @@ class Shapes {
     rotate(x, square);
   }
 
-  /// One mode, begun in doubles: the Rayleigh quotient as the next shift triples the digits.
+  /// One mode, started in doubles: the Rayleigh quotient as the next shift triples the digits.
   void find_one(BandPencil<double>& quick, const Bracket& bracket, LongVector& x, Long& square) {
     std::vector<double> begun(pencil_.size()), mx(pencil_.size());
     for (double& entry : begun) entry = uniform_(random_);
@@ -161,7 +161,7 @@ class Shapes {
   void orthonormal(std::vector<LongVector>& x) {
     for (std::size_t k = 0; k < x.size(); ++k)
       for (int twice = 0; twice < (k > 0 ? 2 : 1); ++twice) {
-        // Squares must not overflow: a solve at an eigenvalue yields great numbers.
+        // Squares must not overflow: a solve at an eigenvalue yields large numbers.
         Long greatest = 0;
         for (const Long entry : x[k]) greatest = std::max(greatest, std::abs(entry));
         scale(x[k], 1 / greatest);
@@ -179,7 +179,7 @@ class Shapes {
     for (Long& entry : x) entry *= factor;
   }
 
-  /// To the motions of the span on which K is diagonal too.
+  /// Rotates to the motions of the span on which K is diagonal too.
   void rotate(std::vector<LongVector>& x, LongVector& square) {
     const std::size_t count = x.size();
     std::vector<Long> energy(count * count);
@@ -216,7 +216,7 @@ class Shapes {
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
 
-/// Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order: columns change by lower ones only.
+/// Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order: each column changes by lower ones only.
 bool orthonormal_from_low_to_high(const SparseMatrix& mass, Eigen::MatrixXd& shapes) {
   for (int twice = 0; twice < 2; ++twice) {
     Eigen::MatrixXd products = shapes.transpose() * (mass * shapes);

@@ -59,8 +59,8 @@ Oscillators::Oscillators(const Spectrum& spectrum, double alpha)
   for (const Complex l : pairs_) pair_turning_.push_back(root_of(l - Complex(0.25 * alpha * alpha)));
 }
 
-/// by_series for the first `count` real modes, a block at a time: term by term, until a majorant of the last
-/// one of the block says that no more is to come.
+/// by_series for the first `count` real modes, a block at a time: term by term, until a majorant of the block's last
+/// mode shows that further terms are negligible.
 void Oscillators::slow_by_series(const Amplitudes& p, std::size_t count, double time, ModalPoint& to) const {
   constexpr std::size_t width = 8;
   const double square = time * time;

@@ -2,9 +2,8 @@
 //
 //   z'' + alpha z' + l z = p:   z - p/l = e^(-alpha t/2) ( a cos(w t) + b sin(w t) ),   w^2 = l - alpha^2/4
 //
-// Where sqrt(l) t is small the Taylor series in t is used instead: an entire function of l, so that zero
-// frequencies and critical damping are no exceptions. Complex l: the mode stands for itself and its
-// conjugate.
+// If sqrt(l) t is small the Taylor series in t is used instead: an entire function of l, so that zero frequencies and
+// critical damping need no special cases. Complex l: the mode represents itself and its conjugate.
 #pragma once
 
 #include <cmath>
@@ -13,19 +12,19 @@
 
 namespace signorini {
 
-/// Amplitudes and their rates; of complex modes (damped_motion.hpp) those, and the time since the segment's
-/// beginning.
+/// Amplitudes and their rates; for complex modes (damped_motion.hpp) the complex amplitudes and the time since the
+/// segment's beginning.
 struct ModalPoint {
   Amplitudes z, rate;
   Eigen::VectorXcd y;
   double time = 0.0;
 };
 
-/// Bounds |sum_k x_k A_k| with |x_k| = 1: by the root of the sum of squares where the shapes are orthogonal, by the
-/// sum of the A_k else.
+/// Bounds |sum_k x_k A_k| with |x_k| = 1: by the root of the sum of squares if the shapes are orthogonal, otherwise by
+/// the sum of the A_k.
 class SumOfModes {
  public:
-  /// As StepFacts::eigenvector_condition.
+  /// Same meaning as StepFacts::eigenvector_condition.
   explicit SumOfModes(double dependence) : orthogonal_(dependence <= 1.0 + 1e-6) {}
   void add(double amplitude) { sum_ += orthogonal_ ? amplitude * amplitude : amplitude; }
   [[nodiscard]] double value() const { return orthogonal_ ? std::sqrt(sum_) : sum_; }
@@ -43,20 +42,21 @@ class Oscillators {
   [[nodiscard]] double alpha() const { return alpha_; }
   [[nodiscard]] const std::vector<double>& real() const { return real_; }
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_; }
-  /// w of real modes; 0 of those that do not oscillate.
+  /// w of real modes; 0 for those that do not oscillate.
   [[nodiscard]] const std::vector<double>& turning() const { return turning_; }
-  /// The same of pairs: its imaginary part is the rate at which one of each pair grows beside e^(-alpha t/2).
+  /// w of pairs: its imaginary part is the growth rate of one mode of each pair relative to e^(-alpha t/2).
   [[nodiscard]] const std::vector<Complex>& pair_turning() const { return pair_turning_; }
-  /// The motion a time later; alpha time <= 4. Forces p are constant.
+  /// The motion after `time`; alpha time <= 4. Forces p are constant.
   void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
   /// z''
   [[nodiscard]] Amplitudes second(const ModalPoint& at, const Amplitudes& p) const;
-  /// Of a mode that does not swing: more than anything, and no infinity, which times zero is no number.
+  /// Amplitude bound of a mode that does not oscillate: larger than any other, but finite, since zero times infinity is
+  /// NaN.
   static constexpr double never = 1e300;
-  /// How far each mode swings about p/l; of a pair, which may grow or decay, at first.
+  /// Amplitude of each mode's oscillation about p/l; for a pair, which may grow or decay, the initial one.
   void amplitudes(const ModalPoint& at, const Amplitudes& p, std::vector<double>& real,
                   std::vector<double>& pair) const;
-  /// Integrals of z over the time between the two.
+  /// Integrals of z over the time between the two points.
   void integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
                  Amplitudes& out) const;
 

@@ -5,7 +5,7 @@
 namespace signorini {
 namespace {
 
-/// T: double or Four, of modes i to i + 3.
+/// T: double or Four, for modes i to i + 3.
 template <class T>
 [[gnu::always_inline]] inline void meet(const ModeEnds& a, double alpha, std::ptrdiff_t k, std::ptrdiff_t i,
                                         const double* shared, double* yy_out, double* mixed_out, T& sum) {

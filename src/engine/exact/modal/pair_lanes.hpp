@@ -1,28 +1,28 @@
-// pair_lanes.hpp: one mode with each mode before it: what sums over pairs of modes are made of.
+// pair_lanes.hpp: sums over pairs of one mode with each mode before it.
 //
-//   y = what oscillates of a mode, y0, r0 = y, y' at the beginning of a stretch, y1, r1 at its end, l = omega^2
+//   y = oscillating part of a mode, y0, r0 = y, y' at the beginning of a stretch, y1, r1 at its end, l = omega^2
 //   e = 1/( d^2 + 2 alpha^2 (l_k + l_i) ),  d = l_i - l_k
 //   int y_k' y_i' = -e ( 2 alpha l_k l_i [yy] + alpha (l_k + l_i) [rr] + d (l_k [yr] - l_i [ry]) )
 //   int y_k y_i'  =  e ( l_i (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_i [ry]) )
 //
-// [yy] = y_k y_i at the end less at the beginning, [yr] = y_k y_i', and so on. Sums are taken in four parts.
+// [yy] = y_k y_i at the end minus its value at the beginning, [yr] = y_k y_i', and so on. Sums are taken in four parts.
 #pragma once
 
 #include <cstddef>
 
 namespace signorini {
 
-/// Lists of all modes.
+/// Lists over all modes.
 struct ModeEnds {
   const double *l, *y0, *r0, *y1, *r1;
 };
 
-/// Of mode k and all i < k: writes [yy] and int y_k y_i', returns the sum of -x_k^T x_i int y_k' y_i'.
-/// shared: x_k^T x_i e (mode_pairs.hpp).
+/// For mode k and all i < k: writes [yy] and int y_k y_i', returns the sum of -x_k^T x_i int y_k' y_i'. shared: x_k^T
+/// x_i e (mode_pairs.hpp).
 [[nodiscard]] double meet_before(const ModeEnds& ends, double alpha, std::ptrdiff_t k, const double* shared,
                                  double* yy, double* mixed);
 
-/// sum over i < k of n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ): what both make of int (sum n y)(sum t y').
+/// sum over i < k of n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ): contribution of both to int (sum n y)(sum t y').
 [[nodiscard]] double crossed_before(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
                                     const double* mixed);
 

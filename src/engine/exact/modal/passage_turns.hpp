@@ -1,11 +1,11 @@
-// passage_turns.hpp: greatest and least N, T, g and ut within a passage, in modes.
+// passage_turns.hpp: extreme values of N, T, g and ut within a passage, in modes.
 //
-//   where a peak may exceed all before: first as far as slow modes tell, then with ripples that are rounding
+//   places where a peak may exceed the earlier range: first by slow modes, then with ripples of the size of rounding
 //
 // A proof (modal_proof.hpp, damped_proof.hpp) is a step of length unit() that was expanded from a point, and offers
-//   within(at, known, x_end)                     the part of [0, x_end] on which nothing turns beyond what is known
+//   within(at, known, x_end)                     the part of [0, x_end] without a turn beyond the known ranges
 //   expand_beside(at, known, share, remaining)   a new step, with ripples up to that share of the ranges; its length
-//   see_begin(at, time, turning, turns)          what turns at a point itself
+//   see_begin(at, time, turning, turns)          turning points at a point itself
 //   series(at)                                   the contacts' slow parts on the step
 #pragma once
 
@@ -17,14 +17,14 @@
 
 namespace signorini {
 
-/// Of the range of what a peak is looked for in: what fast modes may add to it. Where a peak lies it is rounding. Where it is
-/// only asked whether one may lie there, as much as leaves an answer: with more, steps are longer, but a value near its
-/// greatest so far is not told from a greater one. These are chosen.
+/// Bounds on the contribution of fast modes, relative to the range of the quantity. Localising a peak needs ripples of
+/// the size of rounding. Excluding a peak needs only ripples that leave the answer decidable: larger ones allow longer
+/// steps, but do not separate a value near the greatest one so far from a greater one. Chosen values.
 inline constexpr double fine_ripple = rounding::of_elimination, greatest_ripple = 1e-4, least_ripple = 1e-10,
                         ripple_step = 10.0;
 
-/// advance(from, step, to): the closed form. Begin: the time of `from`; observed: the passage begins with a segment, at
-/// whose begin everything was looked at.
+/// advance(from, step, to): the closed form. begin: the time of `from`; observed: the passage begins with a segment,
+/// whose beginning was already examined.
 template <class Proof, class Advance>
 void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& from, double begin,
                         double length, bool observed, TurningPoints& turning, LastTurns& turns) {
@@ -41,7 +41,7 @@ void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& 
   };
   double share = greatest_ripple;
   for (bool moved = true; done < length;) {
-    // What went one way up to here may turn at this very point.
+    // A quantity that was monotone up to here may turn at this very point.
     if (moved) proof.see_begin(point, begin + done, turning, turns);
     const double look = proof.expand_beside(point, turning, share, length - done);
     const double safe = look > 0.0 ? proof.within(point, turning, look / proof.unit()) * proof.unit() : 0.0;
@@ -55,7 +55,7 @@ void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& 
       share = std::max(least_ripple, share / ripple_step);
       continue;
     }
-    // Where it came to, a slope may be nothing but rounding: that is no way up or down.
+    // At the end of the passage a slope may be only rounding and then has no direction.
     if (!(done < length)) return;
     const double step = proof.expand_beside(point, turning, fine_ripple, length - done);
     if (!(step > 0.0)) return;

@@ -1,8 +1,7 @@
 // plain_complex.hpp: complex numbers whose products are four multiplications.
 //
-// std::complex must treat infinities in products and quotients, which costs several times the arithmetic;
-// here no infinity is meant. The functions at the end let kernels be written once for real and complex
-// numbers.
+// std::complex must treat infinities in products and quotients, which costs several times the arithmetic; here
+// infinities do not occur. The functions at the end allow kernels to be written once for real and complex numbers.
 #pragma once
 
 #include <cmath>
@@ -41,7 +40,7 @@ template <class R>
 [[nodiscard]] inline long double size_of(long double a) { return std::abs(a); }
 template <class R>
 [[nodiscard]] R size_of(BasicComplex<R> a) {
-  constexpr R least = R(1e-250), most = R(1e250);  // squares lose no digits between, and hypot is dear
+  constexpr R least = R(1e-250), most = R(1e250);  // squares lose no digits between; hypot is slow
   const R square = a.re * a.re + a.im * a.im;
   return square > least && square < most ? std::sqrt(square) : std::hypot(a.re, a.im);
 }
@@ -49,7 +48,7 @@ template <class R>
 [[nodiscard]] inline bool is_zero(Complex a) { return a.re == 0.0 && a.im == 0.0; }
 [[nodiscard]] inline double real_part(double a) { return a; }
 [[nodiscard]] inline double real_part(Complex a) { return a.re; }
-/// What a mode adds to a real quantity: itself, or itself and its conjugate.
+/// Contribution of a mode to a real quantity: itself, or itself and its conjugate.
 [[nodiscard]] inline double whole(double a) { return a; }
 [[nodiscard]] inline double whole(Complex a) { return 2.0 * a.re; }
 [[nodiscard]] inline Complex root_of(Complex a) {

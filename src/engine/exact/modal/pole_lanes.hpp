@@ -11,7 +11,7 @@
 
 namespace signorini {
 
-/// base + tiny: the poles; home_base + home_tiny: that from which own counts. re, im: 1/(l - D_i).
+/// base + tiny: the poles; home_base + home_tiny: the pole from which own is measured. re, im: 1/(l - D_i).
 void inverse_distances(const double* base, const double* tiny, std::ptrdiff_t n, double home_base,
                        double home_tiny, const Complex& own, double* re, double* im);
 void square_all(const double* re, const double* im, std::ptrdiff_t n, double* square_re, double* square_im);

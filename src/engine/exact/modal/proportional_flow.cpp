@@ -12,7 +12,7 @@ ProportionalFlow::ProportionalFlow(const Model& model, const OpenBasis& basis, d
       proof_(model, system_.alpha()),
       works_(model, system_.alpha()) {}
 
-/// Why a segment is followed by the series; empty: it is not.
+/// Reason why the series has to follow a segment; empty: none.
 std::string ProportionalFlow::obstacle(const Segment& segment) {
   if (segment.forcing->varies()) return "forces or surfaces that change";
   state_ = system_.state(segment.decision->mode);

@@ -1,4 +1,4 @@
-// proportional_flow.hpp: the flow in the modes of a contact state where damping is alpha M.
+// proportional_flow.hpp: the motion in the modes of a contact state for the damping alpha M.
 //
 //   z'' + alpha z' + L z = Y p,   q = X z           modal_system.hpp, modal_proof.hpp, modal_works.hpp
 #pragma once
@@ -10,7 +10,7 @@ namespace signorini {
 
 class ProportionalFlow final : public ModalFlow {
  public:
-  /// All but t_end must outlive it.
+  /// All arguments except t_end must outlive the object.
   ProportionalFlow(const Model& model, const OpenBasis& basis, double t_end);
 
   [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,

@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-/// Is the guard's rate negative from `from` to `to`, places in the step, ripple and all?
+/// True if the guard's rate, including its ripple, is negative from `from` to `to`, places in the step.
 bool decreases(const GuardOnStep& guard, double h, double from, double to) {
   const std::vector<double>& p = guard.p;
   std::vector<double> q(p.size() - 1);
@@ -55,12 +55,12 @@ double only_fall(const std::function<double(double)>& g, double from, double to)
   return x;
 }
 
-/// A guard that starts at zero.
+/// Treats a guard that starts at zero.
 bool leave_zero(GuardOnStep& guard, std::size_t slot, Arming& arming, double& limit) {
   std::vector<double>& q = guard.p;
   double scale = 0.0;
   for (const double entry : q) scale += std::abs(entry);
-  // The decision knows that it rises; what else is lost is the rest of the series.
+  // The decision knows that it rises; the remainder of the series is subtracted.
   q[0] -= std::min(guard.ripple + rounding::of_many * scale, 0.5 * q[0]);
   if (!(q[0] > 0.0)) {
     arming.doubt(slot);
@@ -123,7 +123,7 @@ bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
 
 std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event, double h,
                                    bool& full) {
-  if (doubted || (limit == 0.0 && !full)) {  // else a guard is too near to zero for any ripple
+  if (doubted || (limit == 0.0 && !full)) {  // else a guard is too close to zero for any ripple
     full = full || !doubted;
     return std::nullopt;
   }

@@ -1,4 +1,4 @@
-// small_lu.hpp: L U factors of a few rows with complete pivoting, and the null vectors of what is singular.
+// small_lu.hpp: L U factors of a few rows with complete pivoting, and the null vectors of a singular matrix.
 //
 //   P G Q = L U
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-/// Springs of closed contacts that a state of the modal flow may have.
+/// Limit for the springs of closed contacts in a state of the modal flow.
 inline constexpr std::size_t most_rank = 12;
 
 template <class S>
@@ -47,7 +47,7 @@ class SmallLu {
     }
   }
 
-  /// A pivot is exactly zero: no solve.
+  /// True if a pivot is exactly zero: no solve is possible.
   [[nodiscard]] bool singular() const { return singular_; }
 
   /// tr(G^-1 B)
@@ -99,8 +99,7 @@ class SmallLu {
     return result;
   }
 
-  /// c with G c = 0 and d with d^T G = 0, taking the last `nullity` pivots for zero: one for each `which` of
-  /// those.
+  /// c with G c = 0 and d with d^T G = 0, treating the last `nullity` pivots as zero: `which` selects one of them.
   void null_vectors(SmallVector<S>& c, SmallVector<S>& d, std::size_t nullity = 1,
                     std::size_t which = 0) const {
     SmallVector<S> x{}, w{};

@@ -9,12 +9,11 @@
 namespace signorini {
 namespace {
 
-constexpr double filling = 1e-30;       // of the greatest entry, in rows that are zero
-constexpr double equal = 1e-13;         // relative distance of poles that are equal but for rounding
-constexpr double unseen_share = 1e-13;  // of equal modes: what rounding shows of one that no contact sees
-/// What |X Y q - q| may be, of a q of entries within 1: states of the pipeline have 1e-13 at 201 unknowns,
-/// and an event is off by about as much, in its own scales. Chosen; changing it moves "flows: stiff beside
-/// soft".
+constexpr double filling = 1e-30;       // of the greatest entry, in zero rows
+constexpr double equal = 1e-13;         // relative distance at which poles are equal up to rounding
+constexpr double unseen_share = 1e-13;  // equal modes: residual of a mode that no contact sees
+/// Limit for |X Y q - q| of a q with entries within 1: states of the pipeline have 1e-13 at 201 unknowns, and the error
+/// of an event is about the same, in its own scales. Chosen; changing it moves "flows: stiff beside soft".
 constexpr double worst_round_trip = 1e-12;
 constexpr double worst_condition = 1e4;
 
@@ -49,7 +48,7 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
     value_offset_.assign(poles.size(), 0.0);
     return;
   }
-  // Equal poles follow each other, and groups survive in what is seen of them.
+  // Equal poles are consecutive, and remain so among the seen modes.
   group_begin_.resize(poles.size());
   group_end_ = group_begin_;
   for (std::size_t first = 0, last = 0; first < poles.size(); first = last) {
@@ -83,7 +82,7 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   test();
 }
 
-/// So that V has as few rows that are not zero as its rank allows.
+/// Rotates V so that it has no more nonzero rows than its rank.
 void Spectrum::turn_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
   for (std::size_t first = 0; first < group_end_.size(); first = group_end_[first]) {
     const auto row = static_cast<Eigen::Index>(first),
@@ -157,7 +156,7 @@ void Spectrum::test() {
   Amplitudes z;
   to_modes(q, z);
   from_modes({&z}, {&back});
-  round_trip_ = (back - q).norm();  // maxCoeff may pass over what is no number
+  round_trip_ = (back - q).norm();  // maxCoeff may skip NaN
   if (!(round_trip_ < worst_round_trip))
     failure_ = "the modes of the state do not give back what they are made of";
   if (!(condition_ < worst_condition)) failure_ = "the modes of the state are nearly parallel";

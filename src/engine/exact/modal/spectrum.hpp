@@ -4,11 +4,11 @@
 //   right  x = (D - l)^-1 U c,   left  y = (D - l)^-1 V d,   y^T x = 1
 //   (1 + V^T (D - l)^-1 U) c = 0,   (1 + U^T (D - l)^-1 V) d = 0
 //
-// D: squares of the open modes' frequencies; U, V: what the springs of closed contacts make of them, not
-// symmetric where a contact slips. All roots are found together (Ehrlich, Aberth). A root is a pole and an
-// offset, so that D_i - l keeps its digits however close they are. Vectors are Cauchy vectors, and products
-// with them are sums over 1 / (D_i - l_k), n^2 operations; where they fit they are written out. Equal poles are
-// parted, and rows that are zero filled, by far less than their rounding, so that every root is simple.
+// D: squares of the open modes' frequencies; U, V: springs of closed contacts in these modes, not symmetric if a
+// contact slips. All roots are computed together (Ehrlich, Aberth). A root is a pole and an offset, so that D_i - l
+// keeps its digits however close they are. Vectors are Cauchy vectors, and products with them are sums over 1 / (D_i -
+// l_k), n^2 operations; if they fit in memory they are written out. Equal poles are separated, and zero rows filled, by
+// far less than their rounding, so that every root is simple.
 // Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994), 1266.
 #pragma once
 
@@ -24,10 +24,10 @@
 
 namespace signorini {
 
-/// Of a pole, between equal ones: below all rounding.
+/// Separation of equal poles, relative to a pole: below all rounding.
 inline constexpr double parting = 1e-22;
 
-/// D, ascending, as a sum of two numbers of which the second parts what is equal.
+/// D, ascending, as a sum of two numbers, the second of which separates equal poles.
 struct Poles {
   explicit Poles(const Eigen::VectorXd& values);
   Poles() = default;
@@ -39,52 +39,52 @@ struct Poles {
   }
 };
 
-/// Eigenvalues of one kind: real ones, or those of conjugate pairs that lie above the real axis.
+/// Eigenvalues of one kind: real ones, or those of conjugate pairs above the real axis.
 template <class S>
 struct Roots {
-  std::vector<std::size_t> home;  ///< the pole
-  std::vector<S> offset;          ///< from it
+  std::vector<std::size_t> home;  ///< index of the pole
+  std::vector<S> offset;          ///< distance from that pole
   std::vector<S> value;
-  std::vector<S> right, left;  ///< c and d, `rank` numbers a root; |x| = 1, y^T x = 1
+  std::vector<S> right, left;  ///< c and d, `rank` numbers for each root; |x| = 1, y^T x = 1
   [[nodiscard]] std::size_t size() const { return home.size(); }
 };
 
-/// Amplitudes of all modes of a spectrum; a pair's stands for its conjugate's too.
+/// Amplitudes of all modes of a spectrum; that of a pair represents its conjugate's too.
 struct Amplitudes {
   std::vector<double> real;
   std::vector<Complex> pair;
 };
 
-/// c and h = U^T x of each mode, `rank` numbers each, so that of two modes
+/// c and h = U^T x of each mode, `rank` numbers each. For two modes
 ///   x_k^T x_l = (h_k . c_l - c_k . h_l) / (l_k - l_l)
 struct VectorProducts {
   std::vector<double> c, h;
   std::vector<Complex> c_pair, h_pair;
 };
 
-/// Unknowns up to which X and Y are written out: 16 n^2 bytes a state, 16 MB here.
+/// Limit of unknowns up to which X and Y are written out: 16 n^2 bytes for a state, 16 MB here.
 inline constexpr std::size_t most_written = 1024;
 
 class Spectrum {
  public:
-  /// U, V: n x rank; fails where rank > most_rank. `symmetric`: V is U but for positive factors of its columns, so that
-  /// all roots are real.
+  /// U, V: n x rank; fails if rank > most_rank. `symmetric`: V is U up to positive factors of its columns, so that all
+  /// roots are real.
   Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
            std::size_t written_up_to = most_written);
 
-  /// Why the modes cannot be used; empty: they can.
+  /// Reason why the modes cannot be used; empty: they can.
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// Eigenvalues in the order of amplitudes: by magnitude.
   [[nodiscard]] const std::vector<double>& real() const { return values_; }
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_.value; }
-  /// Greatest |x| |y|, and greatest |X Y q - q| that was found for a q of entries within 1.
+  /// Greatest |x| |y|; round_trip(): greatest |X Y q - q| found for a q with entries within 1.
   [[nodiscard]] double condition() const { return condition_; }
   [[nodiscard]] double round_trip() const { return round_trip_; }
 
   [[nodiscard]] Amplitudes zero() const {
     return {std::vector<double>(real().size(), 0.0), std::vector<Complex>(pairs().size())};
   }
-  /// Y q and X^T q: amplitudes of a state, and what each mode shows of a form.
+  /// Y q and X^T q: amplitudes of a state, and coefficients of the modes in a form.
   void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { to_modes({&q}, {&z}); }
   void to_modes(const std::vector<const Eigen::VectorXd*>& q, const std::vector<Amplitudes*>& z) const;
   void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }
@@ -96,7 +96,7 @@ class Spectrum {
   [[nodiscard]] std::size_t rank() const { return rank_; }
   /// q := X z, for several z at once.
   void from_modes(const std::vector<const Amplitudes*>& z, const std::vector<Eigen::VectorXd*>& q) const;
-  /// Of X and Y, where they are written out.
+  /// Size of X and Y, if they are written out.
   [[nodiscard]] std::size_t written_bytes() const;
 
  private:
@@ -105,19 +105,19 @@ class Spectrum {
   bool search(std::vector<S>& offset);
   template <class S>
   void start(std::vector<S>& offset) const;
-  /// Newton's steps on the characteristic polynomial, and on it with the other roots divided out.
+  /// Newton steps on the characteristic polynomial, and on it with the other roots divided out.
   template <class S>
   struct Correction {
     S alone, among;
   };
   template <class S>
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
-  /// What the poles outside a group (if none is given: of those that equal home) make of a root near it: G0 = 1 + V^T (D - l)^-1 U without the group, its
-  /// slope, and the group's own matrix, which is not singular near its poles:
+  /// Effect of the poles outside a group on a root near it (default group: poles equal to home): G0 = 1 + V^T (D -
+  /// l)^-1 U without the group, its slope, and the group's own matrix, which is not singular near its poles:
   ///   S = D_group - l + U_group G0^-1 V_group^T
   ///   det(A - l) = product of (D_i - l) outside * det G0 * det S
   template <class S>
-  using Rough = std::conditional_t<std::is_same_v<S, Wide>, double, S>;  // for slopes: of Newton's last step
+  using Rough = std::conditional_t<std::is_same_v<S, Wide>, double, S>;  // for slopes of the last Newton step
   template <class S>
   struct Local {
     SmallMatrix<S> g{}, s{};
@@ -139,7 +139,7 @@ class Spectrum {
   void settle_home(std::size_t k, std::vector<S>& offset);
   template <class S>
   void find_vectors(Roots<S>& roots);
-  /// Roots that double cannot part: lists of their places.
+  /// Roots that double precision cannot separate: lists of their places.
   [[nodiscard]] std::vector<std::vector<std::size_t>> find_together(const Roots<double>& roots) const;
   [[nodiscard]] std::pair<std::size_t, std::size_t> poles_of(const std::vector<std::size_t>& members,
                                                              const Roots<double>& roots) const;
@@ -185,30 +185,30 @@ class Spectrum {
   void test();
 
   std::size_t rank_;
-  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> turns_;  // of equal modes: the first one, rotation
-  std::vector<Eigen::Index> seen_, unseen_;                      // among all modes
+  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> turns_;  // equal modes: the first one, rotation
+  std::vector<Eigen::Index> seen_, unseen_;                      // indices among all modes
   Eigen::MatrixXd u_unseen_;
   std::vector<double> unseen_poles_;
-  // Of those that are seen:
+  // Data of the seen modes:
   std::size_t n_ = 0;
   Poles poles_;
   Eigen::MatrixXd u_, v_;
-  std::vector<double> terms_;                                // v_i u_i^T, rank^2 numbers a pole
-  std::vector<double> weights_;                              // the same, n numbers a place of the matrix
+  std::vector<double> terms_;                                // v_i u_i^T, rank^2 numbers for each pole
+  std::vector<double> weights_;                              // same, n numbers for each place of the matrix
   std::vector<std::size_t> home_, group_begin_, group_end_;  // groups: equal poles
   Roots<double> real_;
   Roots<Complex> pairs_;
-  std::vector<std::size_t> order_;  // of real_ and, after its end, of unseen_
+  std::vector<std::size_t> order_;  // places of real_ and, after its end, of unseen_
   std::vector<double> values_;
   struct Close {
     std::size_t k, l;
-    double product;  // close_: y_k^T x_l, of rounding alone
+    double product;  // close_: y_k^T x_l, from rounding alone
   };
   std::vector<Close> close_;
-  std::vector<Close> alike_;  // x_k^T x_l of amplitudes k > l, where l_k - l_l has lost its digits
+  std::vector<Close> alike_;  // x_k^T x_l of amplitudes k > l whose l_k - l_l has lost its digits
   std::vector<double> squares_;
   std::vector<Complex> pair_squares_;
-  std::vector<double> value_base_, value_offset_;  // of real modes, so that differences keep their digits
+  std::vector<double> value_base_, value_offset_;  // values of real modes; differences keep their digits
   VectorProducts products_;
   RowMatrix x_, y_;  // a pair in two columns, 2 Re x and -2 Im x, and in two rows, Re y and Im y
   std::string failure_;

@@ -1,4 +1,4 @@
-// Between a state and its amplitudes: sums over 1 / (D_i - l_k).
+// Conversions between a state and its amplitudes: sums over 1 / (D_i - l_k).
 #include "engine/exact/modal/spectrum.hpp"
 
 namespace signorini {
@@ -31,7 +31,7 @@ void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool for
     for (std::size_t a = 0; a < rank_; ++a) z[k] += small[k * rank_ + a] * sums[a * count + k];
 }
 
-/// What the modes that are seen move of one that is not: -1/(D_j - l) U_j c a mode.
+/// Motion of an unseen mode in each seen mode: -1/(D_j - l) U_j c.
 template <class S>
 S Spectrum::moved(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const {
   S sum{};
@@ -67,7 +67,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     const std::vector<double> mixed = real;
     for (const Close& pair : close_) real[pair.k] -= pair.product * mixed[pair.l];
   }
-  if (form) {  // of a form, what is unseen is moved by all modes
+  if (form) {  // all modes move the unseen part of a form
     for (std::size_t j = 0; j < unseen_.size(); ++j)
       if (const double entry = turned[unseen_[j]]; entry != 0.0) {
         for (std::size_t k = 0; k < real_.size(); ++k)

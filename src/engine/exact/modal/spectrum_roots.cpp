@@ -1,4 +1,4 @@
-// The roots of the secular function, all together: Ehrlich and Aberth, from poles.
+// The roots of the secular function, all together: Ehrlich and Aberth, starting at the poles.
 #include "engine/exact/modal/spectrum.hpp"
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace signorini {
 namespace {
 
 constexpr int most_sweeps = 200;
-constexpr double nearly = 1e-9;  // relative step from which on rounding may end the convergence
+constexpr double nearly = 1e-9;  // relative step below which rounding may end the convergence
 constexpr double straight =
-    1e-14;                     // relative step on which G0 is a line: its square, times what close roots lose
-constexpr double lift = 1e-3;  // of a start, off the real axis: complex roots are not found from it
-constexpr double real_share = 1e-7;  // imaginary part of an offset that rounding makes of a real root
+    1e-14;                     // relative step on which G0 is linear: its square, times close roots' loss
+constexpr double lift = 1e-3;  // shift of a start off the real axis, from which complex roots are not found
+constexpr double real_share = 1e-7;  // imaginary part of the offset of a real root, due to rounding
 constexpr double paired = 1e-8;      // relative distance of conjugates
 
 Complex complex_of(std::complex<double> a) { return {a.real(), a.imag()}; }
@@ -39,7 +39,7 @@ Complex start_of(std::complex<double> value, std::size_t index) {
 
 }  // namespace
 
-/// Offsets to first order: those of the small matrix that a group of close poles makes of what the others do.
+/// Offsets to first order: eigenvalues of the small matrix of a group of close poles under the effect of all others.
 template <class S>
 void Spectrum::start(std::vector<S>& offset) const {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -82,7 +82,7 @@ void Spectrum::start(std::vector<S>& offset) const {
       if (size > limit) value[j] *= 2.0 * part * limit / size;
       const std::size_t k = first + j;
       offset[k] =
-          start_of<S>(value[j] - poles_.between(k, first), k);  // from the first pole of the group to its own
+          start_of<S>(value[j] - poles_.between(k, first), k);  // from the group's first pole to its own
       if (!(size_of(offset[k]) > 0.0)) offset[k] = S(parting * std::max(poles_.base[k], 1e-250));
     }
   }
@@ -112,7 +112,7 @@ void Spectrum::begin_local(std::size_t home, Local<S>& local) const {
   local.count = group_end_[home] - local.first;
 }
 
-/// G0, its slope and sum 1/(l - D_i) over the poles outside the group of `home`, which is returned.
+/// G0, its slope and sum 1/(l - D_i) over the poles outside the group of `home`; returns that sum.
 template <class S>
 S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   begin_local(home, local);
@@ -155,7 +155,7 @@ SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local
   return change;
 }
 
-/// The same in lanes.
+/// Same in lanes.
 template <>
 Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) const {
   begin_local(home, local);
@@ -176,7 +176,7 @@ Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) c
   return sum_of_all(re, im, n);
 }
 
-/// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nothing where a matrix is singular.
+/// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nullopt if a matrix is singular.
 template <class S>
 std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const {
   const SmallLu<S> lu(local.g, rank_);
@@ -208,13 +208,13 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
     const S from_pole = own + poles_.between(home, i);
     if (i == k)
       sum += inverse(from_pole);
-    else if (apart)  // 1/(l - D_i) - 1/(l - l_i), whose terms nearly cancel
+    else if (apart)  // 1/(l - D_i) - 1/(l - l_i); the terms nearly cancel
       sum += shift[i] * inverse(from_pole * f);
   }
   return {inverse(poles + *slope), inverse(sum + *slope)};
 }
 
-/// One of Newton's steps, in extended precision: what is lost to close roots is won back. local: G0 at the root.
+/// One Newton step, in extended precision: recovers the digits that close roots lose. local: G0 at the root.
 Spectrum::Wide Spectrum::polished(std::size_t home, Wide own, Local<Wide>& local) const {
   const Wide poles = gather(home, own, local);
   const std::optional<Wide> slope = trace(home, own, local);
@@ -231,7 +231,7 @@ Spectrum::Wide Spectrum::polished(std::size_t home, Wide own, Local<Wide>& local
   return own - step;
 }
 
-/// To the nearest pole, past equal ones.
+/// Moves an offset to the nearest pole, past equal ones.
 template <class S>
 void Spectrum::settle_home(std::size_t k, std::vector<S>& offset) {
   std::size_t best = home_[k];
@@ -259,7 +259,7 @@ bool Spectrum::search(std::vector<S>& offset) {
     std::vector<std::size_t> left;
     for (const std::size_t k : unsettled) {
       const Correction<S> found = correction(k, offset, shift);
-      // Where two approaches collide they would push each other away by less than they are apart.
+      // If two approaches collide they would repel each other by less than their distance.
       const bool collides =
           size_of(found.alone) > 1e3 * size_of(found.among) || !std::isfinite(size_of(found.among));
       const S step =

@@ -1,8 +1,8 @@
-// Roots so close to each other that the search cannot part them: all their vectors from one small matrix.
+// Roots so close to each other that the search cannot separate them: all their vectors from one small matrix.
 //
 //   S(l + e) = S + e S', on null vectors R, L of S:   (L^T S R + e L^T S' R) w = 0
 //
-// The group whose poles S leaves out is that of all roots that lie together, so that G0 is not singular.
+// The group whose poles are left to S is that of all close roots, so that G0 is not singular.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -16,7 +16,7 @@
 namespace signorini {
 namespace {
 
-/// Relative to the offset, ten times what the search may leave undone. S is a line over it but for its square.
+/// Relative to the offset, ten times the error of the search. S is linear over it up to its square.
 constexpr double together = 1e-8;
 
 }  // namespace
@@ -46,7 +46,7 @@ std::vector<std::vector<std::size_t>> Spectrum::find_together(const Roots<double
   return lists;
 }
 
-/// The poles that a list is taken with: those of its roots, and neighbours until there are enough.
+/// The poles of a list of roots: their own, and neighbours until there are enough.
 std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::size_t>& members,
                                                        const Roots<double>& roots) const {
   std::size_t first = n_, last = 0;
@@ -55,7 +55,7 @@ std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::si
     last = std::max(last, group_end_[roots.home[k]]);
   }
   const std::size_t home = roots.home[members.front()];
-  while (last - first < members.size()) {  // by the nearer one
+  while (last - first < members.size()) {  // extends towards the nearer one
     const bool down =
         last == n_ || (first > 0 && poles_.between(home, first - 1) < poles_.between(last, home));
     (down ? first : last) = down ? group_begin_[first - 1] : group_end_[last];
@@ -89,13 +89,13 @@ SmallMatrix<Extended> between(const NullVectors& null, const SmallMatrix<Extende
 }
 
 struct Turned {
-  Extended middle = 0;                      // of all e
-  Eigen::VectorXd values;                   // from it
-  Eigen::MatrixXd right;                    // w, a column each
-  std::vector<SmallVector<Extended>> left;  // so that L^T S' R becomes 1
+  Extended middle = 0;                      // mean of all e
+  Eigen::VectorXd values;                   // relative to the mean
+  Eigen::MatrixXd right;                    // w, one in each column
+  std::vector<SmallVector<Extended>> left;  // scaled so that L^T S' R becomes 1
 };
 
-/// here + e by_e; nothing where by_e is singular or values are complex.
+/// Eigenproblem of here + e by_e; nullopt if by_e is singular or values are complex.
 std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatrix<Extended>& by_e,
                              std::size_t m, double rounding) {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -133,7 +133,7 @@ std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatri
 
 }  // namespace
 
-/// False: so many poles do not fit into the small matrices, or these are singular otherwise.
+/// False: the small matrices cannot hold so many poles, or are singular in another way.
 bool Spectrum::part_together(const std::vector<std::size_t>& members, Roots<double>& roots) {
   const std::size_t m = members.size(), home = roots.home[members.front()];
   Wide own = 0;
@@ -149,7 +149,7 @@ bool Spectrum::part_together(const std::vector<std::size_t>& members, Roots<doub
   if (lu.singular()) return false;
   group_matrix(lu, own, home, local);
   const NullVectors null = null_vectors_of(local.s, local.count, m);
-  // Poles are known to their rounding: what is no farther apart is one root.
+  // Poles are known to their rounding: roots closer than that are one root.
   const double rounding = rounding::eps * static_cast<double>(std::abs(own + Wide(poles_.base[home])));
   const std::optional<Turned> turn = turned(between(null, local.s, local.count),
                                             between(null, group_slope(lu, local), local.count), m, rounding);

@@ -11,13 +11,13 @@
 namespace signorini {
 namespace {
 
-constexpr double close_roots = 1e-3;  // relative distance of eigenvalues whose vectors rounding mixes
+constexpr double close_roots = 1e-3;  // relative distance of eigenvalues whose vectors mix by rounding
 constexpr std::size_t most_neighbours = 6;
-constexpr double alike = 1e-5;  // relative distance of eigenvalues from which on c and h lose five digits
+constexpr double alike = 1e-5;  // relative distance of eigenvalues below which c and h lose five digits
 
 }  // namespace
 
-/// X's or Y's, of what is seen: side small / (D - l).
+/// Entries of X or Y for the seen modes: side small / (D - l).
 template <class S>
 void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
                       std::vector<S>& out) const {
@@ -37,7 +37,7 @@ void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, cons
   }
 }
 
-/// c = -G0^-1 V^T right, d = -G0^-T U^T left: what null vectors of a group are outside it.
+/// c = -G0^-1 V^T right, d = -G0^-T U^T left: null vectors of a group, continued outside it.
 template <class S>
 void Spectrum::outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
                              const SmallVector<S>& left, SmallVector<S>& c, SmallVector<S>& d) const {
@@ -53,8 +53,8 @@ void Spectrum::outside_group(const SmallLu<S>& lu, const Local<S>& local, const 
   d = lu.solve_transposed(d);
 }
 
-/// Null vectors of the small matrices, for real roots in extended precision: where roots lie close to each
-/// other double loses up to five digits of them.
+/// Null vectors of the small matrices, for real roots in extended precision: if roots are close to each other, double
+/// precision loses up to five digits.
 template <class S>
 void Spectrum::find_vectors(Roots<S>& roots) {
   constexpr bool is_real = std::is_same_v<S, double>;
@@ -87,7 +87,7 @@ void Spectrum::find_vectors(Roots<S>& roots) {
   }
 }
 
-/// Scaled to |x| = 1 and y^T x = 1, of the vectors that offset, c and d make once they are rounded.
+/// Scales to |x| = 1 and y^T x = 1, with the vectors that follow from the rounded offset, c and d.
 template <class S, class W>
 void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c_wide,
                             const SmallVector<W>& d_wide) {
@@ -127,8 +127,8 @@ Eigen::VectorXd Spectrum::seen_vector(const std::vector<double>& small, const Ei
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(n_));
 }
 
-/// Vectors of eigenvalues that nearly coincide are right but for each other: Y := (1 - E) Y with E = Y X
-/// there.
+/// Vectors of nearly coinciding eigenvalues are accurate except for components of each other: Y := (1 - E) Y with E = Y
+/// X there.
 void Spectrum::part_close_roots() {
   std::vector<std::size_t> order;
   for (const std::size_t k : order_)
@@ -144,13 +144,13 @@ void Spectrum::part_close_roots() {
   }
 }
 
-/// x^T x, of which the pole nearest to the root makes most.
+/// x^T x; the pole closest to the root contributes most.
 void Spectrum::find_squares() {
   double worst = 1.0;
   const auto square = [&](const auto& roots, std::size_t k) {
     using S = typename std::decay_t<decltype(roots.offset)>::value_type;
     S sum{};
-    double beside = 1.0;  // |x|, of which the unseen modes may have most: they are nearly parallel then
+    double beside = 1.0;  // |x|, mostly of the unseen modes: they are nearly parallel then
     std::vector<S> x;
     cauchy(roots, k, roots.right.data() + k * rank_, u_, x);
     for (const S& entry : x) sum += entry * entry;
@@ -159,7 +159,7 @@ void Spectrum::find_squares() {
       sum += entry * entry;
       beside = std::hypot(beside, size_of(entry));
     }
-    // Its left vector is as long as the condition says, of the seen part alone.
+    // The condition gives the length of its left vector, for the seen part alone.
     worst = std::max(worst, std::isfinite(beside) ? beside : std::numeric_limits<double>::infinity());
     return sum;
   };
@@ -173,7 +173,7 @@ void Spectrum::find_squares() {
   condition_ *= worst;
 }
 
-/// The vectors themselves, of the few whose difference is of rounding.
+/// The vectors themselves, for the few whose difference is only rounding.
 void Spectrum::find_alike() {
   for (std::size_t l = 0; l < order_.size(); ++l)
     for (std::size_t k = l + 1; k < order_.size() && std::abs(difference(k, l)) <= alike * values_[k]; ++k) {
@@ -221,8 +221,8 @@ void Spectrum::find_products() {
   fill(pairs_, c_pair, h_pair);
   std::vector<double> c_seen, h_seen;
   fill(real_, c_seen, h_seen);
-  // An unseen mode's shape is a unit vector: U c stands for one as the limit of a residue, and it meets
-  // others in one entry only.
+  // The shape of an unseen mode is a unit vector: U c represents one as the limit of a residue, and its product with
+  // others has one entry only.
   c.assign(order_.size() * rank_, 0.0);
   h = c;
   for (std::size_t p = 0; p < order_.size(); ++p)

@@ -9,7 +9,7 @@ std::size_t Spectrum::written_bytes() const {
   return sizeof(double) * static_cast<std::size_t>(x_.size() + y_.size());
 }
 
-/// side * small / (D - l) of one root, at the places of what is seen; the rest is zero.
+/// side * small / (D - l) of one root, at the places of the seen modes; zero elsewhere.
 template <class S>
 void Spectrum::entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small,
                        const Eigen::MatrixXd& side, std::vector<S>& out) const {
@@ -23,7 +23,7 @@ void Spectrum::write_out() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
              n = static_cast<Eigen::Index>(seen_.size() + unseen_.size());
-  std::vector<Eigen::Index> place(order_.size());  // of real_ and unseen_ among amplitudes
+  std::vector<Eigen::Index> place(order_.size());  // places of real_ and unseen_ among amplitudes
   for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<Eigen::Index>(p);
   y_.setZero(reals + 2 * pairs, n);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, reals + 2 * pairs);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_at_once = 3;
 
-/// y[s][i] := row[i] . x[s] for Rows rows of so many columns, one after the other, and Vectors vectors.
+/// y[s][i] := row[i] . x[s] for Rows rows, consecutive in memory, and Vectors vectors.
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void rows_times(const double* row, std::ptrdiff_t columns,
                                               const double* const* x, double* const* y,

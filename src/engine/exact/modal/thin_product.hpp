@@ -1,7 +1,7 @@
-// thin_product.hpp: a great matrix times a few vectors, A x_1, A x_2, ..., in one pass through memory.
+// thin_product.hpp: a large matrix times a few vectors, A x_1, A x_2, ..., in one pass through memory.
 //
-//   four rows and up to three vectors at once: what is loaded is used several times, and no sum waits for
-//   its last term. Sums are taken in four parts, of places k, k + 4, ..., in every build the same.
+//   four rows and up to three vectors at once: loaded entries are used several times, and sums do not wait for
+//   their last term. Sums are taken in four parts, of places k, k + 4, ..., identical in every build.
 #pragma once
 
 #include <Eigen/Core>

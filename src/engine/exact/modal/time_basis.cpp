@@ -126,9 +126,9 @@ ComplexCourse TimeBasis::answer(std::complex<double> l, const ComplexCourse& p) 
 double TimeBasis::loss(std::complex<double> l, double time) const {
   const double size = std::abs(l);
   double most = 0.0;
-  if (size > 0.0) {  // j! / (l time)^j beside one, and 1 / l beside time
+  if (size > 0.0) {  // j! / (l time)^j relative to one, and 1 / l relative to time
     double term = 1.0 / (size * time);
-    if (l.imag() != 0.0 || l.real() > 0.0) term = std::max(term, term * term);  // p / l^2 beside p time^2 / 2
+    if (l.imag() != 0.0 || l.real() > 0.0) term = std::max(term, term * term);  // p / l^2 to p time^2 / 2
     for (std::size_t j = 0; j < driven_; ++j) {
       most = std::max(most, term);
       term *= static_cast<double>(j + 1) / (size * time);

@@ -1,13 +1,14 @@
-// time_basis.hpp: the functions of time that drive a segment, and those that answer them.
+// time_basis.hpp: the functions of time in the excitation of a segment, and in the response to them.
 //
 //   b(x) = ( 1, x, ..., x^D, cos w_1 x, sin w_1 x, ... ),   x = t - t0,   f(t) = c . b(x)
-//   f' = (c D) . b,   c D = l c + p  solved for c:  what z' = l z + p(t) does besides exp(l x)
+//   f' = (c D) . b,   c D = l c + p  solved for c:  the forced part of z' = l z + p(t), besides exp(l x)
 //
-// Every history is such an f on a segment. D is one more than the forcing's degree: what has no stiffness
-// answers one degree higher.
+// Every history is such an f on a segment. The degree D is one more than the forcing's: the response without stiffness
+// has one degree more.
 //
-// Backwards from x^D the terms of c are p/l, p/l^2, ...: of a root that is slow beside the segment they are far greater than its
-// answer, and cancel. Such a root is answered forwards, as nothing but a power of x is:
+// Solved backwards from x^D, the terms of c are p/l, p/l^2, ...: for a root that is slow relative to the segment they
+// are far greater than the response, and cancel. The response of such a root is solved forwards, as a power series in
+// x:
 //   c_0 = 0,   c_j+1 = (l c_j + p_j) / (j + 1),   to the x^(D+m) with (|l| x)^m / m! below rounding
 #pragma once
 
@@ -27,11 +28,11 @@ using ComplexCourse = Eigen::VectorXcd;
 class TimeBasis {
  public:
   TimeBasis() = default;
-  /// Of all that acts in the pieces of a model that are in force just after t.
+  /// Basis for all histories of a model, in the pieces that are in force just after t.
   TimeBasis(const Model& model, double t);
 
-  /// Room for the answers of those roots that are slow on [0, length] where more than constants drive; of what is asked later.
-  /// length: of the segment. Unit: time.
+  /// Reserves coefficients for the responses of roots that are slow on [0, length], if the forcing is not constant; for
+  /// later queries. length: of the segment. Unit: time.
   void make_room(const Eigen::VectorXcd& roots, double length);
 
   [[nodiscard]] Eigen::Index size() const {
@@ -39,30 +40,30 @@ class TimeBasis {
   }
   [[nodiscard]] const std::vector<double>& omega() const { return omega_; }
   [[nodiscard]] std::size_t degree() const { return degree_; }
-  /// Nothing changes: what is forced, is forced by constants.
+  /// True if the forcing is constant.
   [[nodiscard]] bool stands_still() const { return degree_ == 1 && omega_.empty(); }
   /// b(x)
   [[nodiscard]] Eigen::VectorXd at(double x) const;
   [[nodiscard]] Course of(const Piece& piece) const;
   [[nodiscard]] Course constant(double value) const;
-  /// Of rows c.
+  /// Derivative of rows c.
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::MatrixXd& c) const;
   [[nodiscard]] Course derivative(const Course& c) const;
-  /// c with c D = l c + p; l = 0 or none of +-i w: the coefficient of x^D of p is not read. Of slow roots to rounding within the
-  /// length that room was made for.
+  /// c with c D = l c + p; l = 0 or different from all +-i w: the coefficient of x^D of p is not read. For slow roots
+  /// to rounding, within the length given to make_room().
   [[nodiscard]] ComplexCourse answer(std::complex<double> l, const ComplexCourse& p) const;
-  /// How much greater than p / l the answer's terms are on [0, time], where p has more than a constant: the
-  /// share of them that rounding leaves is that times eps. 0: l = 0. A root that is not real, or that grows, is one of a pair, whose terms
-  /// cancel, and so do their rates: what is left grows with the square of time.
+  /// Ratio of the response's terms to p / l on [0, time], if p is not constant: their relative rounding error is eps
+  /// times it. 0: l = 0. A root that is not real, or that grows, belongs to a pair whose terms cancel, and so do their
+  /// rates: the remainder grows with the square of time.
   [[nodiscard]] double loss(std::complex<double> l, double time) const;
-  /// p[0 .. count): c . b(x0 + h x) in powers of x, count > D. Bounds on the waves with w h > turn, which are
-  /// left out, and on their rates by time; and on what powers beyond make of the others.
+  /// p[0 .. count): c . b(x0 + h x) in powers of x, count > D. Returns bounds on the waves with w h > turn, which are
+  /// left out, and on their rates by time; and on the higher powers of the others.
   struct Ripple {
     double value = 0.0, rate = 0.0, rest = 0.0;
   };
   [[nodiscard]] Ripple taylor(const Course& c, double x0, double h, double turn,
                               std::vector<double>& p) const;
-  /// Integral of b b^T over [x0, x1]: of (c . b)(d . b) it is c . products d.
+  /// Integral of b b^T over [x0, x1]: that of (c . b)(d . b) is c . products d.
   [[nodiscard]] Eigen::MatrixXd products(double x0, double x1) const;
 
  private:
@@ -70,7 +71,7 @@ class TimeBasis {
     return l == 0.0 || std::abs(l) * length_ <= slow_turn;
   }
 
-  static constexpr double slow_turn = 0.5;  // backwards a ramp's terms are eight times its answer there
+  static constexpr double slow_turn = 0.5;  // backwards a ramp's terms are eight times its response there
   double t0_ = 0.0;
   double length_ = std::numeric_limits<double>::infinity();
   std::size_t degree_ = 1, driven_ = 1;  // driven_: without room for slow roots

@@ -1,4 +1,4 @@
-// clock.hpp: how sharply a double tells the time.
+// clock.hpp: the resolution of times that are doubles.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace signorini {
 
-/// Times that are the same to an integrator's clock: IDA's own measure.
+/// Times closer than this are equal for an integrator: IDA's own measure.
 [[nodiscard]] inline double resolution_at(double t, double step) {
   return rounding::of_time * (std::abs(t) + std::abs(step));
 }

@@ -2,7 +2,7 @@
 //
 //   y_i = sum_j ( a_ij u_j + b_ij factor w_j ),      a, b: rows x columns, one column after the other
 //
-// Rows are summed four at a time, each in the order of j: the digits are those of the plain loop.
+// Rows are summed four at a time, each in the order of j: the results are bitwise those of the plain loop.
 #pragma once
 
 #include <cstddef>

@@ -48,7 +48,7 @@ void ContactSeries::derive(Field field) const {
     out[k] = field == vn   ? rate * g[k + 1]
              : field == vt ? rate * slip[k + 1]
              : field == an ? second * g[k + 2]
-                           : 0.0;  // nothing presses
+                           : 0.0;  // no applied normal force
   }
   there_[field] = true;
 }
@@ -58,7 +58,7 @@ void ContactSeries::bound_rates(double x) {
   std::array<const double*, bounded.size()> a{};
   std::array<double, bounded.size()> rate{};
   for (std::size_t f = 0; f < bounded.size(); ++f) a[f] = of(bounded[f]);
-  for (std::size_t k = degree_; k >= 1; --k)  // side by side: none waits for another's sum
+  for (std::size_t k = degree_; k >= 1; --k)  // sums in parallel: none waits for another
     for (std::size_t f = 0; f < bounded.size(); ++f)
       rate[f] = rate[f] * x + static_cast<double>(k) * std::abs(a[f][k]);
   for (std::size_t f = 0; f < bounded.size(); ++f) rates_[bounded[f]] = rate[f];

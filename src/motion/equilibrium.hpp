@@ -1,4 +1,4 @@
-// equilibrium.hpp: how well a motion satisfies the equation of motion.
+// equilibrium.hpp: residual of the equation of motion.
 //
 //   r = M a + C v + K u + sum ( n N + t T ) - P(t)
 #pragma once

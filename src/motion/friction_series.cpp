@@ -24,7 +24,7 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
   row_ = sliding_row(s, friction_.first());
 }
 
-/// N_0 follows from g or q: there is mass where such a contact acts.
+/// N_0 follows from g or q, because all degrees of freedom of such a contact have mass.
 void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   const Friction& friction = contact_->friction;
   const double pressed = -normal_coefficient(*contact_, index_, normal, series, 0);
@@ -33,7 +33,7 @@ void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   row_.constant = sign_ * (limit_->slope() * pressed - friction_limit(friction, pressed));
 }
 
-/// The rate of a point without mass, from the spring that holds it.
+/// Determines the slip rate of a point without mass from the spring that holds it.
 void FrictionSeries::begin_massless(int s, const Form& normal, const Series& series) {
   const Contact& c = *contact_;
   const ShearElement& element = *c.sliding_point();
@@ -41,9 +41,9 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const ForcingSeries& f = series.forcing;
   const double length = element.body.dot(u) - c.tangent.dot(u);
   const double along =
-      s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);  // the body's own
+      s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);  // the body's own velocity
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
-  // A dashpot's part in the growth of |N| needs accelerations (doubtful()).
+  // The contribution of a dashpot to the growth of |N| needs accelerations (doubtful()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +
                         normal.pressing * per_time * f.pressing[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
@@ -90,7 +90,7 @@ void FrictionSeries::follow_at_once() {
   row_ = sliding_row(sign_, contact_->friction.kinetic);
 }
 
-/// Coefficient k of it.
+/// Coefficient k of the slip rate.
 double FrictionSeries::slip_rate(std::size_t k, const Series& series) const {
   return static_cast<double>(k + 1) / series.scale * ut_coefficient(*contact_, index_, series, k + 1);
 }

@@ -7,8 +7,8 @@
 namespace signorini {
 namespace {
 
-/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows. Returns what
-/// along these forms makes it, M times a length or a velocity.
+/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows. Returns the
+/// corresponding multipliers of these forms, M times a length or a velocity.
 Eigen::VectorXd correct(const ModeSystem& system, const std::vector<double>& misses, Vector& x) {
   if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return {};
   const std::size_t n = system.unknowns().dofs, size = system.unknowns().size();

@@ -10,20 +10,21 @@
 namespace signorini {
 namespace {
 
-// How many times the difference that some roundings make counts as noise: it is one sample.
+// Factor between the difference due to some roundings and noise: the difference is a single sample.
 constexpr double noise_factor = rounding::of_many / rounding::eps / Disturbance::most;
 
-// Of a form on data: the most that a sample of their rounding gives, and the rounding of the sum.
+// Noise of a form on data: the largest sample of their rounding, and the rounding of the sum.
 constexpr double of_data = 2.0 * rounding::of_many;
 
-constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the orders of a motion reach
+constexpr std::size_t known = MotionJet::orders + 2;  // number of derivatives used by the orders of a motion
 
 /// Derivatives of N, T, g and ut of one contact, with the sizes of the terms in the latter two.
 struct Derivatives {
   std::array<double, known> N{}, T{}, gap{}, ut{}, limit{}, gap_terms{}, ut_terms{};
 };
 
-/// Of friction that depends on N: its limit, where N is what g or q says. One order further than the motion, for its rate.
+/// Derivatives of the limit of friction that depends on N, with N from g or q. One order more than the motion, for its
+/// rate.
 void fill_limit(const Contact& contact, std::size_t c, const Series& series, std::size_t last,
                 Derivatives& d) {
   const double* pressing = series.forcing.pressing.data() + c * series.forcing.count;
@@ -40,8 +41,8 @@ void fill_limit(const Contact& contact, std::size_t c, const Series& series, std
   }
 }
 
-/// From a series of scale 1: derivatives are k! times the coefficients. Those that orders 0 .. last of a motion reach;
-/// the sizes of their terms where they are wanted.
+/// Fills derivatives from a series of scale 1: they are k! times the coefficients, as far as orders 0 .. last of a
+/// motion need them; with_terms: also the sizes of their terms.
 void fill(const Model& model, std::size_t c, const Series& series, std::size_t last, bool with_terms,
           Derivatives& d) {
   const Contact& contact = model.contacts[c];
@@ -89,7 +90,7 @@ ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double*
 JetMaker::JetMaker(ModeSystems& systems)
     : model_(systems.model()),
       taylor_(systems),
-      // u^(k) of massless degrees of freedom is known one or two levels later
+      // u^(k) of massless degrees of freedom is known one or two levels later.
       levels_(taylor_.massless() ? Jet::orders + 2 : Jet::orders) {}
 
 Jet JetMaker::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
@@ -122,7 +123,7 @@ Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t
   return jet;
 }
 
-/// Order by order, as far as somebody asks.
+/// Computes order by order, as far as requested.
 void JetMaker::tell(const ModeSystem& system, const Forcing& forcing, const Disturbance& disturbance,
                     const Told& told, std::vector<MotionJet>& result) {
   constexpr std::size_t last = MotionJet::orders - 1;
@@ -142,7 +143,7 @@ void JetMaker::tell(const ModeSystem& system, const Forcing& forcing, const Dist
   }
 }
 
-/// Of the balance of forces at the degrees of freedom of a contact.
+/// Sums over the balance of forces at the degrees of freedom of a contact.
 JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows, double factorial,
                                        std::size_t k) const {
   const auto terms = taylor_.terms().col(static_cast<Eigen::Index>(k));
@@ -164,7 +165,7 @@ JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows,
           rows.tangent.at != 0.0 ? factorial * size(t) / squared(t) : 0.0};
 }
 
-/// Orders first .. last of a motion, without their noise.
+/// Computes orders first .. last of a motion, without their noise.
 void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJet& result) const {
   Derivatives a;
   fill(model_, c, series_, last, false, a);
@@ -176,10 +177,10 @@ void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJ
   }
 }
 
-/// Orders first .. last of a motion, with their noise.
+/// Computes orders first .. last of a motion, with their noise.
 void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t first, std::size_t last,
                        MotionJet& result) const {
-  // One sample of rounding can be small by chance, so the terms of each sum count as well.
+  // A single sample of rounding can be small by chance, so the terms of each sum count as well.
   const auto noise = [](double x, double y, double size) {
     return noise_factor * std::abs(x - y) + rounding::of_many * size;
   };
@@ -218,8 +219,7 @@ void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t firs
     d.ut = noise(a.ut[k], b.ut[k], terms.ut);
     d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
     if (k == 0) {
-      // u and v are data where there is mass: a sample of their rounding is at most this, by how the scene
-      // is turned.
+      // u and v with mass are data: this bounds a sample of their rounding for every orientation of the scene.
       d.gap = std::max(d.gap, of_data * terms.gap);
       d.vn = std::max(d.vn, of_data * terms.vn);
     }

@@ -1,11 +1,11 @@
-// mode_system.hpp: the linear system of one mode, factorised: a value that does not change.
+// mode_system.hpp: the linear system of one contact state, factorised: an immutable value.
 //
-//   | M w_a + C w_v + K w_u    n   t |  x = b      w: 1 for what a degree of freedom is solved for
+//   | M w_a + C w_v + K w_u    n   t |  x = b      w: 1 for the unknown quantity of a degree of freedom
 //   | rows of the contacts         . |             (linear/dof_kinds.hpp), else 0
 //
-// What of it depends on the states alone is a FactorisedMode, which modes with other anchors share: anchors
-// are constants of rows. Friction that depends on the slip rate stands in the matrix: such a system holds
-// for the coefficients that it was made for, the kinetic ones at first.
+// The part that depends on the states alone is a FactorisedMode, shared by all anchors: anchors are constants of rows.
+// Friction that depends on the slip rate is in the matrix: such a system is valid for the friction coefficients that it
+// was made with, initially the kinetic ones.
 // Shapes: n degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
 #pragma once
 
@@ -22,29 +22,29 @@
 
 namespace signorini {
 
-/// Up to so many unknowns a dense inverse is quicker than a sparse solve.
+/// Limit of unknowns up to which a dense inverse is faster than a sparse solve.
 inline constexpr std::size_t most_dense = 40;
 
 struct FactorisedMode {
   Unknowns unknowns;
-  std::vector<DofKind> kinds;  ///< one a degree of freedom
-  /// The column of such a degree of freedom is that of its whole motion.
+  std::vector<DofKind> kinds;  ///< one for each degree of freedom
+  /// The column of such a degree of freedom represents a whole motion.
   std::vector<UndampedMotion> undamped;
   std::vector<Pinned> pinned;
-  std::vector<SharedForces> shared;   ///< rigid contacts that hold one motion together
-  std::vector<std::size_t> by_rate;   ///< contacts that slip with friction that depends on the slip rate
-  bool massless = false;              ///< not all degrees of freedom are massive
+  std::vector<SharedForces> shared;   ///< rigid contacts that constrain one motion together
+  std::vector<std::size_t> by_rate;   ///< contacts that slip with rate-dependent friction
+  bool massless = false;              ///< some degrees of freedom are massless
   bool regular = false;               ///< false: rows are linearly dependent; there is no inverse
-  TriangularFactors sparse;           ///< empty where `inverse` or `by_mass` is not
-  std::optional<MassSolver> by_mass;  ///< where the forces follow from places and velocities alone
-  /// Column by column: A^-1, and what a unit of u or v of each degree of freedom asks of the unknowns where
-  /// all have mass: x = A^-1 b + from_u u + from_v v.
+  TriangularFactors sparse;           ///< empty if `inverse` or `by_mass` is used
+  std::optional<MassSolver> by_mass;  ///< used if the forces follow from places and velocities alone
+  /// Column by column: A^-1, and the responses of the unknowns to a unit of u or v of each degree of freedom, if all
+  /// have mass: x = A^-1 b + from_u u + from_v v.
   std::vector<double> inverse, from_u, from_v;
 
   [[nodiscard]] bool dense() const { return !inverse.empty(); }
-  /// x := A^-1 x; work: room for unknowns.size() numbers.
+  /// x := A^-1 x; work: scratch for unknowns.size() numbers.
   void solve(double* x, double* work) const;
-  /// Memory held.
+  /// Memory in use.
   [[nodiscard]] std::size_t bytes() const;
 };
 

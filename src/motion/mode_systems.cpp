@@ -9,10 +9,10 @@
 namespace signorini {
 namespace {
 
-/// Derivatives of surface motions that a decision asks for.
+/// Number of derivatives of surface motions that a decision examines.
 constexpr int most_told = 8;
 
-/// z.s' = 0 from t on: surfaces on which feet share a motion move alike, or stand.
+/// True if z.s' = 0 from t on: surfaces under feet that share a motion move alike, or are at rest.
 bool moves_as_one(const ForceLayout& layout, const SharedForces& shared, const Eigen::VectorXd& z,
                   const Forcing& forcing, double t) {
   for (int order = 1; order <= most_told; ++order) {
@@ -20,7 +20,7 @@ bool moves_as_one(const ForceLayout& layout, const SharedForces& shared, const E
     for (std::size_t i = 0; i < shared.rows.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       if (layout.is_normal(shared.rows[i]) || !has_share(shared.null, at))
-        continue;  // a normal, or it takes no part
+        continue;  // a normal row, or no participation
       const std::size_t c = layout.contact_of(shared.rows[i]);
       const double zi = z[at], rate = forcing.surface(c, t, order);
       sum += zi * rate;
@@ -53,8 +53,8 @@ ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBo
     }
 }
 
-/// Made in the time that looking for it would take, which compares states one by one. Null: an acceleration stands in a row,
-/// or friction that is to change.
+/// Computing it takes no longer than a search, which compares states one by one. Null: a row contains an acceleration,
+/// or friction that will change.
 std::shared_ptr<const FactorisedMode> ModeSystems::by_mass(const Mode& mode, const std::vector<Rows>& rows) {
   std::vector<OwnForces> forces = mass_ ? own_forces(rows) : std::vector<OwnForces>{};
   if (forces.empty()) return nullptr;
@@ -117,7 +117,7 @@ void ModeSystems::invert(const std::vector<Rows>& rows, FactorisedMode& mode) {
     matrix_.solve(inverse.data() + j * size);
   }
   mode.inverse = std::move(inverse);
-  if (massless_) return;  // massless parts know neither u nor v beforehand
+  if (massless_) return;  // u and v of massless parts are not known beforehand
   mode.from_u.assign(size * n, 0.0);
   mode.from_v.assign(size * n, 0.0);
   for (std::size_t j = 0; j < n; ++j) {
@@ -140,7 +140,7 @@ void ModeSystems::invert(const std::vector<Rows>& rows, FactorisedMode& mode) {
   }
 }
 
-/// Those of the last mode, but of contacts that have changed.
+/// Rows of the last state, updated for contacts that have changed.
 std::vector<Rows> ModeSystems::rows_beside(const Mode& mode) const {
   if (!last_) return rows_of(model_, mode);
   std::vector<Rows> result = last_->rows();
@@ -151,7 +151,7 @@ std::vector<Rows> ModeSystems::rows_beside(const Mode& mode) const {
 
 ModeSystemPtr ModeSystems::of(const Mode& mode) {
   if (last_ && last_->mode() == mode)
-    return last_;  // a decision begins with the mode that the last one ended with
+    return last_;  // a decision begins with the final state of the previous one
   std::vector<Rows> rows = rows_beside(mode);
   std::shared_ptr<const FactorisedMode> factorised = by_mass(mode, rows);
   if (!factorised) factorised = cached(mode, rows);
@@ -166,7 +166,7 @@ bool ModeSystems::held_by_others(std::size_t c, Mode mode, const Forcing& forcin
     const auto at =
         std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
     if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !has_share(shared.null, at)) continue;
-    // The motion with the greatest z_c of those that are held too often.
+    // The motion with the greatest z_c among the redundantly constrained ones.
     return moves_as_one(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t);
   }
   return false;

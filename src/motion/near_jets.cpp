@@ -10,23 +10,24 @@
 namespace signorini {
 namespace {
 
-/// Each order spreads what is done by one more element, by M^-1 and by K.
+/// Elements added to the radius: each order spreads a change by one more element, by M^-1 and by K.
 constexpr int spread = 2 * (Jet::orders + 1);
-/// So many contacts are looked at near, one by one; more of them take the whole structure. Chosen.
+/// Limit for contacts that are expanded locally, one by one; with more of them the whole structure is used. Chosen.
 constexpr std::size_t most_open = 6;
 
-/// Has some guard an acceleration, of which order 1 is not known here?
+/// True if some guard contains an acceleration, whose order 1 is not known here.
 bool accelerates(const Contact& contact, const ContactState& state) {
   for (const GuardForm& guard : guards(contact, state))
     if (guard.kind != Guard::none && (guard.form.an != 0.0 || guard.form.at != 0.0)) return true;
   return false;
 }
 
-/// Of the greatest entry of a column of M^-1, and of the structure: beyond, such a column is rounding, or no saving.
+/// Relative to the greatest entry of a column of M^-1: smaller entries are rounding; and part of the structure beyond
+/// which a column saves no time.
 constexpr double of_nothing_here = rounding::eps / 16.0;
 constexpr std::size_t part_of_structure = 4;
 
-/// What the rest does to it at order 0.
+/// Forces of the surrounding structure on the neighbourhood at order 0.
 Vector from_outside(const Neighbourhood& near, const Point& now) {
   Vector P = Vector::Zero(near.model.size());
   for (const Neighbourhood::Tie& tie : near.ties)
@@ -64,8 +65,8 @@ NearJets::NearJets(ModeSystems& systems, int least)
   }
 }
 
-/// What motion_of(), order_one() and bound_rounding() say of it, to the last bit, while nothing drives it: where its surface
-/// stands.
+/// Same results, bit by bit, as motion_of(), order_one() and bound_rounding() for a soft contact that is not driven and
+/// whose surface is at rest.
 void NearJets::tell_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
                          MotionJet& result) const {
   const Soft& c = soft_[contact];
@@ -112,7 +113,7 @@ void NearJets::tell_soft(const Rows& rows, double surface, const Point& now, std
   noise.vt = 3.0 * once * terms.vt;
 }
 
-/// The rate of the motion but for g''' and ut'''. Forces by their own rows.
+/// Rate of the motion without g''' and ut'''. Forces follow from their own rows.
 void NearJets::order_one(const ModeSystem& system, const Forcing& forcing, std::size_t contact,
                          MotionJet& result) const {
   const Rows& rows = system.rows()[contact];
@@ -128,9 +129,9 @@ void NearJets::order_one(const ModeSystem& system, const Forcing& forcing, std::
   d.T = -rows.tangent.rate(d) / rows.tangent.T;
 }
 
-/// At most the noise of motion/jet.cpp: there the terms count once, and |x - y| as often as they are disturbed: places and
-/// velocities as data, N in its row besides, T in its own row and through N. The rounding of x and y themselves is less than
-/// one time more.
+/// Upper limit for the noise of motion/jet.cpp: there the terms count once, and |x - y| once for each disturbance:
+/// places and velocities as data, N in its row as well, T in its own row and through N. The rounding of x and y
+/// themselves is less than one more.
 void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now,
                               std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];
@@ -156,7 +157,7 @@ void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, 
   d.pressing_rate = once * terms.pressing_rate;
 }
 
-/// False: it is not told here.
+/// False: the neighbourhood does not decide the contact's state.
 bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
                          std::size_t contact, const JetMaker::Told& told, MotionJet& motion) {
   Neighbourhood* near = near_->around(contact, *system);
@@ -190,7 +191,8 @@ bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, co
   return is_told;
 }
 
-/// Order 0 told it, and tells the same to the last bit: forces follow from its own rows, places and velocities.
+/// True if order 0 decided the contact before and is bitwise unchanged: forces follow from its own rows, places and
+/// velocities.
 bool NearJets::stays(std::size_t contact, const Jet& jet, const Beside& beside) const {
   if (jet.system->mode()[contact] != beside.jet.system->mode()[contact] ||
       std::binary_search(beside.open.begin(), beside.open.end(), contact))
@@ -201,7 +203,7 @@ bool NearJets::stays(std::size_t contact, const Jet& jet, const Beside& beside) 
          std::all_of(c.tangent.terms.begin(), c.tangent.terms.end(), same);
 }
 
-/// Orders 0 to 2 of the whole structure; rates of forces are still to be told.
+/// Orders 0 to 2 of the whole structure; rates of forces are computed later.
 Jet NearJets::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                      const Vector& v) {
   taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
@@ -212,7 +214,7 @@ Jet NearJets::expand(const ModeSystemPtr& system, const Forcing& forcing, double
   return jet;
 }
 
-/// system: of any state.
+/// system: that of any state.
 const NearJets::Columns& NearJets::columns_of(std::size_t contact, const ModeSystem& system) {
   columns_.resize(model_.contacts.size());
   Columns& columns = columns_[contact];
@@ -242,7 +244,7 @@ const NearJets::Columns& NearJets::columns_of(std::size_t contact, const ModeSys
   return columns;
 }
 
-/// The same of states beside those of a jet that is known. Nothing: too many are others, or what they do is felt far away.
+/// Same for states that differ from those of a known jet. nullopt: too many states differ, or the change reaches far.
 std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& forcing, double t,
                                     const Beside& beside) {
   const Mode &mode = system->mode(), &before = beside.jet.system->mode();
@@ -257,7 +259,7 @@ std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& 
   for (const std::size_t c : others) {
     const Contact& contact = model_.contacts[c];
     const Rows& rows = system->rows()[c];
-    ContactMotion m;  // as far as no force stands in it
+    ContactMotion m;  // the part without forces
     set_place(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
     set_velocity(contact, jet.u.col(1), forcing.surface(c, t, 1), m);
     m.pressing = forcing.pressing(c, t, 0);

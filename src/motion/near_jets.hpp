@@ -1,14 +1,15 @@
-// near_jets.hpp: what a decision asks of the motion, computed near the contacts that it concerns.
+// near_jets.hpp: the motion that a decision needs, computed near the contacts concerned.
 //
 //   M a = P - C v - K u - sum ( n N + t T )        everywhere, once; with it every guard's value and rate
-//   |guard| > rounding + resolution |guard'|       most contacts are told by that
-//   derivatives of higher order                    of the others each on a neighbourhood W of its own (motion/jet.hpp)
-//   a - M^-1 (n dN + t dT)                         of other states at the same place, for contacts that have others
+//   |guard| > rounding + resolution |guard'|       decides most contacts
+//   derivatives of higher order                    of the others, each on a neighbourhood W (motion/jet.hpp)
+//   a - M^-1 (n dN + t dT)                         other states at the same place, for contacts whose state differs
 //
-// W: motion/neighbourhoods.hpp. Of what lies beyond, it is given what that does at order 0, and its noise the difference that this
-// makes: the second time a jet is made (motion/jet.hpp) without. Where the noise then does not tell, nothing here tells.
+// W: motion/neighbourhoods.hpp. The structure outside W acts on it with its forces of order 0. Their noise is the
+// difference between the two computations of a jet (motion/jet.hpp), the second of which omits them. If the guard does
+// not exceed that noise, the neighbourhood does not decide the state.
 //
-// For states whose forces follow from places and velocities alone (linear/mass_factors.hpp), in large structures.
+// For large structures and states whose forces follow from places and velocities alone (linear/mass_factors.hpp).
 #pragma once
 
 #include <memory>
@@ -21,37 +22,38 @@ namespace signorini {
 
 class NearJets {
  public:
-  /// least: fewest degrees of freedom for which it is worth while. All must outlive it.
+  /// least: smallest number of degrees of freedom for which local jets save time. All arguments must outlive the
+  /// object.
   explicit NearJets(ModeSystems& systems, int least = large_structure);
 
-  /// Whether the model is one for this, as far as is known: where M^-1 is seen to decay nowhere, it is not.
+  /// True if local jets suit the model, as far as is known; false once M^-1 was found to decay nowhere.
   [[nodiscard]] bool possible() const { return possible_; }
   struct Made {
-    Jet jet;                        ///< the orders 0 to 2 of u, of forces 0 and 1
-    std::vector<std::size_t> open;  ///< contacts that order 0 does not tell
+    Jet jet;                        ///< orders 0 to 2 of u, orders 0 and 1 of forces
+    std::vector<std::size_t> open;  ///< contacts that order 0 does not decide
   };
-  /// What was made last at the same instant, under the same forcing, for the same question, in other states perhaps.
+  /// Last result at the same instant, under the same forcing and for the same query, possibly in other states.
   struct Beside {
     const Jet& jet;
     const std::vector<std::size_t>& open;
   };
-  /// As JetMaker::make. Nothing: it takes the whole structure. beside: `motions` are still those of it, and stay where other
-  /// states change neither row nor acceleration.
+  /// Same meaning as JetMaker::make. nullopt: the whole structure is needed. beside: `motions` still contains its
+  /// motions, which are kept if other states change neither row nor acceleration.
   [[nodiscard]] std::optional<Made> make(const ModeSystemPtr& system, const Forcing& forcing, double t,
                                          const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
                                          const JetMaker::Told& told,
                                          const std::optional<Beside>& beside = {});
 
  private:
-  /// Soft, without a dashpot, on translations alone: what of it makes its motion and the rounding of that, close together.
+  /// A soft contact without a dashpot, on translations alone: data for its motion and rounding, contiguous in memory.
   struct Soft {
     bool is = false;
-    std::size_t first = 0, middle = 0, end = 0;  // its normal's terms, its tangent's
+    std::size_t first = 0, middle = 0, end = 0;  // terms of its normal, terms of its tangent
     double gap = 0.0, normal_squared = 0.0, tangent_squared = 0.0;
   };
-  /// M^-1 n and M^-1 t of a contact, where they are more than rounding.
+  /// Entries of M^-1 n and M^-1 t of a contact above rounding.
   struct Columns {
-    bool known = false, few = false;  // few: of small part of the structure
+    bool known = false, few = false;  // few: a small part of the structure
     std::vector<std::pair<Eigen::Index, double>> by_N, by_T;
   };
   [[nodiscard]] const Columns& columns_of(std::size_t contact, const ModeSystem& system);
@@ -73,12 +75,12 @@ class NearJets {
   bool possible_;
   Taylor taylor_;
   Series series_;
-  std::vector<Soft> soft_;             // one a contact
-  std::vector<Columns> columns_;       // the same
-  std::vector<double> column_, room_;  // of one of them
+  std::vector<Soft> soft_;             // one for each contact
+  std::vector<Columns> columns_;       // one for each contact
+  std::vector<double> column_, room_;  // scratch for one column
   std::vector<std::pair<std::size_t, double>> terms_;
   std::optional<Neighbourhoods> near_;
-  struct Work {  // at one of them
+  struct Work {  // scratch for one neighbourhood
     explicit Work(ModeSystems& systems) : jets(systems) {}
     JetMaker jets;
     std::vector<MotionJet> motions;

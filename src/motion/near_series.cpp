@@ -8,11 +8,11 @@
 namespace signorini {
 namespace {
 
-/// Elements beyond where M^-1 is rounding: each level of a series spreads what is done by one more, and by ever less. Chosen;
-/// dies_out() looks.
+/// Elements beyond the place where M^-1 is rounding: each level of a series spreads a change by one more, with
+/// decreasing size. Chosen; dies_out() checks it.
 constexpr int spread_of_series = 20;
 
-/// Ascending, each once.
+/// Sorts ascending and removes duplicates.
 template <class T>
 void sort_out(std::vector<T>& of) {
   std::sort(of.begin(), of.end());
@@ -45,7 +45,7 @@ NearSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
   for (const Neighbourhood::Pull& pull : near.pulls) place_of_pull.push_back(place_in(across, pull.force));
 }
 
-/// The new series is the old one at the boundary, but for some roundings of what moves there and next to it.
+/// True if the new series equals the old one at the boundary, up to some roundings of the motion there and beside it.
 bool NearSeries::dies_out(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
                           const AsItWas& as_it_was) const {
   const auto terms_of = [&](const double* a, std::size_t count, int dof) {

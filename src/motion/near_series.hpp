@@ -1,11 +1,11 @@
-// near_series.hpp: the series of a motion after an event, near the contacts whose states have changed.
+// near_series.hpp: the series of a motion after an event, updated near the contacts whose states have changed.
 //
 //   M a_k + C v_k + K u_k + contacts on W = P_k - ( M a_k + C v_k + K u_k + contacts across )_outside       on W
 //
-// Outside of W (motion/neighbourhoods.hpp) the motion goes on with the series that it had: what the change does there is
-// rounding. Is it? At the boundary of W the new series must be the old one but for that.
+// Outside W (motion/neighbourhoods.hpp) the motion keeps its series: the effect of the change there is rounding. This
+// is checked: at the boundary of W the new series must equal the old one up to rounding.
 //
-// For states whose forces follow from places and velocities alone (linear/mass_factors.hpp), in large structures.
+// For large structures and states whose forces follow from places and velocities alone (linear/mass_factors.hpp).
 #pragma once
 
 #include <functional>
@@ -18,44 +18,44 @@ namespace signorini {
 
 class NearSeries {
  public:
-  /// It must outlive it.
+  /// The argument must outlive the object.
   explicit NearSeries(ModeSystems& systems);
 
-  /// False: M^-1 is seen to decay nowhere.
+  /// False: M^-1 was found to decay nowhere.
   [[nodiscard]] bool possible() const { return !near_.hopeless(); }
 
-  /// Coefficients of the motion as it was, about the instant: levels + 3 of a degree of freedom, levels + 1 of a force.
+  /// Coefficients of the earlier motion about the instant: levels + 3 for a degree of freedom, levels + 1 for a force.
   struct AsItWas {
     std::function<void(int dof, double* out)> u;
     std::function<void(std::size_t slot, double* out)> force;
   };
-  /// How great motions are: weights, one a degree of freedom, make them alike; least: the motion, by these, whose rounding is
-  /// rounding anywhere.
+  /// Sizes of motions: weights make degrees of freedom comparable; least: the weighted motion whose rounding counts as
+  /// rounding everywhere.
   struct Sizes {
     const std::vector<double>& weights;
     double least;
   };
   struct Made {
     const Neighbourhood* where;
-    const Series* series;  ///< on it, until the next one is made there
+    const Series* series;  ///< series on it, valid until the next one is made there
   };
-  /// From u and v at t, to `levels`. changed: contacts. reach: of the series as it was, in units of `scale`. Nothing: one W
-  /// does not hold all that has changed, or what the change does reaches beyond it.
+  /// Expands from u and v at t to `levels`. changed: contacts. reach: that of the earlier series, in units of `scale`.
+  /// nullopt: no single W contains all changes, or their effect reaches beyond it.
   [[nodiscard]] std::optional<Made> expand(const std::vector<std::size_t>& changed,
                                            const ModeSystemPtr& system, const Forcing& forcing, double t,
                                            const Vector& u, const Vector& v, int levels, double scale,
                                            double reach, const Sizes& sizes, const AsItWas& as_it_was);
 
  private:
-  struct Work {  // at one of the neighbourhoods
+  struct Work {  // scratch for one neighbourhood
     explicit Work(Neighbourhood& near);
     Taylor taylor;
     Series series;
-    std::vector<int> ring, boundary;         // next to it outside, in the whole; in it, next to outside
-    std::vector<Eigen::Index> place_of_tie;  // of each tie in the ring
-    std::vector<std::size_t> place_of_pull;  // of each pull in `across`
+    std::vector<int> ring, boundary;         // neighbours outside, in the whole; places inside
+    std::vector<Eigen::Index> place_of_tie;  // place in the ring of each tie
+    std::vector<std::size_t> place_of_pull;  // place in `across` of each pull
     std::vector<std::size_t> across;         // forces
-    Eigen::MatrixXd outside, forces;         // coefficients: a column one of the ring; one of `across`
+    Eigen::MatrixXd outside, forces;         // coefficients: columns for the ring; for `across`
   };
   [[nodiscard]] bool dies_out(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
                               const AsItWas& as_it_was) const;

@@ -12,7 +12,8 @@ namespace {
 
 /// Relative to the largest entry of a column of M^-1: smaller entries are rounding.
 constexpr double of_nothing = rounding::eps / 16.0;
-/// Contacts up to this part of the radius away share a neighbourhood. Of the structure it is a quarter at most: chosen.
+/// Contacts up to this part of the radius away share a neighbourhood. A neighbourhood is at most a quarter of the
+/// structure. Chosen values.
 constexpr int sharing = 4, least_gain = 4;
 
 bool is_plain(const Contact& c) {
@@ -56,7 +57,7 @@ Neighbourhoods::Neighbourhoods(ModeSystems& systems, int spread)
     root_of_mass_.push_back(std::sqrt(model_.mass.coeff(i, i)));
 }
 
-/// In elements, of each degree of freedom; -1: no way leads there.
+/// Distance of each degree of freedom, in elements; -1: not connected.
 std::vector<int> Neighbourhoods::distances(const std::vector<int>& from) const {
   std::vector<int> distance(neighbours_.size(), -1), queue = from;
   for (const int dof : from) distance[static_cast<std::size_t>(dof)] = 0;
@@ -69,7 +70,7 @@ std::vector<int> Neighbourhoods::distances(const std::vector<int>& from) const {
   return distance;
 }
 
-/// To where M^-1 n and M^-1 t are felt, each entry as a part of what its own mass makes of it.
+/// Distance to which M^-1 n and M^-1 t are above rounding, each entry relative to the response of its own mass.
 int Neighbourhoods::reach(std::size_t contact, const ModeSystem& system,
                           const std::vector<int>& distance) const {
   int farthest = 0;
@@ -109,7 +110,7 @@ std::unique_ptr<Neighbourhood> Neighbourhoods::make(const std::vector<int>& dist
   Model part = restricted(model_, dofs, contacts);
   std::vector<std::size_t> loads;
   for (std::size_t i = 0; i < model_.loads.size(); ++i) {
-    Load load;  // its history is the forcing's
+    Load load;  // its history is that of the forcing
     for (const auto& [dof, factor] : model_.loads[i].direction.terms)
       if (inside(dof)) load.direction.terms.emplace_back(place[static_cast<std::size_t>(dof)], factor);
     if (load.direction.terms.empty()) continue;
@@ -156,7 +157,7 @@ Neighbourhood* Neighbourhoods::around(std::size_t contact, const ModeSystem& sys
         looked_for_[c] = true;
         of_contact_[c] = near;
       }
-  looked_for_[contact] = true;  // it may act on nothing
+  looked_for_[contact] = true;  // the contact may act on no degree of freedom
   return near;
 }
 

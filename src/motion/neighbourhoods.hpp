@@ -1,10 +1,10 @@
-// neighbourhoods.hpp: a model of what is near to a contact.
+// neighbourhoods.hpp: a model of the neighbourhood of a contact.
 //
-//   W:   degrees of freedom up to where M^-1 n and M^-1 t of the contact are below rounding, and some elements more
+//   W:   degrees of freedom where M^-1 n and M^-1 t of the contact exceed rounding, and some elements more
 //   M_WW a + C_WW v + K_WW u + contacts on W = P_W - ( M a + C v + K u + contacts across )_outside
 //
-// M^-1 decays with the distance, and so does what is done to a contact from far away at an instant. Contacts close to each
-// other share W.
+// M^-1 decays with the distance, and so does the instantaneous effect of distant forces on a contact. Contacts close to
+// each other share W.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@
 
 namespace signorini {
 
-/// Forces of all contacts follow from places and velocities by rows that do not change with the motion, and there are masses
-/// everywhere.
+/// True if forces of all contacts follow from places and velocities by rows that do not change with the motion, and all
+/// degrees of freedom have mass.
 [[nodiscard]] bool follows_from_motion(const Model& model);
-/// Degrees of freedom from which it is worth while to look near. Chosen.
+/// Number of degrees of freedom from which local expansions save time. Chosen.
 inline constexpr int large_structure = 400;
 
 struct Neighbourhood {
@@ -28,17 +28,18 @@ struct Neighbourhood {
         dofs(std::move(dofs_)),
         contacts(std::move(contacts_)),
         loads(std::move(loads_)) {}
-  Neighbourhood(const Neighbourhood&) = delete;  // its parts know each other by address
+  Neighbourhood(const Neighbourhood&) = delete;  // its parts refer to each other by address
   Neighbourhood& operator=(const Neighbourhood&) = delete;
 
-  /// States share one factorisation of M_WW, so that to keep many saves nothing; there may be hundreds of neighbourhoods.
+  /// Limit of cached states. States share one factorisation of M_WW, so that keeping many saves no time; there may be
+  /// hundreds of neighbourhoods.
   static constexpr CacheBounds few_modes{8, std::size_t{1} << 18};
   Model model;
   Structure structure;
   ModeSystems systems;
-  std::size_t number = 0;                    // in the order in which they are made
-  std::vector<int> dofs;                     // in the whole, ascending
-  std::vector<std::size_t> contacts, loads;  // the same
+  std::size_t number = 0;                    // in the order of creation
+  std::vector<int> dofs;                     // numbers in the whole, ascending
+  std::vector<std::size_t> contacts, loads;  // same
   /// Coupling of row `at` here to column `dof` outside.
   struct Tie {
     int at, dof;
@@ -48,7 +49,7 @@ struct Neighbourhood {
   /// Contacts that reach across the boundary: their forces act on `at`.
   struct Pull {
     int at;
-    std::size_t force;  // its slot
+    std::size_t force;  // slot of the force
     double factor;
   };
   std::vector<Pull> pulls;
@@ -63,12 +64,12 @@ struct Neighbourhood {
 
 class Neighbourhoods {
  public:
-  /// spread: elements beyond where M^-1 is below rounding. Both must outlive it.
+  /// spread: elements beyond the place where M^-1 is below rounding. Both arguments must outlive the object.
   Neighbourhoods(ModeSystems& systems, int spread);
 
-  /// Null: M^-1 does not decay within a quarter of the structure. system: of any state, with a factorisation of M.
+  /// Null: M^-1 does not decay within a quarter of the structure. system: that of any state, with a factorisation of M.
   [[nodiscard]] Neighbourhood* around(std::size_t contact, const ModeSystem& system);
-  /// Nothing is near to anything here: several have been looked for, and none is there.
+  /// True once several searches have found no neighbourhood.
   [[nodiscard]] bool hopeless() const { return made_.empty() && vain_ >= most_vain; }
   [[nodiscard]] std::size_t size() const { return made_.size(); }
 
@@ -82,11 +83,11 @@ class Neighbourhoods {
   const Model& model_;
   const Structure& structure_;
   const int spread_;
-  std::vector<std::vector<int>> neighbours_;           // of a degree of freedom, by M, C, K or a contact
-  std::vector<std::vector<std::size_t>> contacts_at_;  // of a degree of freedom
-  std::vector<double> root_of_mass_;                   // of each degree of freedom alone
+  std::vector<std::vector<int>> neighbours_;  // neighbours of a degree of freedom, by M, C, K or a contact
+  std::vector<std::vector<std::size_t>> contacts_at_;  // for each degree of freedom
+  std::vector<double> root_of_mass_;                   // for each degree of freedom
   std::vector<std::unique_ptr<Neighbourhood>> made_;
-  std::vector<Neighbourhood*> of_contact_;  // once looked for
+  std::vector<Neighbourhood*> of_contact_;  // set once searched
   std::vector<bool> looked_for_;
   int vain_ = 0;
 };

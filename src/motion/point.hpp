@@ -12,16 +12,16 @@
 namespace signorini {
 
 /// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
-/// Of the structure without its contacts.
+/// Energy of the structure without its contacts.
 struct StructureEnergy {
   double kinetic = 0.0, elastic = 0.0;
 };
 
 struct Point {
   Vector u, v, forces;
-  Vector a = {};  ///< empty where it is not needed
-  /// Of u and v, where the engine knows it to more digits than v^T M v and u^T K u have: of a fine mesh these
-  /// are sums of terms far greater than they.
+  Vector a = {};  ///< empty if not needed
+  /// Energy of u and v, if the engine knows it more accurately than v^T M v and u^T K u: on a fine mesh these are sums
+  /// of terms far greater than their result.
   std::optional<StructureEnergy> energy = {};
 
   [[nodiscard]] double N(const ForceLayout& layout, std::size_t k) const {
@@ -32,13 +32,13 @@ struct Point {
   }
 };
 
-/// On the straight line from a to b, 0 <= x <= 1.
+/// Point on the straight line from a to b, 0 <= x <= 1.
 [[nodiscard]] inline Point between(const Point& a, const Point& b, double x) {
   return {(1.0 - x) * a.u + x * b.u, (1.0 - x) * a.v + x * b.v, (1.0 - x) * a.forces + x * b.forces,
           (1.0 - x) * a.a + x * b.a};
 }
 
-/// Motion of contact k; g'' and ut'' are zero without accelerations in the point.
+/// Motion of contact k; g'' and ut'' are zero if the point has no accelerations.
 [[nodiscard]] inline ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing,
                                              double t, const Point& point) {
   ContactMotion m;
@@ -53,8 +53,8 @@ struct Point {
   return m;
 }
 
-/// Tangential displacement and velocity of the touching body, relative to the surface: those of the motion
-/// unless a shear element stands between.
+/// Tangential displacement and velocity of the touching body, relative to the surface: those of the motion unless a
+/// shear element is in between.
 struct BodySlide {
   double ut = 0.0, vt = 0.0;
 };

@@ -1,9 +1,9 @@
-// powers.hpp: the rates at which energy enters and leaves.
+// powers.hpp: the rates at which the system gains and loses energy.
 //
 //   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
 //   friction  T p'  of each contact          surface   -T s'(t)  of each contact
 //
-// Those of a contact: contact/work.hpp.
+// Powers of a contact: contact/work.hpp.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace signorini {
 
-/// Integrals of the powers. friction, surface: one a contact; pressing: of -N, unit force * time.
+/// Integrals of the powers. friction, surface: one for each contact; pressing: of -N, unit force * time.
 struct Works {
   explicit Works(std::size_t contacts = 0)
       : friction(contacts, 0.0), surface(contacts, 0.0), pressing(contacts, 0.0) {}
@@ -28,7 +28,7 @@ struct Works {
     std::fill(surface.begin(), surface.end(), 0.0);
     std::fill(pressing.begin(), pressing.end(), 0.0);
   }
-  /// += factor times what contact k does.
+  /// Adds factor times the work of contact k.
   void add(std::size_t k, const ContactWork& work, double factor) {
     damping += factor * work.damping;
     friction[k] += factor * work.friction;
@@ -41,9 +41,9 @@ class Powers {
  public:
   Powers(const Model& model, const Structure& structure) : model_(model), structure_(structure) {}
 
-  /// Numbers at one time: loads, damping, then friction, surface and -N of each contact.
+  /// Number of powers at one time: loads, damping, then friction, surface and -N of each contact.
   [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
-  /// out[0 .. count())
+  /// Evaluates all powers into out[0 .. count()).
   void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const;
   /// works += factor * powers
   void add(const double* powers, double factor, Works& works) const;

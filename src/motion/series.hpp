@@ -7,13 +7,13 @@
 
 namespace signorini {
 
-/// Coefficients about t, column k: order k. v is that of u; levels 0 .. `levels`.
+/// Coefficients about t, column k: order k. v follows from u; levels 0 .. `levels`.
 struct Series {
   double t = 0.0, scale = 1.0;
   int levels = 0;
-  Eigen::MatrixXd u;  ///< n x (levels + 3); complete to order `levels`, beyond only where there is mass
+  Eigen::MatrixXd u;  ///< n x (levels + 3); complete to order `levels`, beyond only with mass
   ForceLayout layout;
-  Eigen::MatrixXd forces;  ///< of all contacts x (levels + 1)
+  Eigen::MatrixXd forces;  ///< all contacts x (levels + 1)
   ForcingSeries forcing;   ///< levels + 3 coefficients
 };
 
@@ -28,8 +28,8 @@ struct Series {
   return contact.tangent.dot(u) - series.forcing.surface[index * series.forcing.count + k];
 }
 
-/// Coefficient k of N of a contact with the normal row N = kn g + cn g', N = -q or N = 0, where u and v have
-/// mass: known before level k is.
+/// Coefficient k of N of a contact with the normal row N = kn g + cn g', N = -q or N = 0, if u and v have mass: known
+/// before level k is.
 [[nodiscard]] inline double normal_coefficient(const Contact& contact, std::size_t index, const Form& row,
                                                const Series& series, std::size_t k) {
   const double* v = series.u.data() + (k + 1) * static_cast<std::size_t>(series.u.rows());

@@ -51,7 +51,7 @@ void Taylor::start_friction(const Forcing& forcing, Series& series) {
     settle_doubts(forcing, series);
   for (const FrictionSeries& friction : friction_)
     for (const auto& [dof, factor] : model_.contacts[friction.contact()].tangent.terms)
-      series.u(dof, 0) += factor * friction.jump();  // zero where the point has mass
+      series.u(dof, 0) += factor * friction.jump();  // zero if the point has mass
   if (ModeSystemPtr at = at_friction()) system_ = std::move(at);
 }
 
@@ -61,8 +61,8 @@ ModeSystemPtr Taylor::at_friction() const {
   return systems_.at_friction(*system_, rows);
 }
 
-/// Points that may follow at once do so, for two levels: that tells accelerations, and so their rates. Those that are as fast
-/// as friction at its greatest go on like this.
+/// Points that may follow quasi-statically do so for two levels, which yields accelerations and thus their rates.
+/// Points whose rate reaches that of greatest friction remain quasi-static.
 void Taylor::settle_doubts(const Forcing& forcing, Series& series) {
   const std::vector<FrictionSeries> given = friction_;
   const ModeSystemPtr own = system_;
@@ -82,7 +82,7 @@ void Taylor::settle_doubts(const Forcing& forcing, Series& series) {
   friction_ = std::move(settled);
 }
 
-/// What curved surfaces do beside K: products of two series.
+/// Contribution of curved surfaces beside K: products of two series.
 void Taylor::add_bowls(int order, const Series& series) {
   for (const std::size_t c : bowls_) {
     const Contact& contact = model_.contacts[c];
@@ -94,7 +94,7 @@ void Taylor::add_bowls(int order, const Series& series) {
       const double* u = series.u.data() + (k - j) * static_cast<std::size_t>(series.u.rows());
       const double ut =
           contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
-      // The constant that K holds counts once.
+      // The constant contained in K counts once.
       force += j == 0 ? bowl_force(contact, N, ut) : bowl_product(contact, N, ut);
     }
     contact.body_tangent().add_to(x_, -force);
@@ -109,7 +109,7 @@ double Taylor::pinned_value(const Pinned& p, int order, const Series& series) co
          p.divisor;
 }
 
-/// What rows of contact c know beforehand of forcing and constants at order k: pressing, surface, gap.
+/// Known part of the rows of contact c at order k, from forcing and constants: applied normal force, surface, gap.
 void Taylor::known_of_rows(std::size_t c, int order, const Series& series, double& r, double& q) const {
   const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
   const ForcingSeries& f = series.forcing;
@@ -126,7 +126,7 @@ void Taylor::known_of_rows(std::size_t c, int order, const Series& series, doubl
 
 namespace {
 
-/// Does a surface or a normal force act on contact c at this order? Most of them are polynomials of low degree.
+/// True if a surface or a normal force acts on contact c at this order. Most of them are polynomials of low degree.
 bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
   const std::size_t at = c * f.count + static_cast<std::size_t>(order);
   const double *surface = f.surface.data() + at, *pressing = f.pressing.data() + at;
@@ -135,7 +135,7 @@ bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
 
 }  // namespace
 
-/// Sizes known to the compiler (0: not known) let it unroll the loops over one or two masses.
+/// Sizes known to the compiler (0: unknown) let it unroll the loops over one or two masses.
 template <std::size_t fixed_n, std::size_t fixed_size>
 void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
   const FactorisedMode& mode = system_->factorised();
@@ -191,7 +191,7 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Dist
   return level_dense<0, 0>(forcing, order, series);
 }
 
-/// u and v at order k as far as they are no unknowns of this level.
+/// Writes u and v at order k as far as they are not unknowns of this level.
 void Taylor::know_motion(int order, const Series& series) {
   const std::size_t n = known_u_.size();
   const double to_velocity = (order + 1) / series.scale;
@@ -213,8 +213,7 @@ void Taylor::know_motion(int order, const Series& series) {
       known_u_[static_cast<std::size_t>(dof)] -= factor * u_k[motion.dof];
 }
 
-/// Magnitudes of the terms of the equations of motion at level k, what lower levels have lost to rounding
-/// among them.
+/// Magnitudes of the terms of the equations of motion at level k, including the rounding of lower levels.
 void Taylor::measure_equations(const Forcing& forcing, int order, const Series& series, double* terms) const {
   const std::size_t n = known_u_.size();
   const double to_velocity = (order + 1) / series.scale;
@@ -231,7 +230,7 @@ void Taylor::measure_equations(const Forcing& forcing, int order, const Series& 
   }
 }
 
-/// The forces of a contact, in the equations of motion.
+/// Magnitudes of the forces of a contact in the equations of motion.
 void Taylor::measure_forces(std::size_t c, int order, const Series& series, double* terms) const {
   const double* forces =
       series.forces.data() + static_cast<std::size_t>(order) * (x_.size() - known_u_.size());
@@ -241,8 +240,8 @@ void Taylor::measure_forces(std::size_t c, int order, const Series& series, doub
     terms[dof] += std::abs(factor * forces[model_.layout.tangent(c)]);
 }
 
-/// Its rows. kn g is a difference of great numbers: its rounding is that of its terms. A row that holds an
-/// acceleration leaves of it the rounding of the forces that it is a difference of.
+/// Magnitudes in the contact's rows. kn g is a difference of large numbers: its rounding is that of its terms. A row
+/// that contains an acceleration has the rounding of the forces whose difference the acceleration is.
 void Taylor::measure_rows(std::size_t c, int order, const Series& series, double* terms) const {
   const Contact& contact = model_.contacts[c];
   const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
@@ -275,7 +274,7 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
   terms[system_->unknowns().tangent(c)] = q;
 }
 
-/// Some roundings of the terms of each equation: the backward error of its solution.
+/// Disturbs each equation by some roundings of its terms: the backward error of its solution.
 void Taylor::disturb(const Forcing& forcing, int order, const Disturbance& disturbance) {
   const Series& motion = disturbance.motion;
   if (order == 0) {
@@ -291,7 +290,7 @@ void Taylor::disturb(const Forcing& forcing, int order, const Disturbance& distu
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) measure_rows(c, order, motion, terms);
   for (std::size_t i = 0; i < x_.size(); ++i)
     x_[i] += parts_[i + x_.size() * static_cast<std::size_t>(order)] * terms[i];
-  // What this level loses to rounding is not exactly what it is for the levels after the next.
+  // The rounding of this level enters the levels after the next only approximately.
   const double to_acceleration = (order + 1) * (order + 2) / (motion.scale * motion.scale);
   double* carried = sizes_.col(order + 2).data();
   for (std::size_t i = 0; i < known_u_.size(); ++i) carried[i] += mobility_[i] * terms[i] / to_acceleration;
@@ -299,7 +298,7 @@ void Taylor::disturb(const Forcing& forcing, int order, const Disturbance& distu
     carried[p.dof] = std::abs(motion.u(static_cast<Eigen::Index>(p.dof), order + 2));
 }
 
-/// The solution of level k into the series.
+/// Writes the solution of level k into the series.
 void Taylor::take(int order, Series& series) const {
   const std::size_t n = known_u_.size();
   const double to_velocity = (order + 1) / series.scale;

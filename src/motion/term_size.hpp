@@ -1,4 +1,4 @@
-// term_size.hpp: what data that are known to a rounding leave uncertain of form . x, in roundings.
+// term_size.hpp: uncertainty of form . x due to one rounding of the data, in roundings.
 //
 //   |form| |x|  in the plane, whatever the angle between them and the axes;  sum |form_i x_i|  of unlike coordinates
 #pragma once
@@ -9,9 +9,9 @@
 
 namespace signorini {
 
-inline constexpr std::size_t most_plane_terms = 4;  // of a form on the translations of one node, or of two
+inline constexpr std::size_t most_plane_terms = 4;  // for a form on the translations of one node, or of two
 
-/// x: degree of freedom to size. Components that the form does not have do not count.
+/// x: maps a degree of freedom to its size. Components that the form does not contain do not count.
 template <class Size>
 double size_by(const Model& model, const Combination& form, const Size& x) {
   double terms = 0.0, form_squared = 0.0, x_squared = 0.0;

@@ -10,11 +10,11 @@
 namespace signorini {
 namespace {
 
-// Three digits, as pivots may lose that are kept for another length (linear/klu.cpp).
+// Three digits: the same loss as for pivots kept for another length (linear/klu.cpp).
 constexpr double most_growth = 1e3;
 constexpr std::size_t lanes = 4;
 
-/// row -= factor * pivots, both rounded up to whole lanes: what pivots have there is zero.
+/// row -= factor * pivots, both padded to whole lanes: pivots are zero in the padding.
 [[gnu::always_inline]] inline void eliminate(double factor, const double* pivots, std::size_t count,
                                              double* row) {
   for (std::size_t c = 0; c < count; c += lanes)
@@ -28,7 +28,7 @@ struct Band {
   double* inverse_pivot;
 };
 
-/// Rows [begin, end), row after row; sums[i] += |l_ik u_ki|. False: a pivot is zero or no number.
+/// Eliminates rows [begin, end) one by one; sums[i] += |l_ik u_ki|. False: a pivot is zero or NaN.
 SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, std::size_t end) {
   for (std::size_t k = begin - std::min(begin, band.width); k < end; ++k) {
     const double* pivots = band.values + k * band.stride + band.width;
@@ -72,14 +72,14 @@ SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, st
   for (std::size_t i = size - edge; i-- > 0;) back(i, width);
 }
 
-/// The same with a width that the compiler knows.
+/// Same with a width known at compile time.
 template <std::size_t width>
 void solve_band(std::size_t size, std::size_t stride, const double* values, const double* inverse_pivot,
                 double* b) {
   solve_band_of(width, size, stride, values, inverse_pivot, b);
 }
 
-/// Widths of two and of three unknowns a node in a row, and those below.
+/// Widths of two and of three unknowns for each node in a row, and smaller ones.
 constexpr std::size_t most_unrolled = 8;
 
 }  // namespace

@@ -1,12 +1,12 @@
 // band_factors.hpp: L and U of a band matrix, without exchanges of rows.
 //
 //   A = L U,   a_ij = 0 for |i - j| > width
-// A row depends on the `width` rows before it: factors of some rows go on from those, and where as many rows come out as
-// they were, so do all that follow.
+// A row depends on the `width` rows before it: factors of some rows can be continued from those, and if as many
+// consecutive rows are unchanged, so are all that follow.
 //
-// For matrices that are symmetric and positive but for little: of such ones elimination needs no exchanges, for
-// sum_k |l_ik u_ki| is a_ii. How far that sum exceeds a_ii is what rounding may have grown by; beyond three digits there
-// are no factors, and a method with exchanges is due. No test depends on units: a row and its column may be scaled.
+// For matrices that are nearly symmetric and positive: elimination of these needs no row exchanges, since sum_k |l_ik
+// u_ki| is a_ii. The ratio of that sum to a_ii bounds the growth of rounding; beyond three digits there are no factors,
+// and a method with exchanges is needed. No test depends on units: a row and its column may be scaled.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ class BandFactors {
   [[nodiscard]] std::size_t stride() const { return stride_; }
   /// Row i, to be filled: a_ij at width() + j - i, |i - j| <= width; zeros elsewhere.
   [[nodiscard]] double* row(std::size_t i) { return values_.data() + i * stride_; }
-  /// All entries of rows [begin, end) zero.
+  /// Sets all entries of rows [begin, end) to zero.
   void clear(std::size_t begin, std::size_t end);
-  /// Factors all rows. False: it would lose more digits than allowed, or is singular; the content then is undefined.
+  /// Factors all rows. False: it would lose more digits than allowed, or is singular; the content is then undefined.
   [[nodiscard]] bool factor() { return factor(0, size_); }
   /// Factors rows [begin, end), after the rows before: bitwise the same as factoring all rows at once.
   [[nodiscard]] bool factor(std::size_t begin, std::size_t end);

@@ -31,7 +31,7 @@ Neighbours neighbours_of(const Model& model, const Structure& structure) {
   return result;
 }
 
-/// The part of `first`, level by level; `seen` marks it.
+/// Connected component of `first`, level by level; `seen` marks it.
 std::vector<int> levels_from(int first, const Neighbours& neighbours, std::vector<bool>& seen) {
   std::vector<int> order{first};
   seen[static_cast<std::size_t>(first)] = true;

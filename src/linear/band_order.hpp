@@ -2,8 +2,8 @@
 //
 //   |place(i) - place(j)| <= width   wherever M, C, K, or one contact, couple i and j
 //
-// From an end of each part, its neighbours come level by level, those with few neighbours first. The ends of a part
-// are far from each other: found by going to the last level twice.
+// From an end of each component its neighbours follow level by level, those with few neighbours first. The ends of a
+// component are far from each other: two searches for the last level find them.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace signorini {
 
 struct BandOrder {
-  std::vector<int> place;  ///< of each degree of freedom
+  std::vector<int> place;  ///< place of each degree of freedom
   std::size_t width = 0;
 };
 

@@ -9,7 +9,8 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t rows_of_lanes = 4;
-// Four lanes, two loads of matrices and two of motions a diagonal, cost as much as three entries of columns one by one.
+// Greatest number of band places for each entry: a diagonal of four rows, two loads of matrices and two of motions,
+// costs as much as three entries one by one.
 constexpr std::size_t most_of_entries = 3;
 
 /// Blocks of rows whose columns all exist: [first, last).
@@ -37,7 +38,7 @@ SIGNORINI_WIDE_LANES void subtract_blocks(InnerBlocks blocks, std::size_t width,
   }
 }
 
-/// take(row, diagonal of its block, lane, column) of the entries of rows before and after the inner blocks.
+/// Calls take(row, diagonal of its block, lane, column) for the entries of rows before and after the inner blocks.
 template <class Take>
 void at_edges(InnerBlocks blocks, std::size_t size, std::size_t width, const Take& take) {
   const auto rows = [&](std::size_t begin, std::size_t end) {

@@ -1,9 +1,10 @@
-// banded_forces.hpp: forces of a structure whose matrices are narrow bands, four equations at once.
+// banded_forces.hpp: forces of a structure with narrow band matrices, four equations at once.
 //
 //   r_i -= sum_j ( c_ij v_j + k_ij u_j ),   j from i - width to i + width
 //
-// Column after column, each sum waits until the one before is stored. Here four rows stand beside each other, diagonal by
-// diagonal. Each takes its terms in the order of the columns, and what is not there adds zero: the bits are the same.
+// Column by column each sum would wait until the previous one is stored. Here four rows are processed in parallel,
+// diagonal by diagonal. Each row adds its terms in the order of the columns, and missing entries add zero: the results
+// are bitwise the same.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace signorini {
 class BandedForces {
  public:
   BandedForces() = default;
-  /// Empty where bands would be much wider than what stands in them. Compressed columns; c, k: aligned with `row`.
+  /// Empty if bands would have far more places than entries. Compressed columns; c, k: aligned with `row`.
   BandedForces(const std::vector<std::int64_t>& column_start, const std::vector<int>& row,
                const std::vector<double>& c, const std::vector<double>& k);
 
@@ -25,7 +26,7 @@ class BandedForces {
 
  private:
   std::size_t size_ = 0, width_ = 0;
-  std::vector<double> values_;  // of four rows, diagonal by diagonal: c of each, k of each
+  std::vector<double> values_;  // four rows, diagonal by diagonal: c of each, k of each
 };
 
 }  // namespace signorini

@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-/// Rows that are made anew at once: a few widths of a narrow band.
+/// Number of rows renewed at once: a few widths of a narrow band.
 constexpr std::size_t rows_at_once = 32;
 
 }  // namespace
@@ -38,7 +38,8 @@ bool CondensedMatrix::factor() {
   return band_.factor();
 }
 
-/// From a row on, to where rows are as they were. Nothing: the factors lose digits; else the first that stays.
+/// Renews rows from `begin` on until they equal the old ones. nullopt: the factors lose digits; else the first
+/// unchanged row.
 std::optional<std::size_t> CondensedMatrix::renew(std::size_t begin) {
   const std::size_t stride = band_.stride(), count = std::max(rows_at_once, 2 * rows_.width());
   before_.resize(count * stride);

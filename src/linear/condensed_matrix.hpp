@@ -4,11 +4,11 @@
 //   | R  B | | f | = | q |       f = B^-1 (q - R x)   contact by contact
 //   (S - H B^-1 R) x = b - H B^-1 q
 //
-// Where no row of a contact holds an acceleration, its forces are eliminated as they stand: a soft spring more at its
-// degrees of freedom. What is left has the band of the structure, whose factors cost less than the solves of a
-// general method, so that nothing of other states or lengths has to be kept. Where contacts have changed since, at the same
-// weights, rows of the factors are made anew from the first that they touch to where these are as they were, to the last
-// bit: what is far from a contact does not feel it.
+// If no row of a contact contains an acceleration, its forces are eliminated directly: they act like a soft spring on
+// its degrees of freedom. The remaining matrix has the band of the structure. Its factors cost less than the solves of
+// a general method, so that factors of other states or lengths are not kept. If contacts have changed at the same
+// weights, rows of the factors are renewed from the first affected one up to the place where they are bitwise
+// unchanged, which is near the contact.
 #pragma once
 
 #include "linear/band_factors.hpp"
@@ -16,23 +16,23 @@
 
 namespace signorini {
 
-/// Unknowns from which a factorisation is worth avoiding: of 200 it takes some 30 us. Chosen: unit/engine/newmark tests
-/// both sides.
+/// Number of unknowns from which avoiding a factorisation saves time: one with 200 takes about 30 us. Chosen: the tests
+/// unit/engine/newmark cover both sides.
 inline constexpr int economical_from = 200;
-/// All degrees of freedom have mass, contacts share nothing, and there are so many unknowns.
+/// True if all degrees of freedom have mass, contacts share no rows, and there are at least economical_from unknowns.
 [[nodiscard]] bool is_economical(const Model& model, const Structure& structure, const SharedRows& shared);
 
 class CondensedMatrix {
  public:
-  /// The widest band for which this is worth it: its n width^2 products beside those of a sparse method.
+  /// The widest band for which this saves time: its n width^2 products compared with those of a sparse method.
   static constexpr std::size_t widest = 16;
 
-  /// rows: must outlive it.
+  /// The rows must outlive the object.
   explicit CondensedMatrix(const CondensedRows& rows);
 
-  /// Factors of the rows in force. False: those do not tell their forces, or elimination loses digits.
+  /// Factors of the rows in force. False: the rows do not determine their forces, or elimination loses digits.
   [[nodiscard]] bool set(const Weights& weights);
-  /// Whether its factors are of these weights, but for contacts that have changed.
+  /// True if its factors belong to these weights, possibly except for contacts that have changed.
   [[nodiscard]] bool is_at(const Weights& w) const {
     return set_ && w.acceleration == weights_.acceleration && w.velocity == weights_.velocity &&
            w.displacement == weights_.displacement;
@@ -40,8 +40,8 @@ class CondensedMatrix {
   /// x := A^-1 x: n degrees of freedom, then N and T of each contact.
   void solve(double* x);
 
-  long factorisations = 0;  ///< of all rows
-  long renewed_rows = 0;    ///< made anew besides
+  long factorisations = 0;  ///< factorisations of all rows
+  long renewed_rows = 0;    ///< additional renewed rows
 
  private:
   [[nodiscard]] bool factor();
@@ -52,11 +52,11 @@ class CondensedMatrix {
   const CondensedRows& rows_;
   BandFactors band_;
   Weights weights_;
-  long version_ = 0;                  // of the rows that it has factors of
-  bool set_ = false, holds_ = false;  // for weights_; there are factors
-  std::vector<double> by_N_, by_T_;   // B^-1 R, one a touch
-  std::vector<double> x_, before_;    // rows as they were
-  std::vector<std::size_t> touched_;  // places
+  long version_ = 0;                  // version of the rows of the factors
+  bool set_ = false, holds_ = false;  // set_: weights_ are valid; holds_: there are factors
+  std::vector<double> by_N_, by_T_;   // B^-1 R, one entry for each touch
+  std::vector<double> x_, before_;    // rows before the renewal
+  std::vector<std::size_t> touched_;  // affected places
 };
 
 }  // namespace signorini

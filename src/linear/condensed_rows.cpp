@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-/// Changes that are remembered: more of them are worth new factors.
+/// Number of changes that are remembered: new factors cost less than more of them.
 constexpr std::size_t most_remembered = 64;
 
 CondensedRows::Held held_by(const Rows& rows) {
@@ -77,7 +77,7 @@ void CondensedRows::put(std::size_t c, const Rows& rows) {
   untold_ -= held_[c].told ? 0 : 1;
   held_[c] = held_by(rows);
   untold_ += held_[c].told ? 0 : 1;
-  if (changed_.size() == most_remembered) {  // the earlier half is forgotten
+  if (changed_.size() == most_remembered) {  // discards the earlier half
     constexpr std::size_t half = most_remembered / 2;
     changed_.erase(changed_.begin(), changed_.begin() + half);
     forgotten_ += half;

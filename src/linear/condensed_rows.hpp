@@ -2,8 +2,8 @@
 //
 //   row i of  M w_a + C w_v + K w_u - H B^-1 R      i: a place in the band; H, B, R: linear/condensed_matrix.hpp
 //
-// What does not depend on the weights: entries in the order in which a band is filled, and the rows of each contact. Which
-// contacts have changed is remembered, so that factors can follow.
+// Contains the data that do not depend on the weights: entries in the order in which a band is filled, and the rows of
+// each contact. It remembers the contacts that have changed, so that factors can be updated.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class CondensedRows {
     double normal_gap = 0.0, normal_ut = 0.0, normal_vn = 0.0, normal_vt = 0.0;
     double tangent_gap = 0.0, tangent_ut = 0.0, tangent_vn = 0.0, tangent_vt = 0.0;
     bool on_motion = false;  ///< its forces follow the motion
-    bool told = false;       ///< by their own rows, without accelerations
+    bool told = false;       ///< own rows determine its forces, without accelerations
   };
 
   /// Rows of a model with is_economical(), without contacts in force. nullopt: the band is wider.
@@ -45,14 +45,14 @@ class CondensedRows {
   [[nodiscard]] std::size_t contacts() const { return held_.size(); }
   [[nodiscard]] const ForceLayout& layout() const { return layout_; }
 
-  /// Puts the rows of a contact in force, of all.
+  /// Puts the rows of one contact in force, or those of all contacts.
   void put(std::size_t contact, const Rows& rows);
   void put(const std::vector<Rows>& rows);
-  /// False: a row holds an acceleration or does not tell its force.
+  /// False: a row contains an acceleration or does not determine its force.
   [[nodiscard]] bool tell() const { return untold_ == 0; }
-  /// Grows with every change.
+  /// Version number; each change increases it.
   [[nodiscard]] long version() const { return forgotten_ + static_cast<long>(changed_.size()); }
-  /// Contacts that have been put in force since, some perhaps twice. Nothing: it is not remembered.
+  /// Contacts put in force since that version, some possibly twice. nullopt: the record does not reach back so far.
   [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
 
   [[nodiscard]] std::size_t dof_at(std::size_t place) const { return dof_at_[place]; }
@@ -64,12 +64,12 @@ class CondensedRows {
   [[nodiscard]] std::size_t first_touch(std::size_t contact) const { return touches_end_[contact]; }
   [[nodiscard]] std::size_t end_of_touches(std::size_t contact) const { return touches_end_[contact + 1]; }
   [[nodiscard]] const Touch& touch(std::size_t i) const { return touches_[i]; }
-  /// Those at a place, ascending by contact.
+  /// Touches at a place, ascending by contact.
   [[nodiscard]] std::span<const std::uint32_t> touches_at(std::size_t place) const {
     return {at_place_.data() + at_place_end_[place], at_place_.data() + at_place_end_[place + 1]};
   }
 
-  /// B^-1 R of a contact on its touches, at these weights; by_N, by_T: one a touch.
+  /// B^-1 R of a contact on its touches, at these weights; by_N, by_T: one entry for each touch.
   void share(std::size_t contact, const Weights& weights, double* by_N, double* by_T) const;
   /// The row at a place; out: 2 width() + 1 numbers that are zero before, with the diagonal in the middle.
   void fill(std::size_t place, const Weights& weights, const double* by_N, const double* by_T,
@@ -80,17 +80,17 @@ class CondensedRows {
 
   std::size_t width_ = 0;
   ForceLayout layout_;
-  std::vector<std::size_t> dof_at_;  // of a place
+  std::vector<std::size_t> dof_at_;  // degree of freedom at each place
   std::vector<Entry> entries_;
   std::vector<std::size_t> entries_end_{0};  // place by place
   std::vector<Touch> touches_;               // contact by contact
-  std::vector<std::size_t> touches_end_{0};  // of each contact's
+  std::vector<std::size_t> touches_end_{0};  // end of each contact's touches
   std::vector<std::uint32_t> at_place_;      // touches, place by place
   std::vector<std::size_t> at_place_end_{0};
   std::vector<Held> held_;
-  std::size_t untold_ = 0;            // contacts
-  std::vector<std::size_t> changed_;  // the last of them
-  long forgotten_ = 0;                // changes before those
+  std::size_t untold_ = 0;            // number of contacts
+  std::vector<std::size_t> changed_;  // the last changed contacts
+  long forgotten_ = 0;                // number of earlier changes
 };
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-// dof_kinds.hpp: what the equation of a degree of freedom is solved for.
+// dof_kinds.hpp: the unknown in the equation of a degree of freedom.
 //
 //   massive    its acceleration
 //   damped     its velocity: no mass, but a damper
@@ -14,9 +14,9 @@ namespace signorini {
 
 enum class DofKind : unsigned char { massive, damped, algebraic };
 
-/// By the structure alone; in a mode: linear/undamped_motion.hpp.
+/// Kinds by the structure alone; in a contact state: linear/undamped_motion.hpp.
 [[nodiscard]] std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure);
-/// Is there a degree of freedom without mass?
+/// True if there is a degree of freedom without mass.
 [[nodiscard]] bool has_massless(const Model& model);
 
 }  // namespace signorini

@@ -1,9 +1,9 @@
-// factor_reader.hpp: takes over what KLU has factored.
+// factor_reader.hpp: reads the factors computed by KLU.
 //
 //   FactorReader reader;  reader.read(symbolic, numeric, common, true, factors);   after klu_l_factor
 //                         reader.read(symbolic, numeric, common, false, factors);  after klu_l_refactor
 //
-// A factorisation with kept pivots changes values only: their places are remembered.
+// A factorisation with kept pivots changes values only: the reader remembers their places.
 #pragma once
 
 #include <klu.h>
@@ -25,7 +25,7 @@ class FactorReader {
   struct Raw {
     std::vector<Long> start, row;
     std::vector<double> value;
-    std::vector<std::size_t> from;  // place here of each value of the packed columns
+    std::vector<std::size_t> from;  // place in this object of each value of the packed columns
     [[nodiscard]] std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(start[k]); }
     void resize(std::size_t columns, Long entries);
   };

@@ -16,7 +16,7 @@ SuiteSparse_long* raw(const std::vector<std::int64_t>& v) {
 }
 double* raw(const std::vector<double>& v) { return const_cast<double*>(v.data()); }
 
-// Pivots kept from another step size may lose this much of their quality before fresh ones are chosen.
+// Pivots kept from another step size may lose this much of their quality before new ones are chosen.
 constexpr double kept_quality = 1e-3;
 
 }  // namespace

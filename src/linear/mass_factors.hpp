@@ -3,9 +3,9 @@
 //   | M  H | | a |   | b |      f = B^-1 q   contact by contact, two by two
 //   | 0  B | | f | = | q |      a = M^-1 (b - H f)
 //
-// That is the matrix of linear/system_matrix.hpp where every degree of freedom has mass and no row of a contact
-// holds an acceleration: compliant contacts, sliders. M is the same in all such states, so that one
-// factorisation serves them all, and a change of state costs none.
+// This is the matrix of linear/system_matrix.hpp if every degree of freedom has mass and no row of a contact contains
+// an acceleration: compliant contacts, sliders. M is the same in all such states, so that one factorisation serves them
+// all, and a change of state costs none.
 #pragma once
 
 #include <memory>
@@ -29,13 +29,13 @@ struct OwnForces {
 
 class MassSolver {
  public:
-  /// The model must outlive it.
+  /// The model must outlive the object.
   MassSolver(const Model& model, std::shared_ptr<const TriangularFactors> mass, std::vector<OwnForces> forces)
       : model_(&model), mass_(std::move(mass)), forces_(std::move(forces)) {}
 
   /// x := A^-1 x: n degrees of freedom, then N and T of each contact; work: room for n numbers.
   void solve(double* x, double* work) const;
-  /// Memory that it does not share.
+  /// Memory that is not shared.
   [[nodiscard]] std::size_t bytes() const { return forces_.size() * sizeof(OwnForces); }
 
  private:

@@ -2,8 +2,8 @@
 //
 //   r = M a + C v + K u = M (a + alpha v) + K (u + beta v) + R v,   C = alpha M + beta K + R
 //
-// R holds what discrete dampers add, mostly nothing, so an entry costs two numbers instead of three. Rows,
-// not columns: every sum stays in a register. Shapes: n degrees of freedom; unit of r: force.
+// R contains discrete dampers and is mostly zero, so an entry costs two numbers instead of three. Rows instead of
+// columns: every sum stays in a register. Shapes: n degrees of freedom; unit of r: force.
 //
 //   for (i) product.put(i, a[i], v[i], u[i]);
 //   product.apply(r);
@@ -19,7 +19,7 @@ class Momentum {
  public:
   Momentum(const Model& model, const Structure& structure);
 
-  /// The motion of degree of freedom i.
+  /// Sets the motion of degree of freedom i.
   void put(std::size_t i, double a, double v, double u) {
     x_[2 * i] = a + alpha_ * v;
     x_[2 * i + 1] = u + beta_ * v;
@@ -37,7 +37,7 @@ class Momentum {
   std::vector<int> row_start_, column_;
   std::vector<double> values_;  // (M, K) of each entry, row by row
   std::vector<Entry> rest_;     // R
-  std::vector<double> x_, v_;   // what the rows are multiplied with, (for M, for K) of each column
+  std::vector<double> x_, v_;   // factors of the rows, (for M, for K) of each column
 };
 
 }  // namespace signorini

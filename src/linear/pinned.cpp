@@ -12,7 +12,7 @@ struct Share {
   double normal = 0.0, tangent = 0.0, divisor = 1.0;
 };
 
-/// Shares of the two degrees of freedom that both forms have, from n . x = r and t . x = q.
+/// Shares of the two degrees of freedom that are common to both forms, from n . x = r and t . x = q.
 std::optional<std::array<Share, 2>> shares(const Combination& n, const Combination& t) {
   if (n.terms.size() != 2 || t.terms.size() != 2) return std::nullopt;
   const auto [i, ni] = n.terms[0];

@@ -1,9 +1,9 @@
-// pinned.hpp: motions of a degree of freedom that a contact alone prescribes.
+// pinned.hpp: motions of degrees of freedom that a single contact prescribes.
 //
-//   n . x = r,  t . x = q      rows g'' = 0 and ut'' = s'' of one contact, q of velocities and so on likewise
+//   n . x = r,  t . x = q      rows g'' = 0 and ut'' = s'' of one contact, and likewise for velocities
 //   x_i = (a r + b q)/d        forms of a single term each, or both of the same two degrees of freedom
 //
-// Such degrees of freedom are set exactly, not to the rounding of an elimination: no drift, and what is held
+// Such degrees of freedom are set exactly, not to the rounding of an elimination: there is no drift, and a body held
 // still on an incline does not move at all, as on level ground.
 #pragma once
 
@@ -20,12 +20,12 @@ struct Pinned {
   double normal = 0.0, tangent = 0.0, divisor = 1.0;
 };
 
-/// rows: one entry a contact.
+/// rows: one entry for each contact.
 [[nodiscard]] std::vector<Pinned> pinned_by(const Model& model, const std::vector<Rows>& rows);
 
-/// x such that form . x = value to the last digit, where the form has a single term; else x as it is.
+/// Sets x such that form . x = value exactly, if the form has a single term; else x is unchanged.
 void set_exactly(const Combination& form, double value, Vector& x);
-/// Both n . x = r and t . x = q, where the forms have a single term each or the same two.
+/// Sets both n . x = r and t . x = q, if the forms have a single term each or the same two.
 void set_exactly(const Combination& n, double r, const Combination& t, double q, Vector& x);
 
 }  // namespace signorini

@@ -7,7 +7,7 @@
 namespace signorini {
 namespace {
 
-/// Scales, frequencies and factors are those of the whole, so that what is decided by them is decided as there.
+/// Scales, frequencies and factors are those of the whole, so that decisions that depend on them agree.
 Model common_to_parts(const Model& whole) {
   Model model;
   model.layout = whole.layout;
@@ -23,7 +23,7 @@ Model common_to_parts(const Model& whole) {
   return model;
 }
 
-/// place: of a degree of freedom of the whole in the part; -1: elsewhere.
+/// place: place in the part of a degree of freedom of the whole; -1: not in the part.
 SparseMatrix block_of(const SparseMatrix& a, const std::vector<int>& dofs, const std::vector<int>& place) {
   const auto n = static_cast<int>(dofs.size());
   std::vector<Eigen::Triplet<double>> entries;

@@ -1,9 +1,9 @@
-// restricted.hpp: what of a model lives on some of its degrees of freedom.
+// restricted.hpp: restriction of a model to some of its degrees of freedom.
 //
 //   M_WW, C_WW, K_WW,   n_k, t_k of contacts on W alone,   P_W
 //
-// What couples W to the rest is left out: nothing for parts that nothing couples (part_models.hpp), the boundary of a
-// neighbourhood (motion/near_jets.hpp).
+// The coupling of W to the rest is left out: it is zero for independent parts (part_models.hpp); otherwise it acts at
+// the boundary of a neighbourhood (motion/near_jets.hpp).
 #pragma once
 
 #include <vector>
@@ -12,11 +12,11 @@
 
 namespace signorini {
 
-/// On `dofs`, with `contacts`, which act on these alone: what runs of a model need; no outputs, no names but its own, nothing
-/// drawn. Without loads.
+/// Model on `dofs` with `contacts`, which act on these alone: the data that runs of a model need; no outputs, no names
+/// but its own, no drawing, no loads.
 [[nodiscard]] Model restricted(const Model& model, const std::vector<int>& dofs,
                                const std::vector<std::size_t>& contacts);
-/// The same load, acting nowhere yet.
+/// The same load without a direction: it acts on no degree of freedom yet.
 [[nodiscard]] Load without_direction(const Load& load);
 
 }  // namespace signorini

@@ -11,12 +11,12 @@
 namespace signorini {
 namespace {
 
-// Relative remainder of a row after all others are removed: that of rounding is below.
+// Relative remainder of a row after removal of all others; rounding is below.
 constexpr double dependent = 1e-12;
 
 }  // namespace
 
-// H = Q R on the columns that are independent of those before, by Gram and Schmidt, twice.
+// H = Q R on the columns that are independent of earlier ones, by Gram-Schmidt, applied twice.
 Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
   const Eigen::Index most = std::min(h.rows(), h.cols());
   Eigen::MatrixXd q(h.rows(), most), r = Eigen::MatrixXd::Zero(most, most), null(h.cols(), 0);
@@ -72,8 +72,8 @@ bool SharedRows::has_mass(const Combination& form) const {
   });
 }
 
-/// Rigid contacts that act on common degrees of freedom; and sliders on ground that stands, apart from those: what presses
-/// is another matter, and what sticks to surfaces that move differently holds no common motion.
+/// Rigid contacts that act on common degrees of freedom; separately, sliders on ground at rest: their normal forces are
+/// prescribed, and contacts that stick to differently moving surfaces hold no common motion.
 std::vector<std::vector<std::size_t>> SharedRows::together() const {
   DisjointSets sets(model_.contacts.size());
   std::unordered_map<int, std::size_t> feet, sliders;  // the first that acts on a degree of freedom
@@ -105,7 +105,7 @@ SharedRows::SharedRows(const Model& model, const Structure& structure)
       if (model.contacts[k].takes_impulses()) rows.push_back(model.layout.normal(k));
       if (model.contacts[k].sticks_rigidly()) rows.push_back(model.layout.tangent(k));
     }
-    // Two walls on both sides of a mass never close together: without friction nothing is shared.
+    // Two walls on both sides of a mass never close together: without friction no rows are shared.
     const Eigen::MatrixXd null = null_of_columns(columns(rows));
     bool friction = false;
     for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)

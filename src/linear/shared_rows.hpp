@@ -1,4 +1,5 @@
-// shared_rows.hpp: contacts that hold one motion several times, as two feet or two sliders of one body that stick.
+// shared_rows.hpp: contacts that constrain one motion redundantly, such as two feet or two sticking sliders of one
+// body.
 //
 //   | M  F | | a |   | p |      H z = 0:  rows that say the same
 //   | H' 0 | | f | = | b |      F y = 0:  forces that move nothing, so that f is not unique
@@ -21,36 +22,36 @@ namespace signorini {
 /// s Z (D Y)' on rows of forces, numbered as the forces are (signorini/force_layout.hpp).
 struct SharedForces {
   std::vector<std::size_t> rows;
-  Eigen::MatrixXd entries;  ///< one a pair of rows
-  Eigen::MatrixXd null;     ///< Z, orthonormal: rows x motions that are held too often
+  Eigen::MatrixXd entries;  ///< one for each pair of rows
+  Eigen::MatrixXd null;     ///< Z, orthonormal: rows x redundantly constrained motions
 };
 
-/// Orthonormal z with H z = 0: combinations of columns that vanish, but for a rounding.
+/// Orthonormal z with H z = 0: combinations of columns that vanish up to a rounding.
 [[nodiscard]] Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h);
 
-/// Does row i take part in one of these combinations (orthonormal columns)? What rounding has left of it does not count.
+/// True if row i participates in one of these combinations (orthonormal columns) by more than rounding.
 [[nodiscard]] bool has_share(const Eigen::MatrixXd& null, Eigen::Index i);
 
 class SharedRows {
  public:
   SharedRows(const Model& model, const Structure& structure);
 
-  /// Contacts of which some may hold one motion together; lists of two at least.
+  /// Lists of two or more contacts, some of which may constrain one motion together.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
-  /// Is it one of those?
+  /// True if the contact is in one of those lists.
   [[nodiscard]] bool may_share(std::size_t contact) const { return grouped_[contact]; }
   /// Shared forces of the rows in force; empty: all rows are independent.
   [[nodiscard]] std::vector<SharedForces> in_force(const std::vector<Rows>& rows) const;
 
  private:
   const Model& model_;
-  std::vector<double> lightness_;  // a degree of freedom: 1/mass; 0 without
+  std::vector<double> lightness_;  // by degree of freedom: 1/mass; 0 without mass
   std::vector<std::vector<std::size_t>> groups_;
-  std::vector<bool> grouped_;  // one a contact
+  std::vector<bool> grouped_;  // one for each contact
 
   [[nodiscard]] bool has_mass(const Combination& form) const;
   [[nodiscard]] std::vector<std::vector<std::size_t>> together() const;
-  /// H on the degrees of freedom that it touches, each over the square root of its mass.
+  /// H on the degrees of freedom on which the rows act, each divided by the square root of its mass.
   [[nodiscard]] Eigen::MatrixXd columns(const std::vector<std::size_t>& rows) const;
 };
 

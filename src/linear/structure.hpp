@@ -25,18 +25,18 @@ struct Structure {
   void add_product(const double* a, const double* v, const double* u, double* r) const;
   /// r -= C v + K u
   void subtract_forces(const double* v, const double* u, double* r) const;
-  /// v^T C v. Half of the symmetric part, entries that are not zero.
+  /// v^T C v, from half of the symmetric part, nonzero entries only.
   [[nodiscard]] double damping_power(const double* v) const;
   /// x^T values x
   [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
-  /// Sum of the magnitudes of its terms: what rounding is relative to.
+  /// Sum of the magnitudes of the terms: reference for rounding.
   [[nodiscard]] double magnitude(const std::vector<double>& values, const double* x) const;
   /// r += values x, for one of m, c, k
   void add_product(const std::vector<double>& values, const double* x, double* r) const;
 
  private:
   struct HalfColumn {
-    int column = 0, end = 0;  // end: of its entries in half_row_
+    int column = 0, end = 0;  // end: end of its entries in half_row_
     double diagonal = 0.0;
   };
   BandedForces banded_;

@@ -34,7 +34,7 @@ class Pattern {
   std::vector<std::set<int>> columns_;
 };
 
-/// Rows of the matrix, and columns: those of the forces follow those of the degrees of freedom.
+/// Rows of the matrix, and columns: those of forces follow those of the degrees of freedom.
 struct ForcePlaces {
   int dofs;
   const ForceLayout& layout;
@@ -48,7 +48,7 @@ struct ForcePlaces {
   [[nodiscard]] std::array<int, 2> of(std::size_t contact) const {
     return {normal(contact), tangent(contact)};
   }
-  /// Those of no force.
+  /// Places without a force.
   [[nodiscard]] std::vector<int> unused(std::size_t contacts) const {
     std::vector<int> result;
     for (std::size_t c = 0; c < contacts; ++c)

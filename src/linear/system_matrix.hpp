@@ -1,16 +1,16 @@
-// system_matrix.hpp: the one matrix behind every solve of an engine.
+// system_matrix.hpp: the matrix of all linear solves of the engines.
 //
 //   | M w_a + C w_v + K w_u    n   t |   columns of the degrees of freedom carry weights
 //   | rows of the contacts         . |   (acceleration, velocity, displacement) each
 //
-// The weights say what an unknown of that column stands for. IDA solves for dv where there is mass
-// (w = cj, 1, 1/cj) and du where there is none (0, cj, 1); the expansion in time solves for v', for u'
-// of damped and u of undamped massless degrees of freedom (motion/mode_system.hpp); Newmark puts
-// (1, h/2, h^2/4). Order of unknowns and rows: the n degrees of freedom, then N_k
-// and T_k of each contact in turn. The pattern is the union over all states: one for the whole run.
-// Rigid contacts that hold one motion together have s z z' besides, so that forces are unique (linear/shared_rows.hpp).
-// Where a degree of freedom stands for a motion without mass (linear/undamped_motion.hpp), its column is
-// that of the motion, the sum of z_i times the columns that i would have with its weights.
+// The weights define the unknown of that column. IDA solves for dv of degrees of freedom with mass (w = cj, 1, 1/cj)
+// and for du of those without (0, cj, 1); the expansion in time solves for v', for u' of damped and u of undamped
+// massless degrees of freedom (motion/mode_system.hpp); Newmark uses (1, h/2, h^2/4). Order of unknowns and rows: the n
+// degrees of freedom, then N_k and T_k of each contact in turn. The pattern is the union over all states: one for the
+// whole run. Rigid contacts that constrain one motion together have the additional entries s z z', so that forces are
+// unique (linear/shared_rows.hpp). If a degree of freedom represents a motion without mass
+// (linear/undamped_motion.hpp), its column is that of the motion, the sum of z_i times the columns that i would have
+// with its weights.
 #pragma once
 
 #include <vector>
@@ -32,27 +32,27 @@ struct Weights {
 /// The factor of one degree of freedom in a form.
 [[nodiscard]] double component(const Combination& combination, int dof);
 
-/// Entry of a contact's row, in the column of a degree of freedom with these parts of normal and tangent.
+/// Entry of a contact's row in the column of a degree of freedom with these components of normal and tangent.
 [[nodiscard]] inline double entry_of(const Form& f, double n, double t, const Weights& w) {
   return n * (f.gap * w.displacement + f.vn * w.velocity + f.an * w.acceleration) +
          t * (f.ut * w.displacement + f.vt * w.velocity + f.at * w.acceleration);
 }
 
-/// Rows of all contacts in a mode.
+/// Rows of all contacts in a contact state.
 [[nodiscard]] std::vector<Rows> rows_of(const Model& model, const Mode& mode);
 
 class SystemMatrix {
  public:
   SystemMatrix(const Model& model, const Structure& structure);
 
-  /// Fills the values; weights: one a degree of freedom. `fresh`: choose new pivots (after a state
-  /// change). False: singular.
+  /// Fills the values; weights: one for each degree of freedom. `fresh`: choose new pivots (after a state change).
+  /// False: singular.
   bool set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
            const std::vector<UndampedMotion>& undamped = {});
   /// b := A^-1 b, length size().
   void solve(double* b) { klu_.solve(b); }
   [[nodiscard]] const SharedRows& shared_rows() const { return shared_; }
-  /// In the rows that were set last.
+  /// Shared forces in the rows that were set last.
   [[nodiscard]] const std::vector<SharedForces>& shared() const { return in_force_; }
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] const Klu& klu() const { return klu_; }
@@ -65,7 +65,7 @@ class SystemMatrix {
     std::vector<std::size_t> N_column, T_column;       // row dof, column of the force
     std::size_t NN, NT, TN, TT;
   };
-  /// values_ of column `to` += factor times what `from` has with these weights.
+  /// values_ of column `to` += factor times the entries that `from` has with these weights.
   void add_column(int to, int from, double factor, const Weights& weights, const std::vector<Rows>& rows);
   void add_shared(const std::vector<Rows>& rows);
   [[nodiscard]] std::size_t slot(int row, int column) const;
@@ -75,11 +75,11 @@ class SystemMatrix {
   const Structure& structure_;
   SharedRows shared_;
   std::vector<SharedForces> in_force_;
-  bool united_;  // some columns have the rows of others, too
+  bool united_;  // some columns also have the rows of others
   std::vector<std::int64_t> column_start_, row_;
   std::vector<std::size_t> structure_slot_;  // position of the structure's entry p
   std::vector<ContactSlots> contacts_;
-  std::vector<std::size_t> unused_;  // diagonal of places of no force
+  std::vector<std::size_t> unused_;  // diagonal of places without a force
   std::vector<double> values_;
   Klu klu_;
 };

@@ -1,11 +1,11 @@
 // triangular_factors.hpp: KLU's factors packed for many solves.
 //
 //   R \ (P A Q) = L U + F       block upper triangular: L, U on the diagonal blocks, F above them
-//   U = D U',  u'_ii = 1        pivots are reciprocals, and no product with them stands between two columns
+//   U = D U',  u'_ii = 1        pivots are stored as reciprocals, applied once, not between columns
 //
-// KLU keeps 16 bytes an entry, divides by pivots and scales, and goes through columns in the order of
-// elimination, where most wait for the one before. Here are 12 bytes, and columns that do not depend on each
-// other come in turn. An IDA step is one solve, a step of the series thirty: they outnumber factorisations.
+// KLU uses 16 bytes for each entry, divides by pivots and scales, and processes columns in the order of elimination,
+// where most wait for the previous one. This format uses 12 bytes, and places independent columns next to each other.
+// An IDA step takes one solve, a step of the series thirty: solves outnumber factorisations.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,17 @@ namespace signorini {
 
 class TriangularFactors {
  public:
-  /// b := A^-1 b; both of length size(), work: for scratch.
+  /// b := A^-1 b; both of length size(), work: scratch.
   void solve(double* b, double* work) const;
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
-  /// Memory held.
+  /// Memory in use.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   friend class FactorReader;  // linear/factor_reader.hpp makes them
   /// Entries column after column; those of the i-th column end at end[i].
   struct Columns {
-    std::vector<int> column, end, row;  // column: in the order in which a sweep takes them
+    std::vector<int> column, end, row;  // column: in the order of a sweep
     std::vector<double> value;
     [[nodiscard]] std::size_t bytes() const;
   };

@@ -11,7 +11,7 @@ namespace {
 
 using SparseRow = std::map<int, double>;
 
-/// a += factor b; what cancels is gone.
+/// a += factor b; cancelled entries are removed.
 void add_row(SparseRow& a, double factor, const SparseRow& b) {
   for (const auto& [dof, value] : b) {
     double& entry = a[dof];
@@ -21,7 +21,7 @@ void add_row(SparseRow& a, double factor, const SparseRow& b) {
   }
 }
 
-/// The velocity that a row asks for, on degrees of freedom that nothing else damps.
+/// The velocity that a row depends on, on degrees of freedom without other damping.
 SparseRow velocity_of(const Form& row, const Contact& contact, const std::vector<DofKind>& own) {
   SparseRow result;
   const auto add = [&](const Combination& form, double factor) {
@@ -68,7 +68,7 @@ class Elimination {
   std::map<int, SparseRow> rows_;  // by column
 };
 
-/// Terms of the velocities that rows of the contact may ask for, each in one of its states.
+/// Terms of the velocities that rows of the contact may depend on, each in one of its states.
 std::vector<Combination> velocities_of(const Contact& contact) {
   if (!contact.obeys_coulomb()) {
     Combination both = contact.normal;
@@ -107,7 +107,7 @@ MotionKinds kinds_in_mode(const std::vector<DofKind>& own, const Model& model,
 }
 
 std::vector<std::vector<int>> undamped_together(const std::vector<DofKind>& own, const Model& model) {
-  std::map<int, int> leader;  // of the set that a degree of freedom is in
+  std::map<int, int> leader;  // representative of the set that contains a degree of freedom
   const auto find = [&](int dof) {
     int at = leader.emplace(dof, dof).first->second;
     while (leader[at] != at) at = leader[at];

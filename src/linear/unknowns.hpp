@@ -1,4 +1,4 @@
-// unknowns.hpp: where everything stands in a vector of unknowns, and in one of rows.
+// unknowns.hpp: places in a vector of unknowns, and in one of rows.
 //
 //   (x_1 ... x_n,  N_1, T_1,  N_2, T_2, ...)      forces in the order of signorini/force_layout.hpp
 #pragma once

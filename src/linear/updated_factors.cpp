@@ -7,11 +7,11 @@
 namespace signorini {
 namespace {
 
-// What 1 + D Y may lose: three digits, as much as pivots that are kept for another length (linear/klu.cpp). By its
-// inverse as many as its condition has; and where D Y is great, the rows in force are small differences of x and Y times
-// what they are shares of.
+// Limit for the loss of digits by 1 + D Y: three, the same as for pivots kept for another length (linear/klu.cpp). Its
+// inverse loses as many as its condition number; and if D Y is large, the rows in force are small differences of x and
+// of Y times their shares.
 constexpr double least_quality = 1e-3;
-// Columns of Y that are kept: rows come and go.
+// Columns of Y that are kept, since rows recur.
 constexpr std::size_t most_columns = 4 * UpdatedFactors::most_rows;
 
 double dot(const ChangedRow& row, const double* x) {
@@ -59,7 +59,7 @@ bool UpdatedFactors::set(std::vector<ChangedRow> rows) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(m, m);
   inverse_ = solve_dense(one + added, one);
   const double size = 1.0 + norm(added);
-  return least_quality * size * std::max(1.0, norm(inverse_)) <= 1.0;  // false where it is no number
+  return least_quality * size * std::max(1.0, norm(inverse_)) <= 1.0;  // false for NaN
 }
 
 void UpdatedFactors::solve(double* b, double* work) {

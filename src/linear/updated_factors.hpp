@@ -1,6 +1,6 @@
 // updated_factors.hpp: a matrix that differs from a factorised one in few rows (Woodbury).
 //
-//   A = A_0 + sum e_r d_r'          d_r: what row r of A has beyond that of A_0
+//   A = A_0 + sum e_r d_r'          d_r: difference between row r of A and that of A_0
 //   A^-1 b = x - Y (1 + D Y)^-1 D x      x = A_0^-1 b,  columns of Y: A_0^-1 e_r,  rows of D: d_r'
 //
 // A column of Y costs a solve and is kept while A_0 stays, so a row that changes again costs none.
@@ -26,17 +26,17 @@ class UpdatedFactors {
   /// Beyond this many rows a solve with Y costs more than the factors of a banded matrix.
   static constexpr std::size_t most_rows = 16;
 
-  /// A_0; it must be regular.
+  /// Sets A_0, which must be regular.
   void start(std::shared_ptr<const TriangularFactors> base);
   [[nodiscard]] const TriangularFactors* base() const { return base_.get(); }
-  /// Puts rows in force. False: too many, or the sum that is inverted loses more digits than a solve may; then there is
-  /// no matrix.
+  /// Puts rows in force. False: there are too many, or the inverted sum loses more digits than a solve may; then there
+  /// is no matrix.
   [[nodiscard]] bool set(std::vector<ChangedRow> rows);
-  /// b := A^-1 b; both of the length of A, work: for scratch.
+  /// b := A^-1 b; both of the length of A, work: scratch.
   void solve(double* b, double* work);
-  /// Numbers that a solve takes beside those of A_0.
+  /// Numbers that a solve processes in addition to those of A_0.
   [[nodiscard]] std::size_t numbers() const { return rows_.size() * (base_ ? base_->size() : 0); }
-  /// Solves that columns of Y have taken.
+  /// Number of solves for columns of Y.
   [[nodiscard]] long solves() const { return solves_; }
 
  private:
@@ -45,8 +45,8 @@ class UpdatedFactors {
   std::shared_ptr<const TriangularFactors> base_;
   std::map<std::size_t, Eigen::VectorXd> columns_;
   std::vector<ChangedRow> rows_;
-  std::vector<const Eigen::VectorXd*> in_force_;  // of Y, one a row
-  Eigen::MatrixXd inverse_;                       // of 1 + D Y
+  std::vector<const Eigen::VectorXd*> in_force_;  // columns of Y, one for each row
+  Eigen::MatrixXd inverse_;                       // inverse of 1 + D Y
   Eigen::VectorXd parts_, shares_, work_;
   long solves_ = 0;
 };

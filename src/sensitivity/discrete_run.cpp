@@ -189,7 +189,7 @@ double DiscreteRun::end_of(std::size_t p, const RunStep& step, const Ends& ends)
   return ends.moved.t - standing / rate;
 }
 
-/// A row between nodes: the step redone to there, at a time that does not move.
+/// Row between nodes: the step redone to that time, which does not move.
 void DiscreteRun::row(const RunStep& step, double t) {
   const Node at = redone(step.forcing, t);
   TangentSample sample{t, step.forcing, mode_, point_of(at.point), {}, {}, {}, {}};
@@ -240,7 +240,7 @@ void DiscreteRun::hit(std::size_t p, const RunInstant& now) {
   impulse_t_[p] = std::move(rates.tangent);
 }
 
-/// Anchors that are dropped, as TangentEvents::move_anchors.
+/// Updates anchors that are dropped, like TangentEvents::move_anchors.
 void DiscreteRun::hold(std::size_t p, const RunInstant& now) {
   const ForcingRatesSeries series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -320,7 +320,7 @@ void DiscreteRun::instant(const RunInstant& instant) {
   rows_at(instant);
 }
 
-/// A row asked for at the instant itself shows what is just after.
+/// An output row at the instant itself contains the values just after.
 void DiscreteRun::rows_at(const RunInstant& instant) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{grid_[next_], instant.forcing_after, mode_, point_of(node_.point), {}, {}, {}, {}};

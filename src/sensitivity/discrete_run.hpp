@@ -27,7 +27,7 @@ class DiscreteRun final : public RunListener {
   DiscreteRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
               const std::vector<double>& sizes, TangentListener& listener);
 
-  /// Of the engine it asks nothing.
+  /// It needs no data from the engine.
   [[nodiscard]] static ListenerNeeds needs() { return {}; }
   void begin(const RunInstant& start) override;
   void step(const RunStep& step) override;

@@ -276,7 +276,7 @@ class Fitter {
                                                        // decreases
   bool level_ = false;                                 // the slope is zero at the result
   bool kink_ = false;                                  // both sides disagree
-  bool falls_ = false;                                 // the sum decreases, but nothing lower was found there
+  bool falls_ = false;                                 // the sum decreases, but no lower place was found
 };
 
 }  // namespace

@@ -39,12 +39,13 @@ class FollowedMotion {
   /// Modes of the model; null: modes cannot follow it.
   [[nodiscard]] ModalSystem* modes();
   [[nodiscard]] Stepper& engine(bool in_modes);
-  /// The motion at t, from a series of its own.
+  /// The motion at t, from a separate series.
   [[nodiscard]] SeriesPoint at(double t);
 
-  /// When the instant is; nothing: its guard does not fall there.
+  /// Time of the instant; nullopt: its guard does not reach zero there.
   [[nodiscard]] std::optional<double> time_of(const RunInstant& instant, const MotionAt& at) const;
-  /// The instant at t, where the motion is u and v; the engine's own where that is taken. It lives as long as this.
+  /// The instant at t, with the motion u and v; the engine's own instant if its state is taken. It lives as long as
+  /// this object.
   [[nodiscard]] RunInstant pass(const RunInstant& instant, double t, const SeriesPoint& before);
   /// The engine's own instant, and its state.
   [[nodiscard]] RunInstant take(const RunInstant& instant);

@@ -10,7 +10,7 @@ namespace signorini {
 
 class LandingRecord {
  public:
-  /// The model must outlive it.
+  /// The model must outlive the object.
   LandingRecord(const Model& model, std::size_t parameters)
       : model_(model), parameters_(parameters), all_(model.contacts.size()), lasts_(all_.size(), false) {}
 

@@ -19,7 +19,7 @@ struct WantedPlace {
 
 /// Second derivatives of the contact forces at x.
 [[nodiscard]] Vector force_bends(const Series& series, std::size_t degree, double x);
-/// Where a contact presses hardest for a while: N' falls through zero and rises.
+/// Times at which a contact's compression has a maximum: N' reaches zero and then rises.
 [[nodiscard]] std::vector<double> pressing_turns(const Model& model, const RunStep& step);
 
 class SeriesTangents {
@@ -28,7 +28,7 @@ class SeriesTangents {
   SeriesTangents(const Model& model, ModeSystems& systems, const std::vector<const ModelDerivative*>& data,
                  bool losses);
 
-  /// To the end of the step; into samples, one for each place that is wanted, what the parameter has there.
+  /// Advances to the end of the step; adds the parameter's tangent to samples, one for each requested place.
   void advance(TangentState& state, const RunStep& step, const std::vector<WantedPlace>& wanted,
                std::vector<TangentSample>& samples, std::size_t parameter) const;
 

@@ -141,7 +141,7 @@ void TangentEvents::find_times(Course& course) const {
   course.after.dt = times.front();
   if (*most - *least <= same * std::max(std::abs(*least), std::abs(*most)) + least_) return;
   if (is_smooth(course)) {
-    course.after.dt = 0.0;  // nothing jumps: each contact has its own time, and the motion none
+    course.after.dt = 0.0;  // no jumps: each contact has its own time, the motion has none
     return;
   }
   course.stop("events at one instant part with it, and what comes after depends on which is first");

@@ -39,7 +39,7 @@ struct TangentAfter {
   Tangent start;
   SeriesPoint point;
   std::vector<DrivenRates> driven;
-  double dt = 0.0;                           ///< of the instant
+  double dt = 0.0;                           ///< dt/dp of the instant
   std::vector<EventRates> rates;             ///< one per contact, machine units
   std::vector<double> impulse_n, impulse_t;  ///< derivatives, one per contact; empty: no impact
   std::string reason;                        ///< not empty: reason why there is no derivative after the

@@ -101,7 +101,7 @@ void TangentRun::begin(const RunInstant& start) {
   pass(start);
 }
 
-/// The stretch that begins here, in modes, if they can follow it.
+/// Starts the stretch that begins here in modes, if they can follow it.
 bool TangentRun::starts_in_modes(const RunStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
   ModalSystem* modes = share_->modes != nullptr ? share_->modes : followed_.modes();
@@ -116,7 +116,7 @@ bool TangentRun::starts_in_modes(const RunStep& step) {
   return modal_->start(*modes, from, step.forcing, std::move(sources));
 }
 
-/// Of tangents by the state alone.
+/// True if flow_ crosses the stretch in closed form: tangents by the state alone.
 bool TangentRun::crosses(const RunStep& step) {
   if (flow_ == nullptr || !closed_flow_ || !flow_->knows(step.decision.mode)) return false;
   crossed_ = step.decision.mode;
@@ -136,7 +136,7 @@ TangentRun::Way TangentRun::way_of(const RunStep& step) {
   if (crosses(step)) return Way::closed;
   const bool knew = !foreign_;
   foreign_ = share_->modes == nullptr && step.facts.expansion.series == nullptr;
-  // Stretches that the engine's own series told of have passed by the motion that is followed.
+  // The followed motion is not up to date after stretches that used the engine's own series.
   if (foreign_ && knew) followed_.begin(step.decision);
   if (foreign_) followed_.start(step.forcing);
   const bool modes = starts_in_modes(step);
@@ -204,7 +204,7 @@ void TangentRun::arrive(double t) {
   }
 }
 
-/// Of an engine that was followed: what it knows itself, with the forces of the mode.
+/// State just before an instant of an engine that was followed: its own u and v, with the forces of the contact state.
 SeriesPoint TangentRun::just_before(const RunInstant& instant) {
   const ModeSystemPtr system = systems_.of(instant.mode_before);
   if (!system) return end_;
@@ -225,7 +225,7 @@ std::vector<WantedPlace> TangentRun::wanted(const RunStep& step, std::span<const
   return list;
 }
 
-/// Newton's method on the rate, from where the engine saw it turn: it sees no more than what is slow.
+/// Newton's method on the rate, starting at the turning point found by the engine, which resolves slow modes only.
 double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const RunStep& step) const {
   double at = t;
   for (int i = 0; i < most_turn_steps; ++i) {
@@ -241,7 +241,7 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const R
   return at;
 }
 
-/// Where something turns beyond all before.
+/// Places at which a quantity turns beyond all its earlier values.
 std::vector<double> TangentRun::turns_in_modes(const RunStep& step) const {
   std::vector<double> turns;
   for (const double t : step.facts.turning_points) {
@@ -317,7 +317,7 @@ void TangentRun::instant(const RunInstant& instant) {
   way_ = Way::unknown;
 }
 
-/// Of an engine that makes no series: where and as the motion that is followed has it.
+/// Instant of an engine without series: at the time and in the state of the followed motion.
 void TangentRun::follow_instant(const RunInstant& instant) {
   std::optional<double> t;
   if (is_followed())
@@ -385,7 +385,7 @@ void TangentRun::pass(const RunInstant& instant) {
   end_ = after;
 }
 
-/// A row asked for at the instant itself shows what is just after.
+/// An output row at the instant itself contains the values just after.
 void TangentRun::rows_at(const RunInstant& instant, const SeriesPoint& after) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{grid_[next_], instant.forcing_after, instant.after.mode, after, {}, {}, {}, {}};

@@ -40,7 +40,7 @@ class TangentRun final : public RunListener {
     for (TangentState& state : states_) state.events.cross_smooth_grazes();
   }
 
-  /// The engine of the run is asked for this.
+  /// Data that the engine of the run has to provide.
   [[nodiscard]] ListenerNeeds needs() { return {&own_share_}; }
   void begin(const RunInstant& start) override;
   void step(const RunStep& step) override;
@@ -90,8 +90,8 @@ class TangentRun final : public RunListener {
   Stretches stretches_;
   SeriesPoint end_;  ///< motion just before the next instant
   StateFlow* flow_ = nullptr;
-  Mode crossed_;        ///< of the stretch that flow_ crosses
-  double begin_ = 0.0;  ///< of the stretch
+  Mode crossed_;        ///< contact states of the stretch that flow_ crosses
+  double begin_ = 0.0;  ///< beginning of the stretch
   bool closed_flow_;    ///< EngineAbilities::closed_flow of the run's engine
 };
 

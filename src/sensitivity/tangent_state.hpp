@@ -18,7 +18,7 @@ struct TangentSample {
   const Mode& mode;
   SeriesPoint point;
   Vector force_bends;                            ///< second derivatives of the contact forces
-  std::vector<SeriesPoint> tangents;             ///< one per parameter; empty vectors: it has none any more
+  std::vector<SeriesPoint> tangents;             ///< one per parameter; empty vectors: it no longer exists
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
   std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
   std::vector<WorkRates> works = {};             ///< one per parameter; empty: not followed
@@ -34,15 +34,15 @@ struct TangentState {
   TangentSeries series;
   TangentEvents events;
   TangentBefore now;                    ///< state just before the next instant
-  std::optional<ForcingRates> forcing;  ///< of the current segment
+  std::optional<ForcingRates> forcing;  ///< forcing of the current segment
   double reach = 0.0;                   ///< time over which its series converged last; 0: unknown
   double error = 0.0;  ///< of all stretches so far, relative (TangentSeries::error); for derivatives of
                        ///< states alone
   bool alive = true;
   double until = 0.0;  ///< time from which it does not exist
   std::string reason;
-  std::vector<EventRates> rates;  ///< of the last instant, one per contact
-  double dt = 0.0;                ///< of the last instant
+  std::vector<EventRates> rates;  ///< rates at the last instant, one per contact
+  double dt = 0.0;                ///< dt/dp of the last instant
   // only if works and losses are followed
   std::optional<WorkTangent> works;  ///< current values, at fixed time
   std::optional<LossRates> losses;

@@ -70,12 +70,12 @@ std::optional<Track::Objection> objection_of(const Report& report, const Model& 
   return Track::Objection{first.t, where + sentence_of(first, model)};
 }
 
-/// What a companion leaves open, and how it moves its events.
+/// Decisions that a companion leaves open, and the shifts of its events.
 class CompanionWatch final : public RunListener, public EventShift {
  public:
   CompanionWatch(const CompanionRun& run, Tracker& tracker)
       : tracker_(tracker), seed_(run.seed), moved_(run.moved) {}
-  /// What it has moved an event by itself is no difference: that is for what comes later.
+  /// A shift of this event by the companion itself is not a difference between the runs: it affects later events only.
   void instant(const RunInstant& instant) override {
     tracker_.moved = instant.fired.empty() ? 0.0 : by_ / instant.t;
   }
@@ -91,7 +91,7 @@ class CompanionWatch final : public RunListener, public EventShift {
       by_ = sign_by_chance(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
     return by_;
   }
-  /// Rounding that grows from step to step is drawn by its own steps.
+  /// Random step lengths give independent samples of rounding that accumulates from step to step.
   [[nodiscard]] ListenerNeeds needs() const { return {nullptr, true, seed_}; }
   std::optional<Graze> first;
   std::vector<NearHit> near;
@@ -206,8 +206,8 @@ class Companions {
 /// True if a run is certified without a request.
 bool is_cheap(const CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
 
-/// Reason why it is not certified. The cost ratio of two runs with one engine is well known; for two engines it is not,
-/// but the duration of the run is known by then, and the number of its restarts.
+/// Reason why the run is not certified. The cost ratio of two runs with one engine is well known; for two engines it is
+/// not, but by then the duration of the run and the number of its restarts are known.
 std::string why_not(const Model& model, const RunSpec& run, const CompanionPlan& plan, const Report& report) {
   if (!(plan.cost > 0.0))
     return "the cost of a companion run cannot be estimated for this scene; --certify starts one";

@@ -1,7 +1,7 @@
 // tracker.hpp: data recorded from a run and from its companions.
 //
 //   Tracker own(model, run, &recorder)      forwards everything to the recorder
-//   Tracker other(model, run)               keeps events and the columns of history.csv, forwards nothing
+//   Tracker other(model, run)               keeps events and the columns of history.csv, without forwarding
 //
 // A companion runs in its own thread: it stops where the run has ended, or on request.
 #pragma once
@@ -59,7 +59,7 @@ class Tracker : public ForwardingRecorder {
  private:
   const Model& model_;
   bool all_, companion_;
-  double last_time_ = std::numeric_limits<double>::quiet_NaN();  // of the last outputs
+  double last_time_ = std::numeric_limits<double>::quiet_NaN();  // time of the last outputs
   std::vector<double> last_outputs_;
   double steps_ = 0.0;
 };

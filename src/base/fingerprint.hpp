@@ -1,9 +1,9 @@
-// fingerprint.hpp: short text that differs where texts differ, the same on every machine.
+// fingerprint.hpp: short text that differs if texts differ, the same on every machine.
 //
 //   FNV-1a of 64 bits:   h = 14695981039346656037,  for each byte  h = (h xor byte) 1099511628211 mod 2^64
 //   sixteen hexadecimal digits of h
 //
-// A single changed byte always changes it; of other changes one in 2^64 does not.
+// A single changed byte always changes the fingerprint; any other change does so except with the probability 2^-64.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace signorini {
 
-/// The text may come in parts.
+/// The text may be passed in parts.
 class Fingerprint {
  public:
   void add(std::string_view part);

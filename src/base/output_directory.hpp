@@ -21,11 +21,11 @@ struct ResultsKind {
 /// replace: earlier results may be replaced (--force).
 void check_output_directory(const std::filesystem::path& path, const ResultsKind& kind, bool replace);
 
-/// A file that is not in such a directory: refused where it is there and has no `mark` among its first bytes, as `what` that
-/// Signorini writes has. Empty files, pipes and devices lose nothing.
+/// Refuses a single output file if it exists and does not contain `mark` among its first bytes, the mark of the `what`
+/// that Signorini writes. Empty files, pipes and devices are accepted, since no data are lost.
 void check_output_file(const std::filesystem::path& path, const std::string& what, std::string_view mark);
 
-/// Returns the outermost that had to be made; empty where all were there.
+/// Returns the outermost directory that was created; empty if all existed.
 std::filesystem::path make_directory(const std::filesystem::path& path);
 
 /// `first`: return value of make_directory().

@@ -38,7 +38,7 @@ std::ifstream opened(const fs::path& path) {
   return stream;
 }
 
-/// Whether the last line has no line end, which a kill may have left.
+/// True if the last line has no line end, as after a kill.
 bool is_cut(const fs::path& table) {
   if (!why_no_input_file(table).empty()) return false;
   std::ifstream stream(table, std::ios::binary | std::ios::ate);
@@ -59,7 +59,7 @@ ManifestEntry entry_of(const fs::path& directory, std::string_view file) {
       checksum.add({part.data(), static_cast<std::size_t>(n)});
       entry.size += static_cast<std::uintmax_t>(n);
     }
-  } catch (const std::ios_base::failure& error) {  // of the disk
+  } catch (const std::ios_base::failure& error) {  // error of the disk
     throw FileError((directory / file).string(), std::string("cannot be read: ") + error.what());
   }
   entry.checksum = checksum.text();

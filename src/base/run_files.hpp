@@ -1,12 +1,13 @@
-// run_files.hpp: the files of a run's directory, and its manifest: with it readers notice torn and altered files.
+// run_files.hpp: the files of a run's directory, and its manifest, with which readers detect incomplete and altered
+// files.
 //
 //   DIR/manifest.json   {"signorini": "0.9.0", "outcome": "done",
 //                        "files": [{"file": "events.csv", "size": 5120, "checksum": "9d0c5f1e2a7b4c38"}, ...]}
 //
-//   size: bytes;  checksum: of all bytes, base/fingerprint.hpp;  files: in the order of result_files, those that are there
+//   size: bytes;  checksum: of all bytes, base/fingerprint.hpp;  files: existing ones, in the order of result_files
 //
-// A run removes the manifest before it changes any other file and writes it after all others. So a run that was killed
-// has none. Pictures and pages are drawn from the files of the manifest, and are not in it.
+// A run removes the manifest before it changes any other file and writes it after all others. So a killed run has none.
+// Pictures and pages are drawn from the files of the manifest, and are not listed in it.
 #pragma once
 
 #include <array>
@@ -21,14 +22,14 @@ namespace signorini {
 
 inline constexpr const char* manifest_file = "manifest.json";
 
-/// Results of a run.
+/// All result files of a run.
 inline constexpr std::array<std::string_view, 21> result_files = {
     "events.csv", "history.csv",   "errors.csv",         "seams.csv",        "contacts.csv",
     "motion.csv", "response.csv",  "energy.csv",         "curves.csv",       "body_motion.csv",
     "loads.csv",  "frames.csv",    "frame_contacts.csv", "frame_bodies.csv", "frame_seams.csv",
     "states.csv", "geometric.csv", "instants.csv",       "orbit.json",       "summary.json",
     "run.toml"};
-/// Those that pictures are drawn from; a run may leave them out, and get them later.
+/// Files from which pictures are drawn; a run may leave them out, and they may be added later.
 inline constexpr std::array<std::string_view, 3> picture_rows = {"motion.csv", "curves.csv",
                                                                  "body_motion.csv"};
 
@@ -44,23 +45,25 @@ struct Manifest {
 
   [[nodiscard]] const ManifestEntry* find(std::string_view file) const;
   void drop(std::string_view file);
-  /// Takes the file as it is now; one that is not there is dropped. Errors: FileError.
+  /// Records the current state of the file; a file that does not exist is dropped. Errors: FileError.
   void take(const std::filesystem::path& directory, std::string_view file);
   [[nodiscard]] std::string text() const;
 };
 
-/// Lists all results that are there. Errors: FileError.
+/// Lists all existing results. Errors: FileError.
 [[nodiscard]] Manifest manifest_of(const std::filesystem::path& directory, const std::string& outcome);
-/// What DIR/manifest.json says; none where it is missing. Errors: FileError.
+/// Content of DIR/manifest.json; nullopt if it is missing. Errors: FileError.
 [[nodiscard]] std::optional<Manifest> read_manifest(const std::filesystem::path& directory);
-/// Before a file of the directory changes. Errors: FileError.
+/// Must be called before a file of the directory changes. Errors: FileError.
 void remove_manifest(const std::filesystem::path& directory);
 
-/// Refuses files that are no regular files, and, with a manifest, files that it does not list, that are missing, or that
-/// have another size or checksum. Without names: all that a run writes. Errors: FileError, with the name of the file.
+/// Refuses files that are not regular files, and, if there is a manifest, files that are not listed or missing or that
+/// have another size or checksum. Without names: checks all files that a run writes. Errors: FileError, with the name
+/// of the file.
 void check_run_files(const std::filesystem::path& directory);
 void check_run_files(const std::filesystem::path& directory, const std::vector<std::string_view>& names);
-/// A sentence where there is no manifest to check files against, and whether states.csv is cut; else empty.
+/// A sentence that there is no manifest to check files against, and whether states.csv is cut; empty if there is a
+/// manifest.
 [[nodiscard]] std::string why_unchecked(const std::filesystem::path& directory);
 
 }  // namespace signorini

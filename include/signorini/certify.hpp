@@ -32,9 +32,9 @@
 
 namespace signorini {
 
-/// Bounds of the errors of history.csv; empty where nothing was recorded.
+/// Bounds of the errors of history.csv; empty if no rows were recorded.
 struct HistoryErrors {
-  std::vector<double> t;  ///< times of the rows, as far as both runs have them
+  std::vector<double> t;  ///< times of the rows that both runs have
   std::size_t width =
       0;  ///< columns of the model, then N and T of each contact, then outputs; the latter two if `forces` is
           ///< set

@@ -17,7 +17,7 @@
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
 // in stick.
 // A slider has N = -normal_force(t) instead, no gap, and without kt the row t.v' = surface acceleration.
-// A law made of data may stand in place of all this: own_law.hpp. The interface of all laws: contact_law.hpp.
+// A user law may replace all this: own_law.hpp. The interface of all laws: contact_law.hpp.
 // Forces on the body: -N along n, -T along t.
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
 #pragma once
@@ -77,7 +77,7 @@ struct Contact {
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
   std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
-  std::optional<Bowl> bowl;           ///< not of rigid contacts
+  std::optional<Bowl> bowl;           ///< not for rigid contacts
   double normal_damping = 0.0;        ///< dashpot beside the normal spring
   Friction friction;
   double restitution = 0.0;                ///< rigid: Newton's coefficient
@@ -86,37 +86,38 @@ struct Contact {
   History normal_force;                    ///< slider: compression >= 0
   History surface_motion;                  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
-  int initial_slip = 0;  ///< sign of the slip at t = 0, which T alone does not tell below the static limit
-  std::size_t own_state = 0;  ///< where a law with states of its own begins: its state
-  double own_memory = 0.0;    ///< and p
+  int initial_slip = 0;       ///< sign of the slip at t = 0, undetermined by T below the static limit
+  std::size_t own_state = 0;  ///< user law: initial state
+  double own_memory = 0.0;    ///< user law: initial memory p
 
   [[nodiscard]] bool has_friction() const { return friction.any(); }
 
-  // The rest of the program asks a contact these things, never which law it has.
+  // The rest of the program queries these properties of a contact, never its law.
 
-  /// N = -normal_force(t) is a datum, and the contact has no gap. Else N is an unknown, g >= 0 and N <= 0.
+  /// True if N = -normal_force(t) is given and the contact has no gap. Otherwise N is an unknown, g >= 0 and N <= 0.
   [[nodiscard]] bool normal_force_given() const { return law->capabilities.normal_force_given; }
-  /// Stiffness of the spring that determines N while the contact is closed, as statics, modes, scales and bounds of rounding
-  /// see it; nullopt: N is a datum, or the force of a constraint.
+  /// Stiffness of the spring that determines N while the contact is closed, for statics, modes, scales and bounds of
+  /// rounding; nullopt: N is given, or the force of a constraint.
   [[nodiscard]] std::optional<double> normal_spring() const {
     return law->capabilities.normal_spring ? std::optional(normal_stiffness) : std::nullopt;
   }
-  /// N of the normal spring where the contact rests at displacements u, <= 0; nullopt: u does not determine N.
+  /// N of the normal spring if the contact rests at displacements u, <= 0; nullopt: u does not determine N.
   template <class U>
   [[nodiscard]] std::optional<double> resting_force(const U& u) const {
     return law->capabilities.normal_spring ? std::optional(normal_stiffness * std::min(0.0, gap_at(u)))
                                            : std::nullopt;
   }
-  /// Velocities jump where the contact closes with g' < 0.
+  /// True if velocities jump when the contact closes with g' < 0.
   [[nodiscard]] bool takes_impulses() const { return law->capabilities.takes_impulses; }
-  /// g, where the contact has one.
+  /// g, if the contact has a gap.
   [[nodiscard]] std::optional<double> gap_if_any(double g) const {
     return normal_force_given() ? std::nullopt : std::optional(g);
   }
 
-  /// (6) and (7) are the conditions of the contact: they are audited and witnessed, and its states are the built-in ones.
+  /// True if (6) and (7) are the conditions of the contact: they are audited and checked by the witness, and its states
+  /// are the built-in ones.
   [[nodiscard]] bool obeys_coulomb() const { return law->capabilities.signorini_coulomb; }
-  /// N = kn g + cn g' while closed.
+  /// True if N = kn g + cn g' while closed.
   [[nodiscard]] bool is_elastic_along_normal() const {
     return law->capabilities.normal_spring && law->capabilities.signorini_coulomb;
   }
@@ -124,30 +125,34 @@ struct Contact {
   [[nodiscard]] std::optional<double> anchor_spring() const {
     return obeys_coulomb() ? tangential_stiffness : std::nullopt;
   }
-  /// The point that slides is a degree of freedom of its own, without mass: p is an unknown. nullptr: it is not.
+  /// Shear element whose sliding point is a separate massless degree of freedom: p is an unknown. nullptr: none.
   [[nodiscard]] const ShearElement* sliding_point() const { return shear ? &*shear : nullptr; }
-  /// Stiffness between the body and the point that slides, along body_tangent(); nullopt: there is no spring along the tangent.
+  /// Stiffness between the body and the sliding point, along body_tangent(); nullopt: there is no spring along the
+  /// tangent.
   [[nodiscard]] std::optional<double> tangent_spring() const {
     return shear ? std::optional(shear->stiffness) : tangential_stiffness;
   }
-  /// The surface is curved: beside T a force acts along body_tangent() that is a product of N and ut (contact/bowl.hpp).
+  /// Curved surface: in addition to T a force acts along body_tangent() that is a product of N and ut
+  /// (contact/bowl.hpp). nullptr: the surface is plane.
   [[nodiscard]] const Bowl* curved_surface() const { return bowl ? &*bowl : nullptr; }
-  /// In each state forces are linear in the motion, with constant coefficients.
+  /// True if forces are linear in the motion in each state, with constant coefficients.
   [[nodiscard]] bool is_linear() const { return !friction.varies() && !friction.by_force() && !bowl; }
-  /// Springs of constant stiffness and Coulomb's friction, without any other force: statics and closed flows know it.
+  /// True for springs of constant stiffness and Coulomb friction without any other force: statics and closed-form flows
+  /// support it.
   [[nodiscard]] bool has_constant_stiffness() const { return obeys_coulomb() && !bowl; }
-  /// N, T and p' are functions of the contact's own motion at an instant: no equation of the law has a rate for its unknown.
+  /// True if N, T and p' are functions of the contact's motion at the same instant: no equation of the law has a rate
+  /// as unknown.
   [[nodiscard]] bool forces_follow_motion() const { return obeys_coulomb() && !shear && !friction.varies(); }
-  /// Its springs are compliance of the structure: results show the motion of the surfaces that touch.
+  /// True if its springs are compliance of the structure: results contain the motion of the touching surfaces.
   [[nodiscard]] bool compliance_split() const { return law->capabilities.compliance_split; }
 
-  /// Without a spring along the tangent: T may jump, and stick is a row on accelerations.
+  /// True without a spring along the tangent: T may jump, and stick is a row on accelerations.
   [[nodiscard]] bool sticks_rigidly() const {
     return has_friction() && !law->capabilities.normal_spring && !tangential_stiffness && !shear;
   }
-  /// T is the force of a constraint while N is a datum: the contact holds along its tangent alone.
+  /// True if T is the force of a constraint while N is given: the contact constrains its tangent alone.
   [[nodiscard]] bool holds_tangent_only() const { return normal_force_given() && sticks_rigidly(); }
-  /// T is the force of a constraint in this state.
+  /// True if T is the force of a constraint in this state.
   [[nodiscard]] bool holds_tangent(State state) const {
     return kind_of(state) == State::stick && !tangential_stiffness && !shear;
   }
@@ -160,7 +165,7 @@ struct Contact {
   [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
 };
 
-/// State and memory of one contact; an event changes them.
+/// State and memory of one contact; only events change them.
 struct ContactState {
   State state = State::open;
   /// p; meaningful in stick with tangential stiffness. With a user law: its memory.

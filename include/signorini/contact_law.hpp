@@ -1,12 +1,12 @@
-// contact_law.hpp: a contact law, and all that the rest of the program may ask of it.
+// contact_law.hpp: the interface of a contact law.
 //
 //   in state i      normal row = 0,  tangent row = 0       forms (form.hpp) from which N and T follow
-//   it holds while  guards > 0                             at most three
-//   where one falls i <- next,  p <- memory                p: what the contact remembers, an anchor or a dent
+//   valid while     guards > 0                             at most three
+//   at their zero   i <- next,  p <- memory                p: memory of the contact, such as an anchor or a dent
 //
-// A law is constant and shared. The numbers of one contact (stiffnesses, friction, gap) stand in Contact, from which the built-in
-// laws make their rows; a law made of data (own_law.hpp) holds its own numbers. Engines, decisions, witness and statics ask the
-// capabilities, never which law it is.
+// A law is constant and shared. The numbers of one contact (stiffnesses, friction, gap) are in Contact, from which the
+// built-in laws make their rows; a user law (own_law.hpp) contains its own numbers. Engines, decisions, witness and
+// statics query the capabilities, never the name of a law.
 #pragma once
 
 #include <array>
@@ -32,28 +32,29 @@ struct Unit;
 struct Violations;
 enum class Guard : unsigned char;
 
-/// The laws that a scene names; more are made of data (own_law.hpp).
+/// The laws that a scene can name; user laws are further ones (own_law.hpp).
 enum class Law { compliant, rigid, slider };
 
-/// How a law determines forces, and which equations check it.
+/// How a law determines forces, and the equations that check it.
 struct LawCapabilities {
-  /// N = -normal_force(t), whatever moves: N is a datum, and there is no gap. Else g >= 0, N <= 0, and N is an unknown.
+  /// N = -normal_force(t), independent of the motion: N is given, and there is no gap. Otherwise g >= 0, N <= 0, and N
+  /// is an unknown.
   bool normal_force_given = false;
-  /// While the contact is closed a spring determines N. Its stiffness, by which statics, modes and scales go, is
+  /// A spring determines N while the contact is closed. Its stiffness, used by statics, modes and scales, is
   /// Contact::normal_stiffness. Forces and velocities are continuous.
   bool normal_spring = false;
-  /// While the contact is closed g = 0 is a constraint: velocities jump where it closes with g' < 0.
+  /// g = 0 is a constraint while the contact is closed: velocities jump when it closes with g' < 0.
   bool takes_impulses = false;
-  /// Signorini's conditions (6) and Coulomb's (7) are those of the law: they are audited and witnessed, N = kn g + cn g' is its
-  /// spring, T = kt (ut - p) that of its anchor, and each state is one of the built-in ones.
+  /// The law obeys Signorini's conditions (6) and Coulomb's (7): they are audited and checked by the witness, N = kn g
+  /// + cn g' is its spring, T = kt (ut - p) that of its anchor, and each state is one of the built-in ones.
   bool signorini_coulomb = true;
-  /// Guards are linear forms; else products of forms may stand in them.
+  /// Guards are linear forms; otherwise they may contain products of forms.
   bool linear_guards = true;
-  /// Its springs are compliance of the structure beside it: results show the motion of the surfaces that touch.
+  /// Its springs are compliance of the structure: results contain the motion of the touching surfaces.
   bool compliance_split = false;
 };
 
-/// The laws that a scene names differ in these.
+/// Capabilities of the laws that a scene can name.
 [[nodiscard]] constexpr LawCapabilities capabilities_of(Law law) {
   switch (law) {
     case Law::compliant:
@@ -79,20 +80,20 @@ class ContactLaw {
 
   const LawCapabilities capabilities;
 
-  /// In check, messages and summary.json.
+  /// Name in check, messages and summary.json.
   [[nodiscard]] virtual std::string name() const = 0;
-  /// Is it one that scenes can name? A law made in code need not have a name.
+  /// True if scenes can name the law. A law made in code need not have a name.
   [[nodiscard]] virtual bool is_named() const { return true; }
 
-  // The interface of advance and decide. src/contact has functions of the same names that call these.
+  // Interface for advancing and deciding. Functions of the same names in src/contact call these.
   [[nodiscard]] virtual Rows rows(const Contact& contact, const ContactState& state) const = 0;
   [[nodiscard]] virtual Guards guards(const Contact& contact, const ContactState& state) const = 0;
   /// p' as a form, in a state that slips in direction s.
   [[nodiscard]] virtual Form slip_rate(const Contact& contact, int s) const = 0;
-  /// After a guard of `now` has fallen; the motion holds in state `now`.
+  /// State after a guard of `now` has reached zero; the motion is the one in state `now`.
   [[nodiscard]] virtual ContactState next_state(const Contact& contact, const ContactState& now, Guard fallen,
                                                 const MotionJet& jet) const = 0;
-  /// All states that may follow where guards decide nothing.
+  /// All states that may follow if guards do not decide.
   [[nodiscard]] virtual std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
                                                              const ContactMotion& before) const = 0;
 
@@ -107,13 +108,13 @@ class ContactLaw {
   [[nodiscard]] virtual Violations violations(const Contact& contact, State state,
                                               const ContactMotion& m) const = 0;
 
-  // States and numbers of the law itself, beside those of Contact.
-  /// Its states in order, where they are its own: files show their numbers, a run begins with one of them. Empty: the built-in
+  // States and numbers of the law itself, in addition to those of Contact.
+  /// States of a user law, in order: files contain their numbers, a run begins with one of them. Empty: the built-in
   /// states.
   [[nodiscard]] virtual std::vector<State> own_states() const { return {}; }
-  /// Do events set p in it by a rule of its own?
+  /// True if events set p by a rule of the law.
   [[nodiscard]] virtual bool has_memory() const { return false; }
-  /// The law with its own numbers visited; nullptr: it has none.
+  /// Copy of the law with its numbers visited; nullptr: it has none.
   [[nodiscard]] virtual std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const;
   [[nodiscard]] virtual bool equals(const ContactLaw& other) const { return this == &other; }
 };
@@ -121,11 +122,10 @@ class ContactLaw {
 /// A law of a contact, never null.
 class ContactLawPtr {
  public:
-  ContactLawPtr(
-      Law law = Law::compliant);  // NOLINT(google-explicit-constructor): a built-in law stands for its name
+  ContactLawPtr(Law law = Law::compliant);  // NOLINT(google-explicit-constructor): by name
   ContactLawPtr(std::shared_ptr<const ContactLaw> law)
       : law_(std::move(law)) {}  // NOLINT(google-explicit-constructor)
-  /// A law made of data.
+  /// A user law.
   ContactLawPtr(std::shared_ptr<const OwnLaw> law);  // NOLINT(google-explicit-constructor)
 
   const ContactLaw* operator->() const { return law_.get(); }
@@ -136,7 +136,7 @@ class ContactLawPtr {
   std::shared_ptr<const ContactLaw> law_;
 };
 
-/// A rigid contact on parts without mass: a compliant one whose springs are compliance of the structure
+/// A rigid contact on massless parts: a compliant one whose springs are compliance of the structure
 /// (model/borrowed_springs.hpp).
 [[nodiscard]] ContactLawPtr compliance_split_law();
 

@@ -1,6 +1,6 @@
 // event.hpp: a change of state of a contact: a row of events.csv.
 //
-//   x-  values just before the instant        x+  values just after everything that happens at it (`_after`)
+//   x-  values just before the instant        x+  values just after all changes at it (`_after`)
 //
 // One table lists the event types, another the columns. All code that writes, reads, compares or documents events.csv
 // uses these tables. A new column needs a member, its row below, and the line in run/event_log.cpp that fills it. A new
@@ -56,7 +56,7 @@ struct Event {
   double t = 0.0;
   int contact = -1;  ///< index into Model::contacts
   EventType type = EventType::time;
-  State from = State::open, to = State::open;  ///< of a user law: its states (number_of)
+  State from = State::open, to = State::open;  ///< states; for a user law its own (number_of)
   std::optional<double> gap;                   ///< absent for sliders
   double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
   double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;

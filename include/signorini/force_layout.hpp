@@ -1,9 +1,9 @@
-// force_layout.hpp: where the forces of a contact stand among those of all contacts.
+// force_layout.hpp: places of a contact's forces among those of all contacts.
 //
-//   N_1, T_1,  N_2, T_2, ...          one normal force a contact, then one force a tangent
+//   N_1, T_1,  N_2, T_2, ...          one normal force for each contact, then one force for each tangent
 //
-// Whoever needs the place of a force, the number of all forces or the contact of a row asks here. Residual rows of
-// contacts stand in the same order as the forces. All contacts of a model have places for equally many tangents.
+// It gives the place of a force, the number of all forces and the contact of a row. Residual rows of contacts have the
+// same order as the forces. All contacts of a model have places for equally many tangents.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 namespace signorini {
 
 struct ForceLayout {
-  std::size_t tangents = 1;  ///< of each contact
-  std::size_t unused = 0;    ///< places that follow the tangents of each contact; their force is zero
+  std::size_t tangents = 1;  ///< tangents of each contact
+  std::size_t unused = 0;    ///< places after the tangents of each contact; their force is zero
 
-  /// From a place of one contact to the same place of the next.
+  /// Distance from a place of one contact to the same place of the next.
   [[nodiscard]] constexpr std::size_t stride() const { return 1 + tangents + unused; }
   /// Number of all forces.
   [[nodiscard]] constexpr std::size_t size(std::size_t contacts) const { return stride() * contacts; }

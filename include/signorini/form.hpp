@@ -29,7 +29,7 @@ enum class State : unsigned char {
 };
 
 /// State i of a user law (own_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in state, and counts
-/// as its kind where a kind is asked for.
+/// as its kind wherever a kind is needed.
 inline constexpr std::size_t most_own_states = 31;
 [[nodiscard]] constexpr State own_state(std::size_t i, State kind) {
   return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));

@@ -76,7 +76,7 @@ class History {
   [[nodiscard]] History scaled(double factor, double offset = 0.0) const;
   /// F(t) = integral of f from 0 to t, continuous. Errors: std::invalid_argument if there are user-defined functions.
   [[nodiscard]] History integrated() const;
-  /// c0 f + c1 f' + c2 f'', piece by piece; jumps of f contribute nothing.
+  /// c0 f + c1 f' + c2 f'', piece by piece; jumps of f do not contribute.
   [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
   /// f(t - dt). Errors: std::invalid_argument if rounding merges starts; the same in repeated().
   [[nodiscard]] History shifted(double dt) const;

@@ -143,8 +143,8 @@ struct ComplianceShare {
   std::string what;         ///< "normal of contact 'first'", "load 1"
   int contact = -1;         ///< index into Model::contacts; -1: a load
   bool normal = false;      ///< true: the contact's normal, false: its tangent
-  double compliance = 0.0;  ///< of all modes with stiffness together
-  double residual = 0.0;    ///< of the modes that are left out
+  double compliance = 0.0;  ///< compliance of all modes with stiffness
+  double residual = 0.0;    ///< compliance of the modes that are left out
 };
 
 /// Basis of a reduced model: physical displacements = shapes * u.
@@ -196,7 +196,7 @@ struct Ties {
 /// Correction of displacements and energy for a load on parts with borrowed springs (model/borrowed_springs.hpp).
 struct SeenLoad {
   std::size_t load = 0;  ///< index into Model::loads
-  Vector displacements;  ///< of the structure's degrees of freedom, for a history of 1
+  Vector displacements;  ///< displacements of the structure, for a history of 1
   Vector energies;       ///< one for each of these loads, for histories of 1
 };
 
@@ -220,7 +220,7 @@ struct Model {
   SparseMatrix mass, damping, stiffness;
   std::vector<Load> loads;
   std::vector<Contact> contacts;
-  ForceLayout layout;  ///< of the forces of all contacts
+  ForceLayout layout;  ///< layout of the forces of all contacts
   std::vector<Column> columns;
   std::vector<Output> outputs;
   /// Sum of reactions minus loads and inertia, along x and y; zero up to the residual of the equation of motion. Empty
@@ -229,7 +229,7 @@ struct Model {
   std::vector<DrawnElement> drawing;
   std::vector<DrawnNode> drawn_nodes;
   std::vector<DrawnContact> drawn_contacts;  ///< one per contact
-  Vector u0, v0;                             ///< initial state (static equilibrium where asked)
+  Vector u0, v0;                             ///< initial state (static equilibrium if requested)
   bool static_start = false;
   StaticStart statics;
   std::vector<HangerLoad> hangers;
@@ -256,7 +256,7 @@ struct Model {
   [[nodiscard]] Eigen::Index force_count() const {
     return static_cast<Eigen::Index>(layout.size(contacts.size()));
   }
-  /// Whether displacements that are computed are those of physical_dofs().
+  /// True if the computed displacements are those of physical_dofs().
   [[nodiscard]] bool is_physical() const { return !reduction && !basis && !ties; }
   /// Displacements (or velocities) of physical_dofs(), without terms of moving supports of rigid bodies and of
   /// SeenLoad.
@@ -264,7 +264,7 @@ struct Model {
     const Vector x = structural(u);
     return ties ? ties->with_tied(x) : x;
   }
-  /// The same without tied nodes.
+  /// Same without tied nodes.
   [[nodiscard]] Vector structural(const Vector& u) const {
     Vector x = u;
     if (reduction)

@@ -28,8 +28,8 @@ struct Output {
     double N = 0.0, T = 0.0;  ///< factors of both forces
   };
   std::vector<ContactForces> forces = {};
-  /// factor (|N| - said) slip . u: restoring force of a pendulum's surface in addition to its spring, which is for the
-  /// force `said`.
+  /// factor (|N| - said) slip . u: restoring force of a pendulum's surface in addition to its spring, whose stiffness
+  /// is that for the force `said`.
   struct Restoring {
     std::size_t contact = 0;
     Combination slip = {};

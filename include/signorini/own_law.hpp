@@ -1,9 +1,9 @@
-// own_law.hpp: a contact law of one's own, beside the built-in ones; for `ida` and `exact`.
+// own_law.hpp: a user contact law, in addition to the built-in ones; for `ida` and `exact`.
 //
 //   in state i      normal_i(N, T, g, ut, g', ut', p) = 0     two rows, from which N and T follow
 //                   tangent_i(N, T, g, ut, g', ut', p) = 0
-//   it holds while  guard_ij(N, T, g, ut, g', ut', p) > 0     at most three, to which products of forms may be added
-//   where one falls i <- next, p <- memory(N, T, g, ut, g', ut') if given
+//   valid while     guard_ij(N, T, g, ut, g', ut', p) > 0     at most three, with optional products of forms
+//   at their zero   i <- next, p <- memory(N, T, g, ut, g', ut') if given
 //
 // All are linear forms (form.hpp), with a coefficient for the memory p, a length, such as the anchor of friction or the
 // dent of crushed material. Every normal row must contain N, every tangent row T; forms on accelerations are refused.
@@ -14,12 +14,12 @@
 //   scene.contacts[0].own = pad;
 //
 // The contact also is `compliant`: its normal_stiffness must have the magnitude of the law's stiffness; tolerances,
-// scales and frequencies depend on it. It starts in state 0 with p = 0, or where last_state() has left it; if guards do
-// not hold there, the state changes at once until all hold, as after every instant. A static start supports built-in
-// laws only.
+// scales and frequencies depend on it. It starts in state 0 with p = 0, or in the state given by last_state(); if
+// guards do not hold there, the state changes at once until all hold, as after every instant. A static start supports
+// built-in laws only.
 // Energy: all energy that such a contact takes, stored energy included, counts as its friction work; conditions (6) and
-// (7) do not apply to it and are not audited. Files show the kind of a state; a change between two closed states is a
-// `stick` if it ends a slip, else a `slip`.
+// (7) do not apply to it and are not audited. Files contain the kind of a state; a change between two closed states is
+// a `stick` if it ends a slip, else a `slip`.
 #pragma once
 
 #include <optional>
@@ -38,8 +38,8 @@ struct OwnForm {
 
 struct OwnGuard {
   OwnForm positive;                        ///< while the state holds
-  std::size_t next = 0;                    ///< the state after it has fallen
-  std::optional<Form> memory = {};         ///< p from then on; absent: as it was
+  std::size_t next = 0;                    ///< the state after it has reached zero
+  std::optional<Form> memory = {};         ///< p from then on; absent: unchanged
   std::vector<FormProduct> products = {};  ///< to be added to `positive`: F^2 - T^2 = (F - T)(F + T)
 };
 

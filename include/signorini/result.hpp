@@ -77,8 +77,8 @@ struct Curves {
 /// State on one side of an instant, for all degrees of freedom of the model; in a reduced model they are amplitudes.
 struct InstantSide {
   Vector u, v, a;                    ///< a: after the instant; just before it empty
-  std::vector<ContactState> states;  ///< one a contact
-  Vector forces;                     ///< of all contacts, in the order of the model's layout
+  std::vector<ContactState> states;  ///< one for each contact
+  Vector forces;                     ///< forces of all contacts, in the order of the model's layout
 };
 
 /// Impulse of one impact on a rigid contact; the impacts of one instant are ordered by turn 1, 2, ...
@@ -226,7 +226,7 @@ struct OutputPlace {
 /// the extremes are signed and cover all places; its values are magnitudes.
 struct OutputExtremes {
   double maximum = 0.0, minimum = 0.0, last = 0.0;  ///< in the unit of the output
-  double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, where several are equal to rounding
+  double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, if several are equal to rounding
   OutputPlace at_maximum = {}, at_minimum = {};
 };
 

@@ -88,7 +88,7 @@ enum class Refine { root, linear };
 enum class StepControl { fixed, doubling };
 /// exact: method for the motion between events.
 enum class Flow { automatic, modal, taylor };
-/// Whether a run is certified (certify.hpp); automatic: if the cost is low.
+/// Certification of a run (certify.hpp); automatic: if the cost is low.
 enum class Certify { automatic, yes, no };
 /// Type of companion run: the exact flow, or the same engine with a finer setting.
 enum class Companion { automatic, exact, finer };
@@ -162,12 +162,12 @@ struct SavedState {
   std::vector<std::pair<std::string, int>> slips;      ///< slip direction of contacts by name: -1, 0, 1
   struct Own {
     std::string contact;
-    std::size_t state = 0;  ///< of its user law
+    std::size_t state = 0;  ///< state of the user law
     double memory = 0.0;    ///< p
   };
   std::vector<Own> own;  ///< contacts with user laws
   double t = 0.0;        ///< time of the state, in the run's time
-  /// A row of the run's contacts.csv at t: contacts that the motion continues from, whichever columns states.csv has.
+  /// A row of the run's contacts.csv at t: initial data of the contacts, whatever columns states.csv has.
   struct Left {
     std::string contact, state;
     std::optional<double> gap;
@@ -421,14 +421,14 @@ struct ContactSpec {
   /// User law in place of the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
   std::shared_ptr<const OwnLaw> own = {};
 
-  /// Of the law that is named; a law made of data stands in place of a compliant one.
+  /// Capabilities of the named law; a user law replaces a compliant one.
   [[nodiscard]] LawCapabilities capabilities() const { return capabilities_of(law); }
   [[nodiscard]] ContactLawPtr contact_law() const { return own ? ContactLawPtr(own) : ContactLawPtr(law); }
-  /// The direction along which N acts; nullptr where the scene gives N, or no direction.
+  /// The direction along which N acts; nullptr if the scene gives N, or no direction.
   [[nodiscard]] const Direction* bearing_normal() const {
     return normal && !capabilities().normal_force_given ? &*normal : nullptr;
   }
-  /// In messages: "contacts.first.gap", "stops.guide.direction".
+  /// Key in messages: "contacts.first.gap", "stops.guide.direction".
   [[nodiscard]] std::string key(const std::string& of) const {
     return (table.empty() ? "contacts." + name : table) + "." +
            (of_stop && of == "normal" ? "direction" : of);

@@ -1,6 +1,6 @@
 // sensitivity.hpp: derivatives of events, peaks and columns of a run by keys of its scene.
 //
-//   M u'' + C u' + K u + sum ( n N + t T ) = P,  rows of the mode           the motion
+//   M u'' + C u' + K u + sum ( n N + t T ) = P,  rows of the contact state  the motion
 //   M w'' + C w' + K w + sum ( n N_p + t T_p )
 //     = P_p - M_p u'' - C_p u' - K_p u - sum ( n_p N + t_p T )              w = du/dp, the tangent motion
 //   dt/dp = - (G_p + grad G . w) / G'                                       an event at which the guard G reaches zero

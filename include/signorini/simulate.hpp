@@ -2,28 +2,28 @@
 //
 //   0 = u' - v
 //   0 = M v' + C v + K u - P(t) + sum_k ( n_k N_k + t_k T_k )
-//   0 = two rows a contact, chosen by its state (contact.hpp)
+//   0 = two rows for each contact, chosen by its state (contact.hpp)
 //
-// The loop. x = (u, v, N, T); x- is its value just before an instant, x+ just after: u- = u+ always, v jumps
-// at impacts, N and T where a load jumps or friction lets go. A mode is the list of all states; it holds on
-// [t, t'), up to the first instant t' at which one of its guards is no longer positive or the forcing P, the
+// The loop. x = (u, v, N, T); x- is its value just before an instant, x+ just after: u- = u+ always, v jumps at
+// impacts, N and T at jumps of loads or when friction releases. A mode is the list of all contact states; it is valid
+// on [t, t'), up to the first instant t' at which one of its guards is no longer positive or the forcing P, the
 // compression of a slider or the motion of a surface is not smooth (a breakpoint).
 //
 //   x-, mode- <- u0, v0, guessed from the gaps
-//   x+, mode+ <- decide(x-, mode-) at t = 0            record the hits, and a row asked for at 0
+//   x+, mode+ <- decide(x-, mode-) at t = 0            record the impacts, and an output row at 0
 //   while t < t_end:
 //     end <- the next breakpoint, or t_end
-//     engine.start(x+, mode+, end)                     nothing falls at t itself: mode+ holds there
+//     engine.start(x+, mode+, end)                     no guard reaches zero at t itself: mode+ is valid there
 //     repeat:
-//       (t0, t1], fired <- engine.advance()            t1: the earliest fall, if any guard falls
-//       record the rows asked for in [t0, t1), and those that pictures need; add works and extremes
+//       (t0, t1], fired <- engine.advance()            t1: the first zero crossing of a guard, if any
+//       record output rows in [t0, t1), and rows for pictures; add works and extremes
 //       t <- t1, x- <- x(t1) in mode+
 //     until a guard fired at t, or t >= end
-//     x+, mode+ <- decide(x-, mode-, fired, P-, P+)    all states at once, as often as it takes
-//                                                      (adopted where the engine found them itself)
-//     record an event for every contact whose state has changed (event.hpp), and a row asked for at t: x+
-//   stop early where nothing is consistent, the engine fails, events come and time does not get on,
-//   or the recorder wants no more
+//     x+, mode+ <- decide(x-, mode-, fired, P-, P+)    all states at once, in as many rounds as needed
+//                                                      (adopted if the engine found them itself)
+//     record an event for every contact whose state has changed (event.hpp), and an output row at t: x+
+//   stop early if no states are consistent, the engine fails, events repeat without progress in time,
+//   or the recorder ends the run
 //
 //   Scene scene = read_scene("models/pipeline.toml");
 //   Result result = simulate(scene);

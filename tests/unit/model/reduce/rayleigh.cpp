@@ -9,26 +9,26 @@ using namespace signorini;
 
 namespace {
 
-using Rows = std::vector<std::vector<double>>;
+using Matrix = std::vector<std::vector<double>>;
 
-const Rows chain_mass = {{2.0, 0.3, 0.0}, {0.3, 1.5, 0.1}, {0.0, 0.1, 0.7}};
-const Rows chain_stiffness = {{900.0, -400.0, 0.0}, {-400.0, 700.0, -300.0}, {0.0, -300.0, 300.0}};
+const Matrix chain_mass = {{2.0, 0.3, 0.0}, {0.3, 1.5, 0.1}, {0.0, 0.1, 0.7}};
+const Matrix chain_stiffness = {{900.0, -400.0, 0.0}, {-400.0, 700.0, -300.0}, {0.0, -300.0, 300.0}};
 
-Rows sum_of(double alpha, double beta) {
-  Rows rows = chain_mass;
+Matrix sum_of(double alpha, double beta) {
+  Matrix rows = chain_mass;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) rows[i][j] = alpha * chain_mass[i][j] + beta * chain_stiffness[i][j];
   return rows;
 }
 
-SparseMatrix sparse(const Rows& rows) {
+SparseMatrix sparse(const Matrix& rows) {
   Eigen::MatrixXd full(3, 3);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) full(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
   return full.sparseView();
 }
 
-Scene chain_with(const Rows& damping) {
+Scene chain_with(const Matrix& damping) {
   Scene scene = test::matrices(chain_mass, damping, chain_stiffness);
   ContactSpec contact;
   contact.name = "c";
@@ -55,7 +55,7 @@ TEST_CASE("factors of sums come back, with and without both parts; a dashpot bes
     CHECK(f->alpha == doctest::Approx(alpha).epsilon(1e-7));
     CHECK(f->beta == doctest::Approx(beta).epsilon(1e-10));
   }
-  Rows with_dashpot = sum_of(0.3, 2e-4);
+  Matrix with_dashpot = sum_of(0.3, 2e-4);
   with_dashpot[1][1] += 1e-6;
   CHECK_FALSE(rayleigh_factors(sparse(with_dashpot), M, K));
   CHECK_FALSE(rayleigh_factors(sparse(sum_of(-0.3, 2e-4)), M, K));
@@ -69,7 +69,7 @@ TEST_CASE("a reduced model damps its modes by the factors, and no static shape")
   CHECK(model.alpha == doctest::Approx(10.0).epsilon(1e-12));
   const Eigen::MatrixXd rest = Eigen::MatrixXd(model.damping) - 10.0 * Eigen::MatrixXd(model.mass);
   CHECK(rest.cwiseAbs().maxCoeff() <= 1e-12 * Eigen::MatrixXd(model.mass).maxCoeff());
-  Rows with_dashpot = sum_of(10.0, 0.0);
+  Matrix with_dashpot = sum_of(10.0, 0.0);
   with_dashpot[2][2] += 0.5;
   const Model other = build_model(chain_with(with_dashpot));
   CHECK(other.alpha == 0.0);

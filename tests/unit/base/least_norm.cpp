@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-MatrixXd random_matrix(std::mt19937_64& random, Index rows, Index columns) {
+MatrixXd normal_matrix(std::mt19937_64& random, Index rows, Index columns) {
   std::normal_distribution<double> normal;
   return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
@@ -50,7 +50,7 @@ VectorXd farthest(const std::vector<ConvexSet>& sets, const VectorXd& from, cons
 
 void check(std::mt19937_64& random, const std::vector<ConvexSet>& sets, const VectorXd& feasible,
            Index kept) {
-  const MatrixXd a = orthonormal(random_matrix(random, feasible.size(), kept)).transpose();
+  const MatrixXd a = orthonormal(normal_matrix(random, feasible.size(), kept)).transpose();
   const auto x = least_norm(a, a * feasible, sets);
   const MatrixXd open = orthogonal_complement(MatrixXd(a.transpose()));
   if (!x) {  // discs and cones of two tangents may touch the affine space in one point: its dual has no greatest value
@@ -63,7 +63,7 @@ void check(std::mt19937_64& random, const std::vector<ConvexSet>& sets, const Ve
   CHECK(excess(sets, *x) <= 1e-12 * feasible.norm());
   CHECK(x->norm() <= feasible.norm() * (1.0 + 1e-12));
   for (int i = 0; i < 40; ++i) {
-    const VectorXd way = (open * random_matrix(random, open.cols(), 1)).normalized();
+    const VectorXd way = (open * normal_matrix(random, open.cols(), 1)).normalized();
     const VectorXd other = farthest(sets, feasible, way);
     CHECK(x->dot(other - *x) >= -1e-10 * feasible.squaredNorm());
   }
@@ -76,7 +76,7 @@ std::pair<std::vector<ConvexSet>, VectorXd> random_sets(std::mt19937_64& random,
   std::vector<ConvexSet> sets;
   std::vector<double> point;
   for (int i = 0; i < count; ++i) {
-    const VectorXd e = random_matrix(random, tangents, 1).normalized();
+    const VectorXd e = normal_matrix(random, tangents, 1).normalized();
     const double f = 0.1 + part(random), n = 0.2 + 3.0 * part(random),
                  share = part(random) < 0.3 ? 1.0 : part(random);
     if (rays && i % 3 == 1) {
@@ -117,7 +117,7 @@ TEST_CASE("two cones and one free direction: the least of a parabola on an inter
   std::mt19937_64 random(11);
   for (int i = 0; i < 200; ++i) {
     const auto [sets, point] = random_sets(random, 2, 1, false);
-    const VectorXd way = random_matrix(random, 4, 1).normalized();
+    const VectorXd way = normal_matrix(random, 4, 1).normalized();
     const MatrixXd a = orthogonal_complement(MatrixXd(way)).transpose();
     double low = -1e3, high = 1e3;  // of point + y way within |t| <= f n
     for (const Index k : {Index{0}, Index{1}})

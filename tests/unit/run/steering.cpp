@@ -70,7 +70,8 @@ TEST_CASE("forces, moments and distributed loads may be changed on the way; weig
         CHECK(load.history.value(1.0) == 7.0);
         CHECK(load.history.piece_before(0.5).value(0.5) != 7.0);
       }
-    const LoadChanges::Change change = changes.take();
+    changes.apply();
+    const LoadChanges::Change change = changes.change();
     CHECK(change.any);
     CHECK(change.jump);
   }
@@ -82,9 +83,11 @@ TEST_CASE("forces, moments and distributed loads may be changed on the way; weig
       CHECK_THROWS_AS(changes.set_load(load.name, History::constant(7.0)), SceneError);
     }
   CHECK(others == 2);
-  CHECK_FALSE(changes.take().any);
+  changes.apply();
+  CHECK_FALSE(changes.change().any);
   changes.set_load("push", History::constant(7.0));  // as it is already
-  const LoadChanges::Change same = changes.take();
+  changes.apply();
+  const LoadChanges::Change same = changes.change();
   CHECK(same.any);
   CHECK_FALSE(same.jump);
 }

@@ -57,7 +57,7 @@ struct Chain {
     return Witness(model, {}).between(1.0, side);
   }
   [[nodiscard]] WitnessedSide sides() const {
-    WitnessedSide side{&u, &v, &a, &mode, &forces, {Driven{}}};
+    WitnessedSide side{&u, &v, &a, &mode, &forces, {}, {Driven{}}};
     for (const double P : {load, rate, bend}) side.loads.emplace_back(Eigen::Vector3d(0.0, P, 0.0));
     return side;
   }
@@ -155,8 +155,8 @@ TEST_CASE("a contact that parts without mass leave at once was at a limit") {
     Vector gone = chain.u;
     gone[1] = 0.1;
     gone[2] = 0.0;
-    record.before = {&chain.u, &chain.v, nullptr, &stick, &T, {Driven{}}};
-    record.after = {&gone, &chain.v, &chain.a, &then, &free, {Driven{}}};
+    record.before = {&chain.u, &chain.v, nullptr, &stick, &T, {}, {Driven{}}};
+    record.after = {&gone, &chain.v, &chain.a, &then, &free, {}, {Driven{}}};
     record.released = {0};
     record.events.push_back({0, "separation", State::stick, after});
     return tells_of(Witness(chain.model, {}).instant(record), "release");

@@ -53,7 +53,7 @@ class Drawn {
       driven[0].ds = c.tangent.dot(v);
     }
   }
-  [[nodiscard]] WitnessedSide side() const { return {&u, &v, &a, &mode, &forces, driven}; }
+  [[nodiscard]] WitnessedSide side() const { return {&u, &v, &a, &mode, &forces, {}, driven}; }
 
   Contact c;
   Vector u = Vector::Zero(5), v = u, a = u, forces;

@@ -39,7 +39,7 @@ struct End {
     u[0] = ut;
     forces << -8.0, T;
   }
-  [[nodiscard]] WitnessedSide side() const { return {&u, &v, &a, &mode, &forces, {Driven{}}}; }
+  [[nodiscard]] WitnessedSide side() const { return {&u, &v, &a, &mode, &forces, {}, {Driven{}}}; }
 };
 
 std::string law_of(const Model& model, const End& from, const End& to, const WitnessLimits& limits = {}) {

@@ -90,9 +90,9 @@ struct Recorded {
   std::vector<Violation> by(const Model& model, const WitnessLimits& limits = {}) {
     record.t = 1.0;
     record.resolution = 1e-15;
-    record.before = {&u_before, &v_before, nullptr, &before, &forces_before, {Driven{}}};
+    record.before = {&u_before, &v_before, nullptr, &before, &forces_before, {}, {Driven{}}};
     record.before.driven[0].drift = drift;
-    record.after = {&u_after, &v_after, &a, &after, &forces_after, {Driven{}}};
+    record.after = {&u_after, &v_after, &a, &after, &forces_after, {}, {Driven{}}};
     if (before[0].state != after[0].state && record.events.empty())
       record.events.push_back({0, "event", before[0].state, after[0].state});
     if (!untrue) write_rows(model, record);
@@ -171,8 +171,8 @@ TEST_CASE("hits of one instant come one after the other: each by its own velocit
     record.resolution = 1e-15;
     Driven surface;
     surface.ds = -10.0;
-    record.before = {&u, &before, nullptr, &open, &none, {Driven{}, surface}};
-    record.after = {&u, &after, &a, &open, &none, {Driven{}, surface}};
+    record.before = {&u, &before, nullptr, &open, &none, {}, {Driven{}, surface}};
+    record.after = {&u, &after, &a, &open, &none, {}, {Driven{}, surface}};
     record.impulses = {{1, 1, mass, -mass}, {0, turn_of_wall, at_wall * mass, 0.0}};
     record.events.push_back({0, "impact", State::open, State::open});
     record.events.push_back({1, "impact", State::open, State::open});
@@ -201,8 +201,8 @@ TEST_CASE("a contact that is hit twice at one instant: each hit by its own veloc
     InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
-    record.before = {&u, &before, nullptr, &open, &none, {Driven{}, Driven{}}};
-    record.after = {&u, &after, &u, &open, &none, {Driven{}, Driven{}}};
+    record.before = {&u, &before, nullptr, &open, &none, {}, {Driven{}, Driven{}}};
+    record.after = {&u, &after, &u, &open, &none, {}, {Driven{}, Driven{}}};
     record.impulses = {{0, 1, 1.5 * mass, 0.0}, {1, 2, 1.29 * mass, 0.0}, {0, 3, last * mass, 0.0}};
     return Witness(model, {}).instant(record);
   };
@@ -359,8 +359,8 @@ TEST_CASE(
     InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
-    record.before = {&u, &u, nullptr, &closed, &forces, {Driven{}, Driven{}}};
-    record.after = {&u, &u, &u, &left, &after, {Driven{}, Driven{}}};
+    record.before = {&u, &u, nullptr, &closed, &forces, {}, {Driven{}, Driven{}}};
+    record.after = {&u, &u, &u, &left, &after, {}, {Driven{}, Driven{}}};
     record.captures.setZero(4);
     record.captures[0] =
         -2e-5 * c;  // together 1e-6 m/s across: 3e-6 N by the dampers, 3e-5 N in each contact
@@ -419,8 +419,8 @@ TEST_CASE("what a rigid stop holds, too, has no friction force of its own: no re
     r.after = {{State::slip_plus, 0.0}, {of_stop, 0.0}};
     r.record.t = 1.0;
     r.record.resolution = 1e-15;
-    r.record.before = {&r.u_before, &r.v_before, nullptr, &r.before, &before, {Driven{}, Driven{}}};
-    r.record.after = {&r.u_after, &r.v_after, &r.a, &r.after, &after, {Driven{}, Driven{}}};
+    r.record.before = {&r.u_before, &r.v_before, nullptr, &r.before, &before, {}, {Driven{}, Driven{}}};
+    r.record.after = {&r.u_after, &r.v_after, &r.a, &r.after, &after, {}, {Driven{}, Driven{}}};
     r.record.events.push_back({0, "slip", State::stick, State::slip_plus});
     CAPTURE(held);
     CHECK(names(Witness(model, {}).instant(r.record), "necessity") == !held);
@@ -529,7 +529,7 @@ TEST_CASE("between events: what is open has a gap, what presses does not pull") 
   const Witness witness(model, {});
   Recorded r(-1e-3, 0.0);
   const std::vector<ContactState> open = {{State::open, 0.0}}, closed = {{State::stick, 0.0}};
-  WitnessedSide side{&r.u_before, &r.v_before, nullptr, &open, &r.forces_before, {Driven{}}};
+  WitnessedSide side{&r.u_before, &r.v_before, nullptr, &open, &r.forces_before, {}, {Driven{}}};
   CHECK(names(witness.between(1.0, side), "penetration"));
   side.mode = &closed;
   r.forces_before = Eigen::Vector2d(0.5, 0.0);

@@ -24,7 +24,7 @@ const std::vector<Case> cases{
     {SIGNORINI_MODELS "/lift-off.toml"},
     {SIGNORINI_MODELS "/matrices.toml"},
     {SIGNORINI_MODELS "/rigid-frame.toml"},
-    {SIGNORINI_MODELS "/chain.toml", {{"run.t_end", "3.0"}}},
+    {SIGNORINI_MODELS "/chain.toml", {{"run.t_end", "3.0"}, {"run.frames", "[0.0]"}}},
     {SIGNORINI_TEST_DATA "/cases/05b_two_mass_symmetric.toml"},
     {SIGNORINI_TEST_DATA "/cases/05g_two_mass_compliant.toml"},
     {SIGNORINI_TEST_DATA "/cases/08b_lumped_singular_M.toml"},

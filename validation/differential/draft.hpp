@@ -87,6 +87,11 @@ class Draft {
   DraftContact* contact(std::initializer_list<const char*> laws, std::initializer_list<const char*> free);
   /// Contacts claim places from the front.
   void put_first(const DraftPlace& place) { places_.push_front(place); }
+  /// What no contact has claimed yet at this node has no mass.
+  void take_mass_from(const std::string& node) {
+    for (DraftPlace& place : places_)
+      if (place.node == node) place.massless = true;
+  }
   /// Two springs, along x and y, between a node and the main one.
   void join(const std::string& node, double stiffness);
   /// The member that joins the main node to a fixed one.

@@ -387,7 +387,12 @@ const std::vector<Feature>& all_features() {
       {"bar", "", 1, {}, Check::related,
        [](D& d) {
          d.beam();
-         d.table("[[members]]").set("nodes", fmt::format("[\"far\", \"{}\"]", d.main)).name("section", "light").name("type", "bar");
+         d.nodes.set("beyond", list({rounded(d.x + 0.6, 3), rounded(d.y + 0.9, 3)}));
+         d.table("[[supports]]").name("node", "beyond").set("fix", "[\"ux\", \"uy\"]");
+         d.table("[[members]]")
+             .set("nodes", fmt::format("[\"beyond\", \"{}\"]", d.main))
+             .name("section", "light")
+             .name("type", "bar");
          return added;
        }},
       {"hinge", "", 1, {}, Check::related,
@@ -416,6 +421,7 @@ const std::vector<Feature>& all_features() {
        [](D& d) {
          seam(d).name("contact_mass", "none");
          d.find("[[bodies]]")->set("elements", "[4, 2]");
+         for (const char* corner : {"p0", "p1"}) d.take_mass_from(corner);
          return added;
        }},
       {"matrices", "", 0, Kit::matrices, Check::related, [](D&) { return added; }},

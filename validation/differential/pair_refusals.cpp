@@ -23,6 +23,10 @@ const std::vector<PairRefusal>& all_refusals() {
        "Only `ida` follows friction that depends on the slip rate or on N"},
       {"friction, by normal force", "verify", "needs linear laws", "docs/theory.md",
        "Only `ida` follows friction that depends on the slip rate or on N"},
+      {"newmark", "orbit", "orbits need the motion between events", "docs/command-line.md",
+       "Engines: `exact` and `ida`."},
+      {"friction-iteration", "orbit", "orbits need the motion between events", "docs/command-line.md",
+       "Engines: `exact` and `ida`."},
       {"law yielding", "verify", "does not know law", "docs/scene.md",
        "Only engine `ida` computes this law, and not from a static start."},
       {"law yielding", "exact, series", "does not know law", "docs/scene.md",
@@ -127,7 +131,14 @@ const std::vector<PairRefusal>& all_refusals() {
 }
 
 const std::vector<OpenDefect>& open_defects() {
-  static const std::vector<OpenDefect> defects = {};
+  static const std::vector<OpenDefect> defects = {
+      {"friction-iteration-restart", "friction-iteration", "*", "going on", "row",
+       "a run that goes on is off by up to a step's error; its cause has not been looked into"},
+      {"friction-iteration-units", "friction-iteration", "*", "in units", "row",
+       "off by 1e-8 of a gap in other units beside another body; its cause has not been looked into"},
+      {"reduction-tolerance-crash", "seam, tied", "reduction, tolerance", "process", "ends by signal",
+       "a search for a cutoff beside a tied seam ends by a signal; its cause is not known here"},
+  };
   return defects;
 }
 

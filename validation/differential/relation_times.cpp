@@ -159,12 +159,14 @@ std::optional<Related> related_going_on_at(const Scene& as_drawn, double at) {
     whole.run.t_end = at;  // no frames there
   else
     whole.run.frames = {at};
-  whole.run.output_times.reset();
-  whole.run.output_dt = whole.run.t_end;
+  // Rigid contacts on parts without mass go on from a row of contacts.csv, too.
+  whole.run.output_times.emplace({at});
+  whole.run.output_dt.reset();
   const KeptRun kept(whole);
   if (kept.report().outcome.t < at) return std::nullopt;
   Scene first = whole;
   first.run.frames.clear();
+  first.run.output_times.reset();
   first.run.t_end = first.run.output_dt.emplace(at);
   Related result{fmt::format("going on at {:.6g}", at), going_on_from(scene, at, kept.state(at))};
   result.later = -at;

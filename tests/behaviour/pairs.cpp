@@ -1,6 +1,8 @@
 // Every pair of features (validation/differential/pairs.hpp): a small cut of the table, and what the table notices.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include <fstream>
 #include <iterator>
 
@@ -34,7 +36,9 @@ PairTable table_of(const std::vector<Feature>& features, PairSettings settings =
 /// Every rebound is a thousandth too fast.
 class ReboundTooFast final : public FaultInjector {
   bool change(const Mode& /*before*/, const Vector& v, Decision& decided) override {
-    if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
+    if (std::none_of(decided.impulses.begin(), decided.impulses.end(),
+                     [](const Impulse& impulse) { return impulse.hit; }))
+      return false;
     decided.v += 1e-3 * (decided.v - v);
     return true;
   }

@@ -31,7 +31,7 @@ Projection onto_cone(double f, const VectorXd& z) {
   const VectorXd t = z.tail(tangents);
   const double length = t.norm();
   Projection p{VectorXd::Zero(z.size()), MatrixXd::Zero(z.size(), z.size())};
-  if (length <= f * z[0]) return {z, MatrixXd::Identity(z.size(), z.size())};
+  if (z[0] >= 0.0 && length <= f * z[0]) return {z, MatrixXd::Identity(z.size(), z.size())};
   if (f * length <= -z[0]) return p;
   const VectorXd e = length > 0.0 ? VectorXd(t / length) : VectorXd(t);
   const double n = (z[0] + f * length) / (1.0 + f * f);

@@ -1,6 +1,7 @@
 #include "certify/disturb.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "certify/mixed_shapes.hpp"
@@ -77,6 +78,11 @@ class Disturber {
   void contact(Contact& c, const Vector& u0) {
     if (is_apart(c, u0)) c.gap *= next();
     visit_stiffnesses(c, [this](double& x, const Unit&) { x *= next(); });
+    // Numbers of a law made of data: equal ones stay equal, such as a stiffness in a row and in a memory.
+    if (auto law = c.law->with_constants([this](double& x, const Unit&) {
+          x *= factor(mixed(number_) ^ std::bit_cast<std::uint64_t>(std::abs(x)));
+        }))
+      c.law = std::move(law);
     const double friction = next();  // static and kinetic friction that are equal stay so
     c.friction.static_ *= friction;
     c.friction.kinetic *= friction;

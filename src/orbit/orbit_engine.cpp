@@ -4,7 +4,7 @@
 #include "run/choose_engine.hpp"
 #include "run/choose_flow.hpp"
 #include "run/engines.hpp"
-#include "signorini/error.hpp"
+#include "run/expected.hpp"
 
 namespace signorini {
 namespace {
@@ -17,11 +17,7 @@ constexpr double of_tolerance = 100.0;  // chosen value: errors of steps accumul
 
 Engine orbit_engine(const Model& model, const RunSpec& run, double duration) {
   if (run.engine != Engine::automatic) return run.engine;
-  try {
-    engine_row(engine_for(EngineRole::closed_form)).refuse(model, run);
-  } catch (const SceneError&) {
-    return engine_for(EngineRole::integrator);
-  }
+  if (!exact_takes(model, run)) return engine_for(EngineRole::integrator);
   if (fastest_decay(model) * duration <= most_decays) return engine_for(EngineRole::closed_form);
   return choose_engine(model, run).engine;
 }

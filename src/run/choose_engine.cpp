@@ -6,7 +6,7 @@
 
 #include "model/decay.hpp"
 #include "run/engines.hpp"
-#include "signorini/error.hpp"
+#include "run/expected.hpp"
 
 namespace signorini {
 namespace {
@@ -20,13 +20,7 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   if (run.engine != Engine::automatic) return {run.engine, false, "as given"};
   const Engine closed_form = engine_for(EngineRole::closed_form),
                integrator = engine_for(EngineRole::integrator);
-  try {
-    engine_row(closed_form).refuse(model, run);
-  } catch (const SceneError&) {
-    return {integrator, true, "a law or a load of the scene has no motion in closed form"};
-  }
-  if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                  [](const Contact& c) { return !c.obeys_coulomb(); }))
+  if (!exact_takes(model, run))
     return {integrator, true, "a law or a load of the scene has no motion in closed form"};
   const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)

@@ -42,6 +42,9 @@ Expected expected(const Model& model, const RunSpec& run) {
 }
 
 bool exact_takes(const Model& model, const RunSpec& run) {
+  if (!std::all_of(model.contacts.begin(), model.contacts.end(),
+                   [](const Contact& contact) { return contact.obeys_coulomb(); }))
+    return false;
   try {
     const RunSpec exact = by_exact(run);
     engine_row(exact.engine).refuse(model, exact);

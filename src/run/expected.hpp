@@ -22,7 +22,8 @@ struct Expected {
 /// Cost with the engine's own method. Errors: SceneError if a step is required and not given.
 [[nodiscard]] Expected expected(const Model& model, const RunSpec& run);
 
-/// True if engine `exact` accepts this model.
+/// True if engine `exact` accepts this model, and may be chosen for it without being named: laws made of data run in its
+/// series only where a scene asks for it.
 [[nodiscard]] bool exact_takes(const Model& model, const RunSpec& run);
 
 /// Seconds with exact instead of ida; nullopt: another engine, a scene that exact does not accept, or an unknown cost.

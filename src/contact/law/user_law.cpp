@@ -145,10 +145,19 @@ void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& vis
   visit(form.constant, of);
 }
 
-void visit_form(OwnForm& own, const ContactLaw::VisitConstant& visit) {
-  const Unit of = unit_of(own.form);
+void visit_form(OwnForm& own, const Unit& of, const ContactLaw::VisitConstant& visit) {
   visit_form(own.form, of, visit);
   visit(own.memory, Unit{of.force, of.length - 1, of.time});
+}
+
+Unit unit_of(const FormProduct& product) {
+  const Unit a = unit_of(product.a), b = unit_of(product.b);
+  return {a.force + b.force, a.length + b.length, a.time + b.time};
+}
+
+/// True if the form depends on the motion, from which its unit follows.
+bool has_unit(const Form& f) {
+  return f.N != 0.0 || f.T != 0.0 || f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0;
 }
 
 std::string refusal_of(const OwnState& state, std::size_t states) {
@@ -166,7 +175,14 @@ std::string refusal_of(const OwnState& state, std::size_t states) {
   for (const OwnGuard& guard : state.guards) {
     forms.push_back(guard.positive.form);
     if (guard.memory) forms.push_back(*guard.memory);
-    for (const FormProduct& p : guard.products) forms.insert(forms.end(), {p.a, p.b});
+    for (const FormProduct& p : guard.products) {
+      forms.insert(forms.end(), {p.a, p.b});
+      if (!has_unit(p.a) || !has_unit(p.b))
+        return refuse("each factor of a product depends on N, T, g, ut or their rates");
+      const Unit one = unit_of(guard.products.front()), other = unit_of(p);
+      if (one.force != other.force || one.length != other.length || one.time != other.time)
+        return refuse("the products of a guard have one unit");
+    }
     if (guard.next >= states)
       return refuse(fmt::format("found next state {}, expected 0 to {}", guard.next, states - 1));
   }
@@ -206,10 +222,11 @@ bool acts_along_tangent(const OwnLaw& law) {
 
 std::shared_ptr<const OwnLaw> visited(OwnLaw law, const ContactLaw::VisitConstant& visit) {
   for (OwnState& state : law.states) {
-    visit_form(state.normal, visit);
-    visit_form(state.tangent, visit);
+    visit_form(state.normal, unit_of(state.normal.form), visit);
+    visit_form(state.tangent, unit_of(state.tangent.form), visit);
     for (OwnGuard& guard : state.guards) {
-      visit_form(guard.positive, visit);
+      const Unit of = guard.products.empty() ? unit_of(guard.positive.form) : unit_of(guard.products.front());
+      visit_form(guard.positive, of, visit);
       if (guard.memory) visit_form(*guard.memory, unit::length, visit);
       for (FormProduct& p : guard.products)
         for (Form* factor : {&p.a, &p.b}) visit_form(*factor, unit_of(*factor), visit);

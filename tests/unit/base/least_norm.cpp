@@ -79,7 +79,10 @@ std::pair<std::vector<ConvexSet>, VectorXd> random_sets(std::mt19937_64& random,
     const VectorXd e = normal_matrix(random, tangents, 1).normalized();
     const double f = 0.1 + part(random), n = 0.2 + 3.0 * part(random),
                  share = part(random) < 0.3 ? 1.0 : part(random);
-    if (rays && i % 3 == 1) {
+    if (i % 7 == 3) {  // without friction
+      sets.push_back({ConvexSet::Kind::cone, 1, 0.0, 0.0, {}});
+      point.push_back(n);
+    } else if (rays && i % 3 == 1) {
       VectorXd along(1 + tangents);
       along << 1.0, f * e;
       sets.push_back({ConvexSet::Kind::ray, 1 + tangents, 0.0, 0.0, along.normalized()});
@@ -132,6 +135,18 @@ TEST_CASE("two cones and one free direction: the least of a parabola on an inter
     REQUIRE(x);
     CHECK((*x - expected).norm() <= 1e-11 * point.norm());
   }
+}
+
+TEST_CASE("what has no friction does not pull: a push between two walls beside a foot that sticks") {
+  // k + right - left = P: of all that hold it those with left = 0 have the least norm.
+  const MatrixXd a = (MatrixXd(1, 4) << 0.0, 1.0, 1.0, -1.0).finished() / std::sqrt(3.0);
+  const std::vector<ConvexSet> sets{{ConvexSet::Kind::cone, 2, 0.5, 0.0, {}},
+                                    {ConvexSet::Kind::cone, 1, 0.0, 0.0, {}},
+                                    {ConvexSet::Kind::cone, 1, 0.0, 0.0, {}}};
+  const MatrixXd weighed = (MatrixXd(2, 4) << 1.0, 0.0, 0.0, 0.0, a).finished();
+  const auto x = least_norm(weighed, Eigen::Vector2d(10.0, 3.0 / std::sqrt(3.0)), sets);
+  REQUIRE(x);
+  CHECK((*x - Eigen::Vector4d(10.0, 1.5, 1.5, 0.0)).norm() <= 1e-12);
 }
 
 TEST_CASE("no point: a pull beyond both cones") {

@@ -43,6 +43,19 @@ std::vector<std::pair<Contact, std::vector<State>>> all() {
     const std::vector<State> own = c.law->own_states();
     contacts.emplace_back(std::move(c), own);
   }
+  // R^2 + c N - N^2 - T^2 and a memory: the linear part of a guard has the unit of its products.
+  OwnLaw round;
+  round.states = {{"on",
+                   State::stick,
+                   {{.N = 1.0, .gap = -50.0}},
+                   {{.T = 1.0, .ut = -20.0}},
+                   {{{{.N = 3.0, .constant = 25.0}, 4.0},
+                     0,
+                     {},
+                     {{{.N = -1.0}, {.N = 1.0}}, {{.T = -1.0}, {.T = 1.0}}}}}}};
+  Contact c = contact_of(std::make_shared<const OwnLaw>(std::move(round)));
+  const std::vector<State> own = c.law->own_states();
+  contacts.emplace_back(std::move(c), own);
   return contacts;
 }
 
@@ -77,8 +90,8 @@ TEST_CASE("rows, guards and energies of every law follow its constants into othe
       const auto before = guards(contact, here), after = guards(other, there);
       for (std::size_t i = 0; i < before.size(); ++i) {
         CHECK(after[i].kind == before[i].kind);
-        const double factor = factor_of(unit_of(before[i].form), factors);
-        CHECK(after[i].form.value(moved) == doctest::Approx(factor * before[i].form.value(m)).epsilon(1e-14));
+        const double factor = factor_of(unit_of(before[i]), factors);
+        CHECK(after[i].value(moved) == doctest::Approx(factor * before[i].value(m)).epsilon(1e-14));
       }
       const double energy = factor_of(unit::energy, factors);
       CHECK(stored_energy(other, state, moved) == energy * stored_energy(contact, state, m));

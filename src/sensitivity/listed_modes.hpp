@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/exact/modal/spectrum.hpp"
+#include "signorini/model.hpp"
 
 namespace signorini {
 

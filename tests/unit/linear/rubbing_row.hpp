@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "contact/mode.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/slots.hpp"
-
 namespace signorini {
 namespace {
 

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <map>
 
-#include "decide/decider.hpp"
+#include "decide/contact_state_solver.hpp"
 #include "decide/driven_states.hpp"
-#include "engine/falls/bernstein.hpp"
-#include "engine/falls/step_history.hpp"
+#include "engine/events/first_root.hpp"
+#include "engine/events/step_history.hpp"
 #include "engine/newmark/newmark_step.hpp"
 #include "floor.hpp"
-#include "linear/momentum.hpp"
+#include "linear/system_matrices.hpp"
 #include "linear/system_matrix.hpp"
 #include "scenes.hpp"
 #include "signorini/simulate.hpp"

@@ -1,7 +1,7 @@
 # embed(OUTPUT FUNCTION FILE...): a C++ source with the text of the files, as `std::span<const EmbeddedFile> FUNCTION()`
-# (src/base/embedded.hpp). Written anew only where something changed; configured again when a file does.
+# (src/base/files.hpp). Written anew only where something changed; configured again when a file does.
 function(embed output function)
-  set(text "#include \"base/embedded.hpp\"\n\nnamespace signorini {\n\nnamespace {\n\n")
+  set(text "#include \"base/files.hpp\"\n\nnamespace signorini {\n\nnamespace {\n\n")
   string(APPEND text "constexpr EmbeddedFile ${function}_files[] = {\n")
   foreach(path IN LISTS ARGN)
     cmake_path(GET path FILENAME name)

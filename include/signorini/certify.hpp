@@ -43,7 +43,7 @@ struct HistoryErrors {
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return bounds[row * width + column]; }
 };
 
-/// Possible effect at the contacts of the modes that a reduction leaves out (src/certify/truncation.hpp).
+/// Possible effect at the contacts of the modes that a reduction leaves out (src/certify/error_bounds.hpp).
 struct Truncation {
   double displacement = 0.0, force = 0.0;
 };

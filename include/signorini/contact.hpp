@@ -17,7 +17,7 @@
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
 // in stick.
 // A slider has N = -normal_force(t) instead, no gap, and without kt the row t.v' = surface acceleration.
-// A user law may replace all this: own_law.hpp. The interface of all laws: contact_law.hpp.
+// A user law may replace all this: user_contact_law.hpp. The interface of all laws: contact_law.hpp.
 // Forces on the body: -N along n, -T along t.
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
 #pragma once
@@ -133,7 +133,7 @@ struct Contact {
     return shear ? std::optional(shear->stiffness) : tangential_stiffness;
   }
   /// Curved surface: in addition to T a force acts along body_tangent() that is a product of N and ut
-  /// (contact/bowl.hpp). nullptr: the surface is plane.
+  /// (contact/curved_surface.hpp). nullptr: the surface is plane.
   [[nodiscard]] const Bowl* curved_surface() const { return bowl ? &*bowl : nullptr; }
   /// True if forces are linear in the motion in each state, with constant coefficients.
   [[nodiscard]] bool is_linear() const { return !friction.varies() && !friction.by_force() && !bowl; }

@@ -5,7 +5,7 @@
 //   at their zero   i <- next,  p <- memory                p: memory of the contact, such as an anchor or a dent
 //
 // A law is constant and shared. The numbers of one contact (stiffnesses, friction, gap) are in Contact, from which the
-// built-in laws make their rows; a user law (own_law.hpp) contains its own numbers. Engines, decisions, witness and
+// built-in laws make their rows; a user law (user_contact_law.hpp) contains its own numbers. Engines, decisions, witness and
 // statics query the capabilities, never the name of a law.
 #pragma once
 
@@ -32,7 +32,7 @@ struct Unit;
 struct Violations;
 enum class Guard : unsigned char;
 
-/// The laws that a scene can name; user laws are further ones (own_law.hpp).
+/// The laws that a scene can name; user laws are further ones (user_contact_law.hpp).
 enum class Law { compliant, rigid, slider };
 
 /// How a law determines forces, and the equations that check it.
@@ -97,7 +97,7 @@ class ContactLaw {
   [[nodiscard]] virtual std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
                                                              const ContactMotion& before) const = 0;
 
-  // Energy and conditions: src/contact/work.hpp, conditions.hpp.
+  // Energy and conditions: src/contact/work.hpp, law.hpp.
   /// The slip rate with which T does the work of ContactWork::friction.
   [[nodiscard]] virtual double working_slip_rate(const Contact& contact, State state,
                                                  const ContactMotion& m) const = 0;
@@ -137,7 +137,7 @@ class ContactLawPtr {
 };
 
 /// A rigid contact on massless parts: a compliant one whose springs are compliance of the structure
-/// (model/borrowed_springs.hpp).
+/// (model/compliance_split.hpp).
 [[nodiscard]] ContactLawPtr compliance_split_law();
 
 }  // namespace signorini

@@ -6,7 +6,7 @@
 // Residual rows (value = 0) and guards (value > 0) are such forms, so a contact law is pure data for an engine, and its
 // time derivatives follow from the derivatives of the motion. F is the limit of the friction force where the
 // coefficient depends on N. It is the only term that is not linear in the motion; the code that evaluates the motion of
-// such a contact computes F (contact/friction_limit.hpp).
+// such a contact computes F (contact/friction.hpp).
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ enum class State : unsigned char {
   held_minus
 };
 
-/// State i of a user law (own_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in state, and counts
+/// State i of a user law (user_contact_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in state, and counts
 /// as its kind wherever a kind is needed.
 inline constexpr std::size_t most_own_states = 31;
 [[nodiscard]] constexpr State own_state(std::size_t i, State kind) {

@@ -193,7 +193,7 @@ struct Ties {
   }
 };
 
-/// Correction of displacements and energy for a load on parts with borrowed springs (model/borrowed_springs.hpp).
+/// Correction of displacements and energy for a load on parts with borrowed springs (model/compliance_split.hpp).
 struct SeenLoad {
   std::size_t load = 0;  ///< index into Model::loads
   Vector displacements;  ///< displacements of the structure, for a history of 1
@@ -244,7 +244,7 @@ struct Model {
   std::optional<Reduction> reduction;
   /// Valid but suspicious input, one sentence each; the first warnings of every run.
   std::vector<std::string> warnings;
-  /// Set where massless motions needed a degree of freedom of their own (model/undamped.hpp): displacements of the
+  /// Set where massless motions needed a degree of freedom of their own (model/massless.hpp): displacements of the
   /// first degrees of freedom = basis * u.
   std::optional<SparseMatrix> basis;
   std::vector<SeenLoad> seen_loads;

@@ -46,7 +46,7 @@ struct Output {
   double constant = 0.0;
   std::optional<std::size_t> loss = {};  ///< index of the contact whose friction loss this is; other terms
                                          ///< are then ignored
-  /// Linear outputs at the points (base/along.hpp) of a finite element, r being a polynomial through them; or at one
+  /// Linear outputs at the points (base/curves.hpp) of a finite element, r being a polynomial through them; or at one
   /// place.
   struct Stretch {
     std::vector<Output> at;

@@ -244,7 +244,7 @@ struct Method {
   [[nodiscard]] std::string engine_reason() const { return (automatic ? "auto: " : "") + reason; }
 };
 
-/// A law violated at an instant, or by the motion between two instants (src/witness/witness.hpp).
+/// A law violated at an instant, or by the motion between two instants (src/law_check/law_checker.hpp).
 struct Violation {
   double t = 0.0;
   std::string event;  ///< type of the contact's event; "start", "load", "between", or "" for another contact

@@ -20,8 +20,8 @@
 #include "signorini/engine.hpp"
 #include "signorini/error.hpp"
 #include "signorini/history.hpp"
-#include "signorini/own_law.hpp"
 #include "signorini/plane_mesh.hpp"
+#include "signorini/user_contact_law.hpp"
 
 namespace signorini {
 
@@ -392,7 +392,7 @@ inline constexpr std::array friction_constants = {
     FrictionConstant{"force", &Friction::force, {1, 0, 0}}};
 
 /// A curved surface of this radius under a varying force: |N| ut / radius drives the body back; its constant part
-/// carried ut / radius is in K (contact/bowl.hpp).
+/// carried ut / radius is in K (contact/curved_surface.hpp).
 struct Bowl {
   double radius = 0.0, carried = 0.0;
 };

@@ -7,10 +7,9 @@
 #include <fstream>
 #include <system_error>
 
-#include "base/excerpt.hpp"
-#include "base/fingerprint.hpp"
-#include "base/input_file.hpp"
+#include "base/files.hpp"
 #include "base/json.hpp"
+#include "base/text.hpp"
 #include "base/version.hpp"
 #include "signorini/error.hpp"
 

@@ -4,7 +4,7 @@
 //   DIR/manifest.json   {"signorini": "0.9.0", "outcome": "done",
 //                        "files": [{"file": "events.csv", "size": 5120, "checksum": "9d0c5f1e2a7b4c38"}, ...]}
 //
-//   size: bytes;  checksum: of all bytes, base/fingerprint.hpp;  files: existing ones, in the order of result_files
+//   size: bytes;  checksum: of all bytes, base/text.hpp;  files: existing ones, in the order of result_files
 //
 // A run removes the manifest before it changes any other file and writes it after all others. So a killed run has none.
 // Pictures and pages are drawn from the files of the manifest, and are not listed in it.

@@ -15,20 +15,16 @@
 #include <thread>
 
 #include "base/machine.hpp"
-#include "certify/bounds.hpp"
 #include "certify/companion.hpp"
-#include "certify/disturb.hpp"
-#include "certify/judge.hpp"
-#include "certify/open_hits.hpp"
-#include "certify/tracker.hpp"
-#include "certify/truncation.hpp"
-#include "motion/clock.hpp"
+#include "certify/data_perturbation.hpp"
+#include "certify/error_bounds.hpp"
+#include "certify/event_matcher.hpp"
+#include "motion/point.hpp"
 #include "run/choose_engine.hpp"
-#include "run/effort.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/engines.hpp"
-#include "run/expected.hpp"
+#include "run/run_law_checker.hpp"
 #include "run/run_listener.hpp"
-#include "run/run_witness.hpp"
 
 namespace signorini {
 namespace {

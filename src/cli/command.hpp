@@ -6,11 +6,15 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "cli/terminal.hpp"
 #include "signorini/error.hpp"
+#include "signorini/scene.hpp"
+#include "study/sweep/parameter_range.hpp"
 
 namespace signorini::cli {
 
@@ -39,5 +43,69 @@ void add_new(Program& program);
 void add_quake(Program& program);
 void add_completion(Program& program);
 void add_man(Program& program);
+
+// Options shared by several subcommands: --set, and the treatment of results.
+
+/// Treatment of results.
+struct OutputOptions {
+  bool force = false, quiet = false, json = false, no_plots = false;
+  [[nodiscard]] bool tables() const { return !quiet && !json; }
+};
+/// Prints warnings to stderr, prefixed with `of`; none with --quiet.
+void print_warnings(const OutputOptions& options, const std::vector<std::string>& warnings,
+                    const std::string& of = "");
+
+/// A note on stderr where the files of a run cannot be checked, since it has no manifest (base/run_files.hpp).
+void print_unchecked(const std::filesystem::path& directory);
+
+/// Adds --force, --quiet, --json and --no-plots to a subcommand; `options` must outlive parsing.
+void add_output_options(CLI::App& command, OutputOptions& options, const std::string& force,
+                        const std::string& json);
+
+/// Adds --table markdown|latex: output for papers. `style` must outlive parsing.
+void add_table_option(CLI::App& command, std::string& style);
+/// The requested table style. Errors: UsageError, also if combined with --json.
+[[nodiscard]] TableStyle table_style_of(const std::string& style, const OutputOptions& options);
+
+/// Adds --set PATH=VALUE to a subcommand; `settings` must outlive parsing.
+void add_settings(CLI::App& command, std::vector<std::string>& settings);
+
+/// Prints notes to stderr: number of tables that each setting with a * matches. `given` are PATH or PATH=VALUE after
+/// `option`. Without an option: the settings themselves, each applied after those before it. Errors: those of the file
+/// and of settings.
+void print_patterns(const std::string& scene, const std::vector<std::string>& settings,
+                    const std::string& option = "", const std::vector<std::string>& given = {});
+
+/// Errors: UsageError for a setting without "=".
+[[nodiscard]] std::vector<Override> overrides_of(const std::vector<std::string>& settings);
+
+/// The settings for `engine`. "exact:run.rtol=1e-12" is for one engine of `engines`: no key of a scene has a colon
+/// before its first dot. Errors: UsageError, also for run.engine.
+[[nodiscard]] std::vector<Override> overrides_for(const std::vector<std::string>& settings,
+                                                  const std::vector<std::string>& engines,
+                                                  const std::string& engine);
+
+/// The engine selected by --engines.
+[[nodiscard]] Override engine_override(const std::string& engine, const std::string& option = "--engines");
+
+// A directory of results that a command may replace, because the command created it.
+//
+//   DIR/MARKER        written first, so that --force can replace the remains of a killed command
+//   DIR/FILES...      removed by --force; other files stay
+
+struct OwnedFolder {
+  std::string what;    ///< "comparison"
+  std::string marker;  ///< "compare.json"
+  std::vector<std::string> files;
+};
+
+/// Errors: FileError unless the folder is absent, empty or, with `force`, one of ours; then also if the scene lies in
+/// it and could be lost; `scene`: empty if there is none.
+void check_folder(const std::filesystem::path& path, const OwnedFolder& folder, bool force,
+                  const std::string& scene);
+/// Creates the folder, removes our files and writes the marker. Errors: FileError.
+void begin_folder(const std::filesystem::path& path, const OwnedFolder& folder);
+/// Reverses begin_folder(), and removes DIR/plots if it is empty. If other files remain, the marker stays.
+void leave_folder(const std::filesystem::path& path, const OwnedFolder& folder);
 
 }  // namespace signorini::cli

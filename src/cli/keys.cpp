@@ -1,12 +1,159 @@
 // signorini keys [WORD...]: lists all keys of a scene file, or those whose description contains the words, from the
 // reader's own table.
-#include <memory>
 
+#include "cli/keys.hpp"
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <vector>
+
+#include "base/files.hpp"
+#include "base/text.hpp"
 #include "cli/command.hpp"
-#include "cli/key_reference.hpp"
 #include "cli/terminal.hpp"
+#include "scene/keys.hpp"
+#include "scene/schema.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini::cli {
+namespace {
+
+std::string path_of(const Key& key) {
+  if (key.table.empty()) return std::string(key.name);
+  return fmt::format("{}.{}", key.table, key.name);
+}
+
+std::string default_of(const Key& key) { return key.fallback.empty() ? "-" : std::string(key.fallback); }
+
+/// Tables in the order of their first key in the key table.
+std::vector<std::string_view> tables() {
+  std::vector<std::string_view> names;
+  for (const Key& key : all_keys())
+    if (std::find(names.begin(), names.end(), key.table) == names.end()) names.push_back(key.table);
+  return names;
+}
+
+/// A cell of a Markdown table.
+std::string cell(std::string_view text) {
+  std::string result;
+  for (char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+std::string code(std::string_view text) { return text.empty() ? "" : fmt::format("`{}`", cell(text)); }
+
+std::string default_cell(const Key& key) {
+  return key.fallback == "required" ? "required" : code(key.fallback);
+}
+
+std::string name_cell(const Key& key) { return key.name == "*" ? "any name" : code(key.name); }
+
+/// The table of the keys of one table.
+std::string key_table(std::string_view table) {
+  std::string rows;
+  for (const Key& key : all_keys()) {
+    if (key.table != table) continue;
+    rows += fmt::format("| {} | {} | {} | {} | {} |\n", name_cell(key), cell(describe_type(key)),
+                        cell(key.unit), default_cell(key), cell(key.meaning));
+  }
+  return rows.empty() ? "" : "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n" + rows;
+}
+
+std::string small(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// A search word, and the words in key descriptions that it stands for. The word itself is searched, too.
+struct Synonym {
+  std::string_view word;
+  std::initializer_list<std::string_view> keys;
+};
+const Synonym synonyms[] = {
+    {"earthquake", {"base_motion", "base motion"}},
+    {"quake", {"base_motion", "base motion"}},
+    {"seismic", {"base_motion", "base motion"}},
+    {"accelerogram", {"base_motion"}},
+    {"hanger", {"springs[].preload", "springs[].stiffness"}},
+    {"bearing", {"pendulums[]", "normal_force"}},
+    {"isolator", {"pendulums[]"}},
+    {"stress", {"sif", "output[].quantity", "output[].fibre"}},
+    {"temperature", {"thermal"}},
+    {"heat", {"temperature", "thermal"}},
+    {"thermal", {"temperature"}},
+    {"weight", {"gravity", "mass_per_length"}},
+    {"shoe", {"contacts[]"}},
+    {"guide", {"stops[]"}},
+    {"elbow", {"members.bend", "members[].bend"}},
+    {"support", {"supports[]", "contacts[]"}},
+    {"damper", {"damping"}},
+    {"dashpot", {"damping"}},
+    {"snubber", {"springs[].damping"}},
+    {"impact", {"restitution"}},
+};
+
+bool line_has(const std::string& line, const std::string& word) {
+  if (line.find(word) != std::string::npos) return true;
+  for (const Synonym& synonym : synonyms) {
+    if (word != synonym.word && word != std::string(synonym.word) + "s") continue;
+    for (const std::string_view key : synonym.keys)
+      if (line.find(key) != std::string::npos) return true;
+  }
+  return false;
+}
+
+bool speaks_of(const std::vector<std::string>& row, const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& cell : row) line += small(cell) + " ";
+  return std::all_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return line_has(line, small(word)); });
+}
+
+}  // namespace
+
+std::string key_list(const std::vector<std::string>& words) {
+  const std::string heading =
+      "units are given in terms of force, mass, length and time; \"-\" means: no default, the key may be "
+      "left out\n";
+  std::string text = heading;
+  for (const std::string_view table : tables()) {
+    Table rows({"", "", "", "", ""}, {false, false, false, false, false});
+    bool any = false;
+    for (const Key& key : all_keys()) {
+      if (key.table != table) continue;
+      const std::vector<std::string> row = {path_of(key), describe_type(key), std::string(key.unit),
+                                            default_of(key), std::string(key.meaning)};
+      if (!speaks_of(row, words)) continue;
+      any = true;
+      rows.row(row);
+    }
+    if (any) text += rows.str();
+  }
+  if (text == heading) throw UsageError("no key matches " + listed(words));
+  return text;
+}
+
+std::string scene_reference() {
+  constexpr std::string_view begin = "@keys ", end = "@\n";
+  std::string_view words = reference_texts().front().text;
+  std::string text;
+  std::vector<std::string_view> done;
+  for (std::size_t at; (at = words.find(begin)) != std::string_view::npos;) {
+    text += words.substr(0, at);
+    words.remove_prefix(at + begin.size());
+    done.push_back(words.substr(0, words.find(end)));
+    text += key_table(done.back());
+    words.remove_prefix(done.back().size() + end.size());
+  }
+  text += words;
+  for (const std::string_view table : tables())
+    if (std::find(done.begin(), done.end(), table) == done.end())
+      text += fmt::format("\n## `{}`\n\n{}", table, key_table(table));
+  return text;
+}
 
 void add_keys(Program& program) {
   auto markdown = std::make_shared<bool>(false);
@@ -19,6 +166,19 @@ void add_keys(Program& program) {
     program.action = [markdown, words] {
       if (*markdown && !words->empty()) throw UsageError("--markdown: prints all keys, expected no WORD");
       print(*markdown ? scene_reference() : key_list(*words));
+      return ExitCode::done;
+    };
+  });
+}
+
+// signorini schema: prints a JSON Schema of scenes, for editors.
+
+void add_schema(Program& program) {
+  CLI::App* command = program.app.add_subcommand(
+      "schema", "print a JSON Schema for scene files; editors use it for completion and checks");
+  command->callback([&program] {
+    program.action = [] {
+      print(scene_schema());
       return ExitCode::done;
     };
   });

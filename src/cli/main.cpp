@@ -8,10 +8,10 @@
 #include <new>
 #include <string>
 
-#include "base/suggest.hpp"
+#include "base/text.hpp"
 #include "base/version.hpp"
 #include "cli/command.hpp"
-#include "cli/interrupt.hpp"
+#include "cli/progress_display.hpp"
 #include "cli/terminal.hpp"
 
 namespace signorini::cli {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <sstream>
 
-#include "base/embedded.hpp"
-#include "base/suggest.hpp"
+#include "base/files.hpp"
+#include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/quake.hpp"
 #include "cli/terminal.hpp"

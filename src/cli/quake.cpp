@@ -9,14 +9,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
 #include "scene/data_file.hpp"
 #include "study/quake/quake.hpp"
-#include "study/quake/response_spectrum.hpp"
-#include "study/quake/target_spectrum.hpp"
+#include "study/quake/spectra.hpp"
 
 namespace signorini::cli {
 

@@ -6,16 +6,15 @@
 #include <optional>
 
 #include "cli/command.hpp"
-#include "cli/gnuplot.hpp"
-#include "cli/live.hpp"
-#include "cli/report.hpp"
-#include "cli/settings.hpp"
+#include "cli/plot.hpp"
+#include "cli/progress_display.hpp"
+#include "cli/run_text.hpp"
 #include "cli/terminal.hpp"
 #include "model/modes/frequencies.hpp"
+#include "result/instants.hpp"
 #include "result/plots.hpp"
-#include "result/trace_writer.hpp"
 #include "run/choose_engine.hpp"
-#include "run/trial.hpp"
+#include "run/cost_estimate.hpp"
 #include "signorini/certify.hpp"
 #include "study/prepared_run.hpp"
 

@@ -1,24 +1,45 @@
 // signorini study: measures speed against error, for engines and settings.
-#include <fmt/core.h>
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "cli/command.hpp"
-#include "cli/gnuplot.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/owned_folder.hpp"
-#include "cli/settings.hpp"
-#include "cli/study_text.hpp"
+#include "cli/plot.hpp"
+#include "cli/progress_display.hpp"
 #include "cli/terminal.hpp"
 #include "result/run_directory.hpp"
-#include "study/speed/decades.hpp"
 #include "study/speed/work_files.hpp"
-#include "study/speed/work_plots.hpp"
+#include "study/speed/work_plan.hpp"
+#include "study/speed/work_study.hpp"
 
 namespace signorini::cli {
+
+// Output of `study`: a table of runs, the cheapest for each accuracy, and failures.
+
+[[nodiscard]] std::string study_text(const WorkReport& report);
+/// Only the table, for papers.
+[[nodiscard]] std::string study_table(const WorkReport& report, TableStyle style);
+
+std::string study_table(const WorkReport& report, TableStyle style) {
+  WorkTable content = work_table(report);
+  Table table(std::move(content.header), std::move(content.right));
+  for (auto& row : content.rows) table.row(std::move(row));
+  return table.str(style);
+}
+
+std::string study_text(const WorkReport& report) {
+  std::string text = report.title.empty() ? "" : report.title + "\n";
+  text += work_circumstances(report) + "\n" + work_reference(report) + "\n\n";
+  text += study_table(report, TableStyle::plain) + "\n";
+  for (const std::string& sentence : work_conclusions(report)) text += sentence + "\n";
+  for (const std::string& note : report.notes) text += "  note: " + note + "\n";
+  for (const std::string& failure : work_failures(report)) text += "  " + failure + "\n";
+  return text;
+}
 
 namespace {
 

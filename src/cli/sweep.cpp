@@ -8,22 +8,18 @@
 #include <memory>
 #include <optional>
 
-#include "base/duration.hpp"
-#include "base/fingerprint.hpp"
 #include "base/machine.hpp"
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "cli/command.hpp"
-#include "cli/gnuplot.hpp"
-#include "cli/settings.hpp"
-#include "cli/sweep_tasks.hpp"
+#include "cli/plot.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/terminal.hpp"
 #include "cli/workers.hpp"
 #include "result/csv.hpp"
-#include "scene/scene_text.hpp"
+#include "scene/toml_node.hpp"
+#include "study/sweep/parameter_range.hpp"
 #include "study/sweep/quantiles.hpp"
 #include "study/sweep/response_query.hpp"
-#include "study/sweep/sample.hpp"
 #include "study/sweep/sweep_plots.hpp"
 
 namespace signorini::cli {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/table.hpp"
+#include "cli/terminal.hpp"
 
 namespace signorini::cli {
 

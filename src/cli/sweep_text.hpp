@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/table.hpp"
+#include "cli/terminal.hpp"
 #include "study/sweep/quantiles.hpp"
 
 namespace signorini::cli {

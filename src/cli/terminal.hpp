@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace signorini::cli {
 
@@ -23,5 +24,34 @@ void open_closed_streams();
 
 /// Replaces the progress line; an empty text removes it.
 void progress_line(const std::string& text);
+
+// Text in columns for the terminal; `right` columns are aligned to the right.
+//
+//   Table table({"t [s]", "contact"}, {true, false});  table.row({"0.5", "first"});  table.str()
+//
+// For papers also in Markdown, and as a LaTeX tabular that needs no package.
+
+/// The number with six significant digits.
+[[nodiscard]] std::string number(double value);
+
+enum class TableStyle { plain, markdown, latex };
+/// Style named by --table; plain if empty. Errors: UsageError.
+[[nodiscard]] TableStyle table_style(const std::string& name);
+
+class Table {
+ public:
+  Table(std::vector<std::string> header, std::vector<bool> right);
+  void row(std::vector<std::string> cells);
+  /// A line that is not split into columns.
+  void line(std::string text);
+  /// Columns separated and indented by two blanks.
+  [[nodiscard]] std::string str() const;
+  /// Lines follow the table in Markdown, and are comments in LaTeX.
+  [[nodiscard]] std::string str(TableStyle style) const;
+
+ private:
+  std::vector<bool> right_;
+  std::vector<std::vector<std::string>> rows_;  // a row with one cell is a line
+};
 
 }  // namespace signorini::cli

@@ -6,11 +6,8 @@
 #include <optional>
 
 #include "cli/command.hpp"
-#include "cli/gnuplot.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/owned_folder.hpp"
-#include "cli/settings.hpp"
-#include "cli/table.hpp"
+#include "cli/plot.hpp"
+#include "cli/progress_display.hpp"
 #include "cli/terminal.hpp"
 #include "signorini/error.hpp"
 #include "study/prepared_run.hpp"

@@ -4,10 +4,9 @@
 #include <memory>
 
 #include "cli/command.hpp"
-#include "cli/settings.hpp"
 #include "cli/terminal.hpp"
-#include "result/witness_json.hpp"
-#include "study/witness/directory_witness.hpp"
+#include "result/summary_parts.hpp"
+#include "study/law_check/directory_law_checker.hpp"
 
 namespace signorini::cli {
 

@@ -1,6 +1,9 @@
 #include "contact/friction.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -88,6 +91,87 @@ void FrictionTangent::extend(double rate, double moved_rate) {
   for (std::size_t j = 0; j <= k; ++j) product += e_[j] * y_[k - j];
   by_p_.push_back((k == 0 ? by_kinetic_ : 0.0) + (by_static_ - by_kinetic_) * e_[k] +
                   (static_ - kinetic_) * product);
+}
+
+double friction_limit(const Friction& f, double x) {
+  if (x <= 0.0) return f.static_ * x;
+  return (f.kinetic + (f.static_ - f.kinetic) * std::exp(-x / *f.force)) * x;
+}
+
+double friction_limit_slope(const Friction& f, double x) {
+  if (x <= 0.0) return f.static_;
+  const double ratio = x / *f.force;
+  return f.kinetic + (f.static_ - f.kinetic) * (1.0 - ratio) * std::exp(-ratio);
+}
+
+void set_limit(const Contact& contact, ContactMotion& m) {
+  const Friction& f = contact.friction;
+  if (!f.by_force()) return;
+  m.limit = friction_limit(f, -m.N);
+  m.limit_rate = friction_limit_slope(f, -m.N) *
+                 (contact.normal_force_given() ? m.pressing_rate : -contact.normal_stiffness * m.vn);
+}
+
+LimitSeries::LimitSeries(const Friction& friction, double x0)
+    : range_(friction.static_ - friction.kinetic),
+      force_(*friction.force),
+      slope_(friction_limit_slope(friction, x0)),
+      x_{x0},
+      e_{std::exp(-std::max(x0, 0.0) / force_)} {}
+
+/// E_k without its term -x_k E_0 / Nc.
+double LimitSeries::known_exponential() const {
+  const std::size_t k = x_.size();
+  double sum = 0.0;
+  for (std::size_t j = 1; j < k; ++j) sum += static_cast<double>(j) * x_[j] * e_[k - j];
+  return -sum / (force_ * static_cast<double>(k));
+}
+
+double LimitSeries::known() const {
+  const std::size_t k = x_.size();
+  double sum = x_[0] * known_exponential();
+  for (std::size_t j = 1; j < k; ++j) sum += x_[j] * e_[k - j];
+  return range_ * sum;
+}
+
+double LimitSeries::take(double x) {
+  const double limit = slope_ * x + known();
+  const double e = known_exponential() - x * e_[0] / force_;
+  x_.push_back(x);
+  e_.push_back(e);
+  return limit;
+}
+
+namespace {
+
+constexpr int most_steps =
+    200;  // Newton steps: the first ones advance by v at least, the last ones converge quadratically
+
+}  // namespace
+
+double rate_of_saturation(const Friction& friction) {
+  return -friction.rate_of_change() * std::log(saturated);
+}
+
+std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
+                                         double pressed) {
+  const double slow = friction.static_, fast = friction.kinetic, v = friction.rate_of_change();
+  // Below slow |N|, friction continues as a straight line (contact/friction.cpp).
+  if (pull <= slow * pressed) return (pull - slow * pressed) / (damping + (fast - slow) / v * pressed);
+  if (!(damping > 0.0)) {
+    const double rest = (fast * pressed - pull) / ((fast - slow) * pressed);
+    if (!(rest > saturated)) return std::nullopt;
+    return -v * std::log(rest);
+  }
+  // The residual is increasing and concave in x: started from the left, Newton steps never pass the root.
+  double x = 0.0;
+  for (int i = 0; i < most_steps; ++i) {
+    const double fading = (fast - slow) * std::exp(-x / v) * pressed;
+    const double step = (pull - damping * x - fast * pressed + fading) / (damping + fading / v);
+    x += step;
+    if (std::abs(step) <= rounding::of_few * (std::abs(x) + v)) break;
+  }
+  return x;
 }
 
 }  // namespace signorini

@@ -13,18 +13,57 @@
 // The derivatives of these equations with respect to a parameter p are
 //   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'
 //
-// Friction whose coefficient depends on N: contact/friction_limit.hpp.
+// Friction whose coefficient depends on N: contact/friction.hpp.
 // A friction law consists of these functions and its constants (friction_constants); all other code calls them. Units:
 // f is dimensionless.
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
-#include "contact/friction_limit.hpp"
 #include "signorini/contact.hpp"
+#include "signorini/scene.hpp"
 
 namespace signorini {
+
+// Friction whose coefficient depends on the normal force.
+//
+//   |T| <= F in stick,  T = s F in slip,  F(x) = f(x) x,
+//   f(x) = fh + (fl - fh) exp(-x / Nc),  x = |N|              fl, fh: for light and for heavy loads, Nc: `force`
+//   F'(x) = fh + (fl - fh) (1 - x / Nc) exp(-x / Nc)
+//
+// F is smooth, F(0) = 0 and F'(0) = fl; below zero it continues as a straight line, so that a root finder may evaluate
+// it slightly beyond a separation. Along a series of x, with E = exp(-x / Nc):
+//   k E_k = -(1 / Nc) sum_(j = 1..k) j x_j E_(k-j),   F_k = fh x_k + (fl - fh) sum_(j = 0..k) x_j E_(k-j)
+// F'(x_0) x_k is the part of F_k that contains x_k. Units: F, x and Nc are forces, f is dimensionless.
+
+/// F at the compression x = -N, and its slope, for friction that depends on N.
+[[nodiscard]] double friction_limit(const Friction& friction, double x);
+[[nodiscard]] double friction_limit_slope(const Friction& friction, double x);
+
+/// Sets F and its rate in the motion of a closed contact, from N, g' and q; no effect if friction does not depend on N.
+void set_limit(const Contact& contact, ContactMotion& m);
+
+/// F along a series of x, one coefficient after the other.
+class LimitSeries {
+ public:
+  LimitSeries(const Friction& friction, double x0);
+
+  /// Slope F'(x_0).
+  [[nodiscard]] double slope() const { return slope_; }
+  /// F_k without F'(x_0) x_k for the next level k; it is known before x_k.
+  [[nodiscard]] double known() const;
+  /// Takes x_k, for k = 1, 2, ...; returns F_k.
+  double take(double x);
+
+ private:
+  [[nodiscard]] double known_exponential() const;
+
+  double range_, force_;  // fl - fh, Nc
+  double slope_;
+  std::vector<double> x_, e_;
+};
 
 /// Static: greatest |T| / |N| in stick over all N. Kinetic: least |T| / |N| in slip over all slip rates.
 [[nodiscard]] inline double static_friction(const Contact& contact) {
@@ -137,5 +176,27 @@ class FrictionTangent {
   int s_;
   std::vector<double> exponent_, e_, y_, by_p_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
 };
+
+// Slip rate of a massless sliding point if friction rises with the rate.
+//
+//   pull - c x = f(x) |N|,   f(x) = fast - (fast - slow) exp(-x / v)      x = s p', c: dashpot beside kt
+//   c = 0:  x = -v ln m,   m = (fast |N| - pull) / ((fast - slow) |N|)
+//
+// The spring force T acts on the point, so that friction determines its rate: the left side decreases with x and the
+// right side increases, hence x is unique. Without a dashpot there is no solution if the pull reaches the limit of
+// friction at infinite rate; the point then follows instantaneously. x < 0: the pull is below slow |N|, the point
+// sticks. Units: x, v length/time.
+
+/// Friction counts as `fast` if it differs from it by less than this fraction of fast - slow: the pull then no longer
+/// determines the rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
+inline constexpr double saturated = 1e-8;
+
+/// Rate beyond which friction counts as `fast`: -v ln(saturated).
+[[nodiscard]] double rate_of_saturation(const Friction& friction);
+
+/// Slip rate x. pull: along the slip, at x = 0; pressed: |N| > 0; damping >= 0. nullopt: friction is at its greatest
+/// value.
+[[nodiscard]] std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
+                                                       double pressed);
 
 }  // namespace signorini

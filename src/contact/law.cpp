@@ -150,4 +150,20 @@ std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const C
 
 Form slip_rate(const Contact& contact, int s) { return contact.law->slip_rate(contact, s); }
 
+State slip_along(double direction) { return direction >= 0.0 ? State::slip_plus : State::slip_minus; }
+
+State state_at_rest(const Contact& contact) { return contact.has_friction() ? State::stick : State::closed; }
+
+State let_go(const Contact& contact, double gap) {
+  return contact.normal_damping > 0.0 && gap < 0.0 ? State::inside : State::open;
+}
+
+ContactState next_state(const Contact& contact, const ContactState& now, Guard failed, const MotionJet& jet) {
+  return contact.law->next_state(contact, now, failed, jet);
+}
+
+Violations violations(const Contact& contact, State state, const ContactMotion& m) {
+  return contact.law->violations(contact, state, m);
+}
+
 }  // namespace signorini

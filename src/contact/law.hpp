@@ -6,7 +6,7 @@
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
 //   with a shear element, whose sliding point is massless:   p' = 0                       T + s fk N = 0
 //   held s, at rest at the static limit because other contacts prevent its motion:   T + s fs N = 0
-//   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction_limit.hpp.
+//   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction.hpp.
 //   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
 //   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").
 //
@@ -22,7 +22,7 @@
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
 // These are the built-in laws: contact/law/coulomb_law.hpp and the laws along the normal in the same folder. A
-// user-defined law has the rows and guards that its data give (signorini/own_law.hpp, contact/law/user_law.hpp). All
+// user-defined law has the rows and guards that its data give (signorini/user_contact_law.hpp, contact/law/user_law.hpp). All
 // laws share the interface signorini/contact_law.hpp. A guard is positive while its state is valid; the event is the
 // first zero of a guard. Guards are smooth past their zero, so that a root finder may evaluate them slightly beyond the
 // event.
@@ -33,9 +33,9 @@
 #include <memory>
 #include <vector>
 
-#include "contact/slots.hpp"
+#include "contact/contact_states.hpp"
 #include "signorini/contact.hpp"
-#include "signorini/own_law.hpp"
+#include "signorini/user_contact_law.hpp"
 
 namespace signorini {
 
@@ -109,5 +109,54 @@ struct Rows {
                                                                const ContactState& state);
 /// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
+
+// The next state of a contact after one of its guards has failed.
+//
+//   guard failed    from     to
+//   separation      closed   open (inside while g < 0, which a dashpot makes possible)
+//   open gap        inside   open
+//   closing         open     stick  iff  kt |ut^(m)| <= fs kn |g^(m)|, else slip s = sign ut^(m)
+//                            (m: the first derivative of g that is not zero; p := ut, so T = 0)
+//   friction limit  stick    slip s,  p := ut - s fk |N| / kt
+//   slip rate       slip s   stick,   p := ut - T / kt
+//
+// Forces and velocities are continuous for contacts with elements, so each one is decided separately from its own
+// one-sided derivatives. Contacts without tangential stiffness are tried in the same way, and the caller repeats until
+// every guard of the new states holds (decide/contact_state_solver.hpp).
+// Source: Lukashevich et al. 2021, section on contact states; the closing rule is the apex of the cone.
+
+/// Motion of one contact just after an instant: element k is the k-th time derivative. `noise` has the same shape: the
+/// error of each entry caused by one rounding of the data.
+struct MotionJet {
+  static constexpr std::size_t orders = 5;  ///< the motion and four derivatives, enough to decide states
+  std::array<ContactMotion, orders> motion, noise;
+};
+
+/// State that slips in a direction; state of a contact that bears a load and does not slip.
+[[nodiscard]] State slip_along(double direction);
+[[nodiscard]] State state_at_rest(const Contact& contact);
+/// State of a contact without force: with a dashpot the force may vanish before the gap has opened.
+[[nodiscard]] State let_go(const Contact& contact, double gap);
+
+/// The next state of one contact; `failed` is a guard of `now`, `jet` is the motion in state `now`.
+[[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
+                                      const MotionJet& jet);
+
+// The amount by which a contact violates its own conditions.
+//
+//   (6)  g >= 0, N <= 0, g N = 0          g minus the element's length if there is a spring
+//   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, of the slip rate in slip
+
+/// Each value is positive if its condition is violated.
+struct Violations {
+  double tension = 0.0;      ///< N; force
+  double gap = 0.0;          ///< -(g - element); length, contacts with a spring
+  double penetration = 0.0;  ///< |g| closed, -g open; length, constraints
+  double product = 0.0;      ///< |g N|, g as above; energy
+  double friction = 0.0;     ///< |T| - T_U, closed contacts; force
+  double direction = 0.0;    ///< -T p', in slip; power
+};
+
+[[nodiscard]] Violations violations(const Contact& contact, State state, const ContactMotion& m);
 
 }  // namespace signorini

@@ -6,6 +6,10 @@
 // s: motion of the surface. u, v, a: any type with operator[] by degree of freedom.
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
 #include "signorini/contact.hpp"
 
 namespace signorini {
@@ -58,5 +62,13 @@ inline void leave_out_borrowed(const Contact& contact, State state, ContactMotio
   }
   m.gap = m.vn = 0.0;
 }
+
+// Linear forms as columns of a matrix, restricted to the degrees of freedom that they depend on.
+//
+//   H_ij = weight_d factor_d of form j,   d: i-th degree of freedom of the forms, in the order of first occurrence
+
+/// Matrix H, degrees of freedom x forms. weight: of a degree of freedom; 1 if absent.
+[[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<const Combination*>& forms,
+                                           const std::function<double(int)>& weight = {});
 
 }  // namespace signorini

@@ -7,7 +7,7 @@
 // spring releases, kn (g_from^2 - g_to^2)/2, until the gap opens or the contact closes again.
 #pragma once
 
-#include "contact/mode.hpp"
+#include "contact/contact_states.hpp"
 
 namespace signorini {
 

@@ -11,11 +11,37 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
 
 namespace signorini {
+
+// Index of a listed contact in vectors that contain l, k or rn, rt of each contact in turn.
+//
+//   (n_1, t_1, n_2, t_2, ...)         the list: touching, undecided, or reversing contacts
+
+/// Entries per listed contact: n, and one tangent.
+inline constexpr Eigen::Index places_per_contact = 2;
+
+template <class Integer>
+[[nodiscard]] constexpr Eigen::Index normal_place(Integer i) {
+  return places_per_contact * static_cast<Eigen::Index>(i);
+}
+template <class Integer>
+[[nodiscard]] constexpr Eigen::Index tangent_place(Integer i) {
+  return normal_place(i) + 1;
+}
+/// Length of such a vector.
+template <class Integer>
+[[nodiscard]] constexpr Eigen::Index place_count(Integer contacts) {
+  return places_per_contact * static_cast<Eigen::Index>(contacts);
+}
+[[nodiscard]] constexpr std::size_t contact_of_place(Eigen::Index place) {
+  return static_cast<std::size_t>(place / places_per_contact);
+}
+[[nodiscard]] constexpr bool is_normal_place(Eigen::Index place) { return place % places_per_contact == 0; }
 
 struct CoulombItem {
   enum class Kind : unsigned char {
@@ -65,5 +91,37 @@ struct Enumerated {
 
 /// False if friction couples tangent to normal too weakly for more than one solution.
 [[nodiscard]] bool may_have_many(const CoulombProblem& problem);
+
+// Values of a Coulomb problem's solution that are significant within its noise.
+//
+//   df = |A^-1| db,   dr = db + |W_A| df       A: rows and columns of W of the acting forces, |.| entrywise
+//
+// db: noise of the right-hand side. Each df is at least the noise for the contact alone, and at least the rounding of
+// the problem's largest entry, in units that make the diagonal of W one. Units: those of forces and responses.
+
+class CoulombReading {
+ public:
+  /// Problem and solution must outlive the object. noise: of problem.b, >= 0.
+  CoulombReading(const CoulombProblem& problem, const CoulombSolution& solution,
+                 const Eigen::VectorXd& noise);
+
+  [[nodiscard]] const CoulombItem& item(std::size_t i) const { return problem_.items[i]; }
+  [[nodiscard]] double force(Eigen::Index row) const { return solution_.force[row]; }
+  [[nodiscard]] double response(Eigen::Index row) const { return solution_.response[row]; }
+  /// Compression of item i, and its coefficient of friction in the solution.
+  [[nodiscard]] double pressing(std::size_t i) const;
+  [[nodiscard]] double friction(std::size_t i) const;
+
+  [[nodiscard]] double zero_force(Eigen::Index row) const;
+  [[nodiscard]] bool is_zero_response(Eigen::Index row) const;
+  /// True if friction is clearly inside its cone: the contact is then at rest, whatever rounding is left in its
+  /// response.
+  [[nodiscard]] bool is_inside_cone(std::size_t i) const;
+
+ private:
+  const CoulombProblem& problem_;
+  const CoulombSolution& solution_;
+  Eigen::VectorXd force_noise_, response_noise_;
+};
 
 }  // namespace signorini

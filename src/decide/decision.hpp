@@ -56,15 +56,16 @@ struct Decision {
   std::vector<GuardStart> guards;             ///< guards_per_contact entries per contact
   GuardForms forms;                           ///< forms of these guards, including absent ones
   std::map<std::size_t, Crossing> crossings;  ///< of visited contacts
-  std::vector<bool> visited;          ///< contacts that changed state in between, one entry per contact
-  std::vector<bool> jumped;           ///< contacts whose N or T jumps
-  std::vector<std::size_t> released;  ///< contacts that massless parts left instantaneously (release.hpp)
-  std::vector<Impulse> impulses;      ///< one entry per contact if rigid contacts were hit; otherwise empty
-  std::vector<Blow> blows;            ///< single impacts, turn by turn, whose sums are `impulses`
-  std::vector<double> departures;     ///< Findings::departures
-  double impact_loss = 0.0;           ///< energy that the impacts dissipate
-  double impact_surface_work = 0.0;   ///< work of moving surfaces in the impacts
-  bool impact_gains = false;          ///< an impact gained energy (Newton's law with friction)
+  std::vector<bool> visited;  ///< contacts that changed state in between, one entry per contact
+  std::vector<bool> jumped;   ///< contacts whose N or T jumps
+  std::vector<std::size_t>
+      released;                    ///< contacts that massless parts left instantaneously (massless_jump.hpp)
+  std::vector<Impulse> impulses;   ///< one entry per contact if rigid contacts were hit; otherwise empty
+  std::vector<Blow> blows;         ///< single impacts, turn by turn, whose sums are `impulses`
+  std::vector<double> departures;  ///< Findings::departures
+  double impact_loss = 0.0;        ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;  ///< work of moving surfaces in the impacts
+  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
   /// True if rounding left the decision open: the states with the smallest violation were taken, or rest continues at
   /// the limit of friction.
   bool undecided = false;

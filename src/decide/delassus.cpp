@@ -1,9 +1,15 @@
 #include "decide/delassus.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "base/eigen_dense.hpp"
-#include "decide/places.hpp"
+#include "base/least_norm.hpp"
+#include "base/rounding.hpp"
+#include "contact/friction.hpp"
+#include "decide/coulomb_problem.hpp"
+#include "linear/redundant_rows.hpp"
 
 namespace signorini {
 
@@ -74,6 +80,153 @@ Eigen::VectorXd settle(const Delassus& d, const std::vector<Fixed>& fixed, Vecto
       set_exactly(*f.form, f.value, v);
   }
   return impulses;
+}
+
+namespace {
+
+/// Fraction of the largest force. The noise is the size that counts as zero: 64 times 4 to 8 eps of the terms times the
+/// condition. A check is worthwhile above a condition of about 1e10. Chosen value; the singular value decides.
+constexpr double suspicious = 1e-3;
+
+bool holds(const Contact& contact, const ContactState& state) {
+  if (contact.takes_impulses()) return !state.is_open();
+  return contact.sticks_rigidly() && state.state == State::stick;
+}
+
+/// Matrix A: constraint rows of accelerations, and their response to the constraint forces.
+Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vector<std::size_t>& contacts,
+                          const Eigen::MatrixXd& W) {
+  std::vector<Eigen::Index> rows;
+  Eigen::MatrixXd effect = W;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = model.contacts[contacts[i]];
+    const ContactState& state = mode[contacts[i]];
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    if (contact.takes_impulses()) rows.push_back(n);
+    if (contact.has_friction() && state.state == State::stick) rows.push_back(t);
+    if (const int s = slip_sign(state.state); s != 0)
+      effect.col(n) -= s * slipping_friction(contact, state.state) * W.col(t);
+  }
+  return effect(rows, rows);
+}
+
+/// Adds the terms that make shares unique for feet of one body that share a motion: s z z' for directions z without
+/// effect (linear/redundant_rows.hpp).
+void add_shares(const ForceLayout& layout, const std::vector<SharedForces>& shared,
+                const std::vector<std::size_t>& contacts, Eigen::MatrixXd& W) {
+  const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
+    const auto at = std::find(contacts.begin(), contacts.end(), layout.contact_of(row));
+    if (at == contacts.end()) return std::nullopt;
+    return layout.is_normal(row) ? normal_place(at - contacts.begin()) : tangent_place(at - contacts.begin());
+  };
+  for (const SharedForces& of : shared)
+    for (std::size_t i = 0; i < of.rows.size(); ++i)
+      for (std::size_t j = 0; j < of.rows.size(); ++j) {
+        const auto a = place(of.rows[i]), b = place(of.rows[j]);
+        if (a && b) W(*a, *b) += of.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
+}
+
+}  // namespace
+
+bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets) {
+  double noise = 0.0, force = 0.0;
+  for (std::size_t c = 0; c < jets.size(); ++c) {
+    const ContactMotion& now = jets[c].motion[0];
+    force = std::max({force, std::abs(now.N), std::abs(now.T)});
+    const Contact& contact = model.contacts[c];
+    if (contact.takes_impulses() || contact.sticks_rigidly())
+      noise = std::max({noise, jets[c].noise[0].N, jets[c].noise[0].T});
+  }
+  return noise > suspicious * force;
+}
+
+bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
+  const Model& model = systems.model();
+  std::vector<std::size_t> contacts;
+  Mode free = mode;
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (holds(model.contacts[c], mode[c])) {
+      contacts.push_back(c);
+      free[c] = {State::open, 0.0};
+    }
+  if (contacts.size() < 2) return true;  // normal and tangent of one contact are independent
+  const ModeSystemPtr system = systems.of(free);
+  if (!system) return true;
+  Eigen::MatrixXd W = delassus(model, *system, contacts).W;
+  if (const ModeSystemPtr held = systems.of(mode))
+    add_shares(model.layout, held->factorised().shared, contacts, W);
+  Eigen::MatrixXd a = held_part(model, mode, contacts, W);
+  const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
+  if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
+  for (Eigen::Index i = 0; i < a.rows(); ++i)
+    for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) /= size[i] * size[j];
+  const Eigen::VectorXd singular = singular_values(a);
+  return singular.minCoeff() > rounding::of_many * static_cast<double>(a.rows()) * singular.maxCoeff();
+}
+
+namespace {
+
+using Kind = CoulombItem::Kind;
+
+/// Items whose forces may change, their rows in turn, and the sets in which they may.
+struct Shares {
+  std::vector<Eigen::Index> rows;
+  std::vector<ConvexSet> sets;
+  std::vector<std::size_t> resting;  ///< items that may stick: what they bear is no slip
+};
+
+Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, const CoulombSolution& s) {
+  Shares shares;
+  const Eigen::VectorXd size = p.W.cwiseAbs() * s.force.cwiseAbs() + p.b.cwiseAbs();
+  const auto rests = [&](Eigen::Index row) {
+    return std::abs(s.response[row]) <= rounding::of_elimination * size[row];
+  };
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const CoulombItem& item = p.items[i];
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    if (!may_share[i] || item.kind == Kind::limit) continue;
+    if (item.kind == Kind::pressed) {
+      if (!rests(t) || !(item.pressing > 0.0)) continue;
+      shares.rows.push_back(t);
+      shares.sets.push_back({ConvexSet::Kind::disc, 1, 0.0, item.static_friction * item.pressing, {}});
+      shares.resting.push_back(i);
+      continue;
+    }
+    if (!rests(n)) continue;
+    shares.rows.push_back(n);
+    if (item.kind == Kind::normal) {
+      shares.sets.push_back({ConvexSet::Kind::cone, 1, 0.0, 0.0, {}});
+      continue;
+    }
+    shares.rows.push_back(t);
+    if (item.kind == Kind::frictional && rests(t)) {
+      shares.sets.push_back({ConvexSet::Kind::cone, 2, item.static_friction, 0.0, {}});
+      shares.resting.push_back(i);
+      continue;
+    }
+    const double sign = item.kind == Kind::sliding ? item.sign : std::copysign(1.0, s.response[t]);
+    Eigen::VectorXd along(2);
+    along << 1.0, -sign * item.kinetic_friction;
+    shares.sets.push_back({ConvexSet::Kind::ray, 2, 0.0, 0.0, along.normalized()});
+  }
+  return shares;
+}
+
+}  // namespace
+
+void share_fairly(const CoulombProblem& problem, const std::vector<bool>& may_share,
+                  CoulombSolution& solution) {
+  const Shares shares = shares_of(problem, may_share, solution);
+  if (shares.rows.size() < 2 || shares.resting.empty()) return;
+  const Eigen::MatrixXd open = null_of_columns(problem.W(Eigen::all, shares.rows));  // moves nothing
+  if (open.cols() == 0) return;
+  const Eigen::VectorXd given = solution.force(shares.rows);
+  const Eigen::MatrixXd kept = orthogonal_complement(open).transpose();
+  const auto force = least_norm(kept, kept * given, shares.sets);
+  if (!force) return;  // `given` alone holds it, to rounding
+  solution.force(shares.rows) = *force;
+  for (const std::size_t i : shares.resting) solution.kinetic[i] = false;
 }
 
 }  // namespace signorini

@@ -6,8 +6,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
-#include "motion/mode_system.hpp"
+#include "contact/law.hpp"
+#include "contact/motion.hpp"
+#include "decide/coulomb_problem.hpp"
+#include "motion/state_systems.hpp"
 
 namespace signorini {
 
@@ -19,7 +23,7 @@ struct Delassus {
   Eigen::MatrixXd W;  ///< places x places of the list
 };
 
-/// A velocity along n or t of a listed contact that is known exactly. row: decide/places.hpp.
+/// A velocity along n or t of a listed contact that is known exactly. row: decide/coulomb_problem.hpp.
 struct Fixed {
   Eigen::Index row;
   const Combination* form;
@@ -34,10 +38,41 @@ Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed
 [[nodiscard]] Delassus delassus(const Model& model, const ModeSystem& system,
                                 const std::vector<std::size_t>& contacts);
 
-/// Impulses on the listed contacts (decide/places.hpp), together with the reactions of other constraint rows, such as
+/// Impulses on the listed contacts (decide/coulomb_problem.hpp), together with the reactions of other constraint rows, such as
 /// those of a sticking slider. Indexed like forces. Empty: no impulses.
 [[nodiscard]] Eigen::VectorXd with_reactions(const Model& model, const ModeSystem& system,
                                              const std::vector<std::size_t>& contacts,
                                              const Eigen::VectorXd& impulses);
+
+// Checks that the rows of a mode determine the forces of its rigid contacts.
+//
+//   A = H^T M^-1 (H - s f T),   H: normals of closed contacts, tangents of sticking ones;  A_ij / sqrt(A_ii A_jj)
+//
+// An elimination of dependent rows ends with a pivot of rounding size, and may not detect it: the computed forces then
+// have any size and sign, with noise of the same size.
+
+/// True if the noise of a rigid contact's force exceeds a thousandth of the largest force: the forces may then not be
+/// unique.
+[[nodiscard]] bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets);
+
+/// False if the smallest singular value is the rounding of zero.
+[[nodiscard]] bool forces_are_unique(ModeSystems& systems, const Mode& mode);
+
+// Forces of rigid contacts and sliders that accelerations leave open.
+//
+//   min sum ( l_i^2 + k_i^2 )   over   W f = W f_0,   (l_i, k_i) in the cone of contact i
+//
+//   it presses and rests    0 <= l,  |k| <= fs l        pressed by a given l:  |k| <= fs l
+//   it presses and slips    0 <= l,  k = -f l sign(rt)
+//   without friction        0 <= l
+//
+// A complementarity problem yields some forces that hold a body. Two of its feet that stick may share the friction in other
+// ways, and with feet at unequal heights their compressions, too. The accelerations are those of all; the forces of least norm
+// are unique, so that they depend neither on the order of contacts nor on the method that found the accelerations. A contact
+// whose force of least norm lies on its cone is at its limit.
+
+/// Replaces the forces of items of which others may hold the same motion, `may_share`, where that changes no response.
+void share_fairly(const CoulombProblem& problem, const std::vector<bool>& may_share,
+                  CoulombSolution& solution);
 
 }  // namespace signorini

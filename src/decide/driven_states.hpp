@@ -6,7 +6,7 @@
 //   stick        ends if the surface's velocity jumps away from t . v, unless there is an element between
 #pragma once
 
-#include "contact/transition.hpp"
+#include "contact/law.hpp"
 #include "decide/instant.hpp"
 #include "motion/forcing.hpp"
 

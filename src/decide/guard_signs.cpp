@@ -5,8 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "decide/plain_form.hpp"
-
 namespace signorini {
 namespace {
 

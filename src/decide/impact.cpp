@@ -1,17 +1,17 @@
 #include "decide/impact.hpp"
 
 #include <fmt/core.h>
-
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "contact/motion.hpp"
-#include "decide/coulomb_reading.hpp"
-#include "decide/fair_share.hpp"
-#include "decide/places.hpp"
-#include "model/said.hpp"
+#include "decide/coulomb_problem.hpp"
+#include "decide/delassus.hpp"
+#include "model/machine_units.hpp"
 
 namespace signorini {
 namespace {
@@ -199,6 +199,21 @@ Mode mode_of_impact(const Model& model, Mode mode, const std::vector<Impulse>& i
       mode[c].state = impulse.tangent > 0.0 ? State::slip_minus : State::slip_plus;
   }
   return mode;
+}
+
+std::vector<std::size_t> next_turn(std::vector<Approach>& all) {
+  double soonest = std::numeric_limits<double>::infinity();
+  for (const Approach& a : all)
+    if (a.closes()) soonest = std::min(soonest, a.gap / -a.rate);
+  std::vector<std::size_t> struck;
+  if (soonest == std::numeric_limits<double>::infinity()) return struck;
+  for (Approach& a : all) {
+    const bool rests = a.gap == 0.0 && a.rate <= a.rest;
+    const double gap = rests ? 0.0 : a.gap + a.rate * soonest;
+    a.gap = gap > rounding::of_few * a.gap ? gap : 0.0;  // rounding of a product and a difference
+    if (a.gap == 0.0 && (a.closes() || a.rate <= a.rest)) struck.push_back(a.contact);
+  }
+  return struck;
 }
 
 }  // namespace signorini

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/listed.hpp"
+#include "base/text.hpp"
+#include "contact/contact_states.hpp"
 #include "contact/law.hpp"
-#include "contact/mode.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

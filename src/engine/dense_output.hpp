@@ -8,16 +8,31 @@
 // engine fills it on request; pointers in it are valid until the engine's next step.
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <optional>
 #include <span>
 
-#include "engine/falls/turning_points.hpp"
-#include "engine/ripple.hpp"
-#include "motion/powers.hpp"
-#include "motion/series.hpp"
+#include "engine/events/turning_points.hpp"
+#include "motion/point.hpp"
+#include "motion/taylor.hpp"
 
 namespace signorini {
+
+// Bounds on the contribution of the fast part of a motion to any output.
+//
+//   |form . u| <= reach |u|_M,   reach^2 = form' M^-1 form,   |u|_M^2 = u' M u      (Cauchy and Schwarz)
+//
+// If the modes are known, |u|_M of all modes faster than a given rate is the square root of the sum of their squared
+// amplitudes: no mode is summed separately, and each form is evaluated once. Sums over modes of the whole motion have a
+// rounding error of a few eps reach |u|_M, wherever on the structure the form acts, also for a stress at a clamped end.
+
+/// Bounds on a step. Units: |.|_M is a length times the square root of a mass, for v and a divided by time and time
+/// squared; forces.
+struct Ripple {
+  double u = 0.0, v = 0.0, a = 0.0;
+  Eigen::VectorXd forces;  ///< bounds of all contact forces, in the order of the model's layout
+};
 
 /// The motion on the last step as a series: its end is at t + scale x.
 struct Expansion {

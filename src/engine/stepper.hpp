@@ -12,7 +12,7 @@
 #include "decide/decision.hpp"
 #include "decide/instant.hpp"
 #include "engine/dense_output.hpp"
-#include "engine/falls/graze.hpp"
+#include "engine/events/graze.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {

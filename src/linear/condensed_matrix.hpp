@@ -11,10 +11,116 @@
 // unchanged, which is near the contact.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "linear/band_factors.hpp"
-#include "linear/condensed_rows.hpp"
+#include "linear/system_matrices.hpp"
+#include "linear/system_matrix.hpp"
 
 namespace signorini {
+
+// An order of degrees of freedom in which matrices have a narrow band (Cuthill, McKee 1969).
+//
+//   |place(i) - place(j)| <= width   wherever M, C, K, or one contact, couple i and j
+//
+// From an end of each component its neighbours follow level by level, those with few neighbours first. The ends of a
+// component are far from each other: two searches for the last level find them.
+
+struct BandOrder {
+  std::vector<int> place;  ///< place of each degree of freedom
+  std::size_t width = 0;
+};
+
+[[nodiscard]] BandOrder band_order(const Model& model, const Structure& structure);
+
+// Compliant contacts in force on a structure, row by row of its band.
+//
+//   row i of  M w_a + C w_v + K w_u - H B^-1 R      i: a place in the band; H, B, R: linear/condensed_matrix.hpp
+//
+// Contains the data that do not depend on the weights: entries in the order in which a band is filled, and the rows of
+// each contact. It remembers the contacts that have changed, so that factors can be updated.
+
+class CondensedRows {
+ public:
+  /// An entry of the structure, in a row whose diagonal stands at width().
+  struct Entry {
+    std::uint32_t at = 0, dof = 0;
+    double m = 0.0, c = 0.0, k = 0.0;
+  };
+  /// A degree of freedom of a contact.
+  struct Touch {
+    std::uint32_t dof = 0, place = 0, contact = 0;
+    double n = 0.0, t = 0.0;
+  };
+  /// A contact in force.
+  struct Held {
+    double normal_N = 1.0, tangent_N = 0.0, tangent_T = 1.0;
+    double normal_gap = 0.0, normal_ut = 0.0, normal_vn = 0.0, normal_vt = 0.0;
+    double tangent_gap = 0.0, tangent_ut = 0.0, tangent_vn = 0.0, tangent_vt = 0.0;
+    bool on_motion = false;  ///< its forces follow the motion
+    bool told = false;       ///< own rows determine its forces, without accelerations
+  };
+
+  /// Rows of a model with is_economical(), without contacts in force. nullopt: the band is wider.
+  [[nodiscard]] static std::optional<CondensedRows> of(const Model& model, const Structure& structure,
+                                                       std::size_t most_width);
+
+  [[nodiscard]] std::size_t size() const { return dof_at_.size(); }
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] std::size_t contacts() const { return held_.size(); }
+  [[nodiscard]] const ForceLayout& layout() const { return layout_; }
+
+  /// Puts the rows of one contact in force, or those of all contacts.
+  void put(std::size_t contact, const Rows& rows);
+  void put(const std::vector<Rows>& rows);
+  /// False: a row contains an acceleration or does not determine its force.
+  [[nodiscard]] bool tell() const { return untold_ == 0; }
+  /// Version number; each change increases it.
+  [[nodiscard]] long version() const { return forgotten_ + static_cast<long>(changed_.size()); }
+  /// Contacts put in force since that version, some possibly twice. nullopt: the record does not reach back so far.
+  [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
+
+  [[nodiscard]] std::size_t dof_at(std::size_t place) const { return dof_at_[place]; }
+  [[nodiscard]] std::span<const Entry> entries(std::size_t place) const {
+    return {entries_.data() + entries_end_[place], entries_.data() + entries_end_[place + 1]};
+  }
+  [[nodiscard]] const Held& held(std::size_t contact) const { return held_[contact]; }
+  /// Touches of a contact: [first, end) of touch().
+  [[nodiscard]] std::size_t first_touch(std::size_t contact) const { return touches_end_[contact]; }
+  [[nodiscard]] std::size_t end_of_touches(std::size_t contact) const { return touches_end_[contact + 1]; }
+  [[nodiscard]] const Touch& touch(std::size_t i) const { return touches_[i]; }
+  /// Touches at a place, ascending by contact.
+  [[nodiscard]] std::span<const std::uint32_t> touches_at(std::size_t place) const {
+    return {at_place_.data() + at_place_end_[place], at_place_.data() + at_place_end_[place + 1]};
+  }
+
+  /// B^-1 R of a contact on its touches, at these weights; by_N, by_T: one entry for each touch.
+  void share(std::size_t contact, const Weights& weights, double* by_N, double* by_T) const;
+  /// The row at a place; out: 2 width() + 1 numbers that are zero before, with the diagonal in the middle.
+  void fill(std::size_t place, const Weights& weights, const double* by_N, const double* by_T,
+            double* out) const;
+
+ private:
+  CondensedRows() = default;
+
+  std::size_t width_ = 0;
+  ForceLayout layout_;
+  std::vector<std::size_t> dof_at_;  // degree of freedom at each place
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> entries_end_{0};  // place by place
+  std::vector<Touch> touches_;               // contact by contact
+  std::vector<std::size_t> touches_end_{0};  // end of each contact's touches
+  std::vector<std::uint32_t> at_place_;      // touches, place by place
+  std::vector<std::size_t> at_place_end_{0};
+  std::vector<Held> held_;
+  std::size_t untold_ = 0;            // number of contacts
+  std::vector<std::size_t> changed_;  // the last changed contacts
+  long forgotten_ = 0;                // number of earlier changes
+};
 
 /// Number of unknowns from which avoiding a factorisation saves time: one with 200 takes about 30 us. Chosen: the tests
 /// unit/engine/newmark cover both sides.

@@ -8,11 +8,15 @@
 // all, and a change of state costs none.
 #pragma once
 
+#include <Eigen/Core>
+#include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "contact/law.hpp"
-#include "linear/structure.hpp"
-#include "linear/triangular_factors.hpp"
+#include "linear/klu.hpp"
+#include "linear/system_matrices.hpp"
 
 namespace signorini {
 
@@ -42,6 +46,48 @@ class MassSolver {
   const Model* model_;
   std::shared_ptr<const TriangularFactors> mass_;
   std::vector<OwnForces> forces_;
+};
+
+// A matrix that differs from a factorised one in few rows (Woodbury).
+//
+//   A = A_0 + sum e_r d_r'          d_r: difference between row r of A and that of A_0
+//   A^-1 b = x - Y (1 + D Y)^-1 D x      x = A_0^-1 b,  columns of Y: A_0^-1 e_r,  rows of D: d_r'
+//
+// A column of Y costs a solve and is kept while A_0 stays, so a row that changes again costs none.
+
+struct ChangedRow {
+  std::size_t row = 0;
+  std::vector<std::pair<std::size_t, double>> entries;  ///< d_r: column, value
+};
+
+class UpdatedFactors {
+ public:
+  /// Beyond this many rows a solve with Y costs more than the factors of a banded matrix.
+  static constexpr std::size_t most_rows = 16;
+
+  /// Sets A_0, which must be regular.
+  void start(std::shared_ptr<const TriangularFactors> base);
+  [[nodiscard]] const TriangularFactors* base() const { return base_.get(); }
+  /// Puts rows in force. False: there are too many, or the inverted sum loses more digits than a solve may; then there
+  /// is no matrix.
+  [[nodiscard]] bool set(std::vector<ChangedRow> rows);
+  /// b := A^-1 b; both of the length of A, work: scratch.
+  void solve(double* b, double* work);
+  /// Numbers that a solve processes in addition to those of A_0.
+  [[nodiscard]] std::size_t numbers() const { return rows_.size() * (base_ ? base_->size() : 0); }
+  /// Number of solves for columns of Y.
+  [[nodiscard]] long solves() const { return solves_; }
+
+ private:
+  const Eigen::VectorXd& column(std::size_t row);
+
+  std::shared_ptr<const TriangularFactors> base_;
+  std::map<std::size_t, Eigen::VectorXd> columns_;
+  std::vector<ChangedRow> rows_;
+  std::vector<const Eigen::VectorXd*> in_force_;  // columns of Y, one for each row
+  Eigen::MatrixXd inverse_;                       // inverse of 1 + D Y
+  Eigen::VectorXd parts_, shares_, work_;
+  long solves_ = 0;
 };
 
 }  // namespace signorini

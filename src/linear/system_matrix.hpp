@@ -5,21 +5,21 @@
 //
 // The weights define the unknown of that column. IDA solves for dv of degrees of freedom with mass (w = cj, 1, 1/cj)
 // and for du of those without (0, cj, 1); the expansion in time solves for v', for u' of damped and u of undamped
-// massless degrees of freedom (motion/mode_system.hpp); Newmark uses (1, h/2, h^2/4). Order of unknowns and rows: the n
+// massless degrees of freedom (motion/state_systems.hpp); Newmark uses (1, h/2, h^2/4). Order of unknowns and rows: the n
 // degrees of freedom, then N_k and T_k of each contact in turn. The pattern is the union over all states: one for the
 // whole run. Rigid contacts that constrain one motion together have the additional entries s z z', so that forces are
-// unique (linear/shared_rows.hpp). If a degree of freedom represents a motion without mass
+// unique (linear/redundant_rows.hpp). If a degree of freedom represents a motion without mass
 // (linear/undamped_motion.hpp), its column is that of the motion, the sum of z_i times the columns that i would have
 // with its weights.
 #pragma once
 
 #include <vector>
 
+#include "contact/contact_states.hpp"
 #include "contact/law.hpp"
-#include "contact/mode.hpp"
 #include "linear/klu.hpp"
-#include "linear/shared_rows.hpp"
-#include "linear/structure.hpp"
+#include "linear/redundant_rows.hpp"
+#include "linear/system_matrices.hpp"
 #include "linear/undamped_motion.hpp"
 
 namespace signorini {

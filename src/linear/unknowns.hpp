@@ -3,7 +3,12 @@
 //   (x_1 ... x_n,  N_1, T_1,  N_2, T_2, ...)      forces in the order of signorini/force_layout.hpp
 #pragma once
 
+#include <vector>
+
+#include "contact/law.hpp"
+#include "linear/system_matrices.hpp"
 #include "signorini/force_layout.hpp"
+#include "signorini/model.hpp"
 
 namespace signorini {
 
@@ -17,5 +22,32 @@ struct Unknowns {
   [[nodiscard]] std::size_t tangent(std::size_t contact) const { return dofs + layout.tangent(contact); }
   [[nodiscard]] std::size_t size() const { return dofs + layout.size(contacts); }
 };
+
+// The unknown in the equation of a degree of freedom.
+//
+//   massive    its acceleration
+//   damped     its velocity: no mass, but a damper
+//   algebraic  its displacement: neither
+
+enum class DofKind : unsigned char { massive, damped, algebraic };
+
+/// Kinds by the structure alone; in a contact state: linear/undamped_motion.hpp.
+[[nodiscard]] std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure);
+/// True if there is a degree of freedom without mass.
+[[nodiscard]] bool has_massless(const Model& model);
+
+// Restriction of a model to some of its degrees of freedom.
+//
+//   M_WW, C_WW, K_WW,   n_k, t_k of contacts on W alone,   P_W
+//
+// The coupling of W to the rest is left out: it is zero for independent parts (parts.hpp); otherwise it acts at
+// the boundary of a neighbourhood (motion/local_derivatives.hpp).
+
+/// Model on `dofs` with `contacts`, which act on these alone: the data that runs of a model need; no outputs, no names
+/// but its own, no drawing, no loads.
+[[nodiscard]] Model restricted(const Model& model, const std::vector<int>& dofs,
+                               const std::vector<std::size_t>& contacts);
+/// The same load without a direction: it acts on no degree of freedom yet.
+[[nodiscard]] Load without_direction(const Load& load);
 
 }  // namespace signorini

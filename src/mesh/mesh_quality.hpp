@@ -7,7 +7,13 @@
 // aspect.
 #pragma once
 
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
 #include "mesh/mortar.hpp"
+#include "mesh/plane_shapes.hpp"
 #include "signorini/plane_mesh.hpp"
 
 namespace signorini {
@@ -22,5 +28,27 @@ struct MeshQuality {
 
 /// place: position of each index in `elements`.
 [[nodiscard]] MeshQuality quality_of(const std::vector<PlaneMesh::Element>& elements, const PlaceOf& place);
+
+// The edges of a mesh, each once, with the number of adjacent elements.
+//
+//   1: on the boundary,   2: inside
+
+struct SharedEdge {
+  std::vector<int>
+      nodes;  ///< two ends, then the middle if there is one; the first of its elements is on the left
+  int elements = 0;
+};
+/// Edges by the numbers of their ends, the smaller one first.
+using SharedEdges = std::map<std::pair<int, int>, SharedEdge>;
+
+/// Adds the edges of these elements.
+inline void add_edges(const std::vector<PlaneMesh::Element>& elements, SharedEdges& edges) {
+  for (const PlaneMesh::Element& element : elements)
+    for (std::size_t i = 0; i < corner_count(element.shape); ++i) {
+      std::vector<int> nodes = edge_nodes(element, i);
+      const std::pair<int, int> ends = std::minmax(nodes[0], nodes[1]);
+      ++edges.try_emplace(ends, SharedEdge{std::move(nodes), 0}).first->second.elements;
+    }
+}
 
 }  // namespace signorini

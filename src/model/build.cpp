@@ -4,45 +4,38 @@
 //   -> warnings -> reduction, or separation of undamped massless motions -> shear elements -> outputs
 //
 // The assembly uses the machine's units and is then converted to the scene's, so a change of units changes no bit.
+
 #include "model/build.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <tuple>
 
-#include "base/history/resolved.hpp"
+#include "base/history/pieces.hpp"
 #include "base/rounding.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
-#include "model/assembly/dof_place.hpp"
 #include "model/assembly/dofs.hpp"
-#include "model/assembly/drawing.hpp"
-#include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/member_pieces.hpp"
+#include "model/assembly/prestress.hpp"
 #include "model/assembly/springs.hpp"
-#include "model/assembly/stiffness_range.hpp"
 #include "model/assembly/ties.hpp"
-#include "model/borrowed_springs.hpp"
-#include "model/carried.hpp"
-#include "model/doubts.hpp"
-#include "model/frictional_start.hpp"
+#include "model/compliance_split.hpp"
 #include "model/geometric_start.hpp"
 #include "model/initial_state.hpp"
 #include "model/machine_units.hpp"
 #include "model/massless.hpp"
+#include "model/model_warnings.hpp"
 #include "model/modes/modes.hpp"
-#include "model/outputs/hangers.hpp"
 #include "model/outputs/make_outputs.hpp"
+#include "model/outputs/reactions.hpp"
 #include "model/reduce/reduction.hpp"
-#include "model/rescale.hpp"
 #include "model/rigid_contacts.hpp"
 #include "model/scales.hpp"
-#include "model/shear.hpp"
 #include "model/statics/statics.hpp"
-#include "model/undamped.hpp"
 #include "scene/saved_state.hpp"
 
 namespace signorini {
@@ -335,5 +328,33 @@ Model built(const Scene& scene, Extent extent) {
 Model build_model(const Scene& scene) { return built(scene, Extent::all); }
 Model build_undoubted(const Scene& scene) { return built(scene, Extent::undoubted); }
 Model build_structure(const Scene& scene) { return built(scene, Extent::structure); }
+
+namespace {
+
+bool same(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() && (a - b).norm() == 0.0;
+}
+
+bool same(const Contact& a, const Contact& b) {
+  const auto friction = [](const Friction& f) {
+    return std::tuple{f.static_, f.kinetic, f.stribeck_velocity, f.velocity, f.force};
+  };
+  return a.law == b.law && a.normal.terms == b.normal.terms && a.tangent.terms == b.tangent.terms &&
+         a.normal_stiffness == b.normal_stiffness && a.normal_damping == b.normal_damping &&
+         a.tangential_stiffness == b.tangential_stiffness && friction(a.friction) == friction(b.friction);
+}
+
+}  // namespace
+
+bool same_contact_states(const Model& a, const Model& b) {
+  return same(a.mass, b.mass) && same(a.damping, b.damping) && same(a.stiffness, b.stiffness) &&
+         std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
+                    [](const Contact& x, const Contact& y) { return same(x, y); });
+}
+
+bool same_load_directions(const Model& a, const Model& b) {
+  return std::equal(a.loads.begin(), a.loads.end(), b.loads.begin(), b.loads.end(),
+                    [](const Load& x, const Load& y) { return x.direction.terms == y.direction.terms; });
+}
 
 }  // namespace signorini

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
-#include "model/modes/buckling.hpp"
+#include "model/assembly/prestress.hpp"
+#include "model/modes/stability.hpp"
 
 namespace signorini {
 namespace {

@@ -1,13 +1,18 @@
 #include "model/initial_state.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "base/listed.hpp"
+#include "base/rounding.hpp"
+#include "base/text.hpp"
+#include "contact/curved_surface.hpp"
 #include "contact/friction.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/geometric_start.hpp"
+#include "model/statics/frictional.hpp"
 #include "scene/components.hpp"
 #include "scene/saved_state.hpp"
 #include "signorini/error.hpp"
@@ -91,10 +96,6 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
       refuse_saved(spec, fmt::format("the saved state has {} and the scene not", name));
   return state;
 }
-
-}  // namespace
-
-namespace {
 
 /// Index of a given component; nullopt: the degree of freedom is fixed.
 struct GivenPlace {
@@ -195,6 +196,249 @@ InitialState given_state(const Scene& scene, const DofMap& map) {
   for (const auto& c : spec.components)
     if (const auto at = place_of(c, map)) (at->velocity ? state.v : state.u)[at->dof] = c.value;
   return state;
+}
+
+namespace {
+
+// Forces that an equilibrium reproduces within this number of roundings of their inputs are converged. Chosen value;
+// each round is one solve with K.
+constexpr double settled = rounding::of_many;
+constexpr int rounds = 50;
+
+bool is_pressed_pendulum(const ContactSpec& contact) {
+  return contact.bowl && contact.capabilities().normal_spring;
+}
+
+/// Initial guess: the given forces, or the sum of the loads shared evenly. Its size affects only the number of rounds;
+/// it is not zero, because a structure that stands on pendulums alone would then be a mechanism.
+std::vector<double> first_guess(const Scene& scene, const Model& model) {
+  double pushed = 0.0, bearings = 0.0;
+  for (const Load& load : model.loads)
+    if (load.is_static)
+      for (const auto& [dof, factor] : load.direction.terms)
+        pushed += std::abs(factor * load.history.value(0.0));
+  for (const ContactSpec& contact : scene.contacts) bearings += is_pressed_pendulum(contact) ? 1.0 : 0.0;
+  std::vector<double> forces;
+  for (const ContactSpec& contact : scene.contacts)
+    forces.push_back(!contact.bowl                                                  ? 0.0
+                     : !is_pressed_pendulum(contact) || contact.bowl->carried > 0.0 ? contact.bowl->carried
+                                                                                    : pushed / bearings);
+  return forces;
+}
+
+/// Magnitude to which the rounding of N = kn (g0 + n . u) is relative: N itself; its terms, which are much larger if
+/// the structure lies far along an inclined surface; and the forces K u that balance it. Unit: force.
+std::vector<double> summed(const Scene& scene, const Model& model) {
+  const Vector forces = model.stiffness.cwiseAbs() * model.u0.cwiseAbs();
+  double greatest = 0.0;
+  for (int i = 0; i < model.size(); ++i)
+    if (!model.dofs[static_cast<std::size_t>(i)].rotation) greatest = std::max(greatest, forces[i]);
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    const double terms = c.normal_stiffness * (std::abs(c.gap) + c.normal.magnitude(model.u0));
+    sizes.push_back(std::max(0.0, model.statics.reactions[k]) + terms + greatest);
+  }
+  return sizes;
+}
+
+}  // namespace
+
+bool has_pressed_pendulums(const Scene& scene) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), is_pressed_pendulum);
+}
+
+void carry(const Scene& scene, const std::vector<double>& forces, Model& model) {
+  std::vector<LineSpring> springs;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+    if (!scene.contacts[k].bowl) continue;
+    Contact& contact = model.contacts[k];
+    contact.bowl->carried = forces[k];
+    if (const double more = beyond_spring(scene.contacts[k], contact); more != 0.0)
+      springs.push_back({contact.tangent, more});
+  }
+  if (!springs.empty()) model.stiffness = with_springs(model.stiffness, springs);
+}
+
+void start_on_pendulums(const Scene& scene, Model& model, const std::function<Model(Model)>& start) {
+  std::vector<double> forces = first_guess(scene, model);
+  for (int round = 0; round < rounds; ++round) {
+    Model begun = model;
+    carry(scene, forces, begun);
+    begun = start(std::move(begun));
+    const std::vector<double> sizes = summed(scene, begun);
+    bool same = true;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      if (!is_pressed_pendulum(scene.contacts[k])) continue;
+      const double bears = std::max(0.0, begun.statics.reactions[k]);
+      same = same && std::abs(bears - forces[k]) <= settled * sizes[k];
+      forces[k] = bears;
+    }
+    if (!same) continue;
+    model = std::move(begun);
+    return;
+  }
+  throw SceneError(scene.initial.place, "run.initial",
+                   "what pendulums bear does not settle: with each force that they bear the structure "
+                   "stands elsewhere, and presses them otherwise");
+}
+
+std::vector<double> carried_before(const Scene& scene) {
+  std::vector<double> forces;
+  for (const ContactSpec& contact : scene.contacts) {
+    forces.push_back(contact.bowl ? contact.bowl->carried : 0.0);
+    if (scene.initial.saved)
+      for (const auto& [name, force] : scene.initial.saved->carried)
+        if (name == contact.name) forces.back() = force;
+  }
+  return forces;
+}
+
+namespace {
+
+/// Name in stages for all loads of a kind.
+std::string word_of(LoadKind kind) {
+  switch (kind) {
+    case LoadKind::temperature:
+      return "temperature";
+    case LoadKind::initial_strain:
+      return "initial strain";
+    case LoadKind::preload:
+      return "preload";
+    case LoadKind::support:
+      return "supports";
+    case LoadKind::base:
+      return "base motion";
+    case LoadKind::force:
+    case LoadKind::moment:
+    case LoadKind::distributed:
+    case LoadKind::weight:
+    case LoadKind::support_rate:
+      break;
+  }
+  return "";
+}
+
+[[noreturn]] void refuse_name(const StageSpec& spec, std::size_t index, const std::string& key,
+                              const Model& model) {
+  const std::string& name = spec.loads[index];
+  std::vector<std::string> names;
+  for (const Load& load : model.loads)
+    for (const std::string& known : {word_of(load.kind), load.name})
+      if (!known.empty() && std::find(names.begin(), names.end(), known) == names.end())
+        names.push_back(known);
+  throw SceneError(spec.load_places[index], key,
+                   fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
+}
+
+/// True for a kind of load whose values are all zero, as an override may set them: the stage then changes nothing.
+bool is_zero_kind(const Scene& scene, const std::string& name) {
+  const auto expands = [](const auto& part) { return part.thermal_expansion != 0.0; };
+  if (name == word_of(LoadKind::temperature))
+    return std::any_of(scene.members.begin(), scene.members.end(), expands) ||
+           std::any_of(scene.bodies.begin(), scene.bodies.end(), expands);
+  if (name == word_of(LoadKind::preload)) return !scene.springs.empty();
+  return name == word_of(LoadKind::base) && !scene.base_motion.empty();
+}
+
+/// True if the stage's name refers to the load, by its own name or by its kind.
+bool is_called(const Load& load, const std::string& name) {
+  return name == load.name || name == word_of(load.kind);
+}
+
+/// Adds up the loads of one stage, and counts how often each load was taken.
+Stage made(const Scene& scene, std::size_t number, const Model& model, std::vector<int>& taken) {
+  const StageSpec& spec = scene.initial.stages[number - 1];
+  const std::string key = fmt::format("run.stages.{}.loads", number);
+  Stage stage{spec.name, Vector::Zero(model.size()), spec.steps};
+  for (std::size_t j = 0; j < spec.loads.size(); ++j) {
+    bool any = false;
+    for (std::size_t i = 0; i < model.loads.size(); ++i) {
+      const Load& load = model.loads[i];
+      if (!is_called(load, spec.loads[j])) continue;
+      any = true;
+      if (++taken[i] > 1)
+        throw SceneError(
+            spec.load_places[j], key,
+            fmt::format("\"{}\" is already in an earlier stage; list each load in one stage only",
+                        load.name));
+      load.direction.add_to(stage.load, load.history.value(0.0));
+    }
+    if (!any && !is_zero_kind(scene, spec.loads[j])) refuse_name(spec, j, key, model);
+  }
+  return stage;
+}
+
+/// acts: loads that act in some stage.
+std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector<bool>& acts) {
+  std::vector<Stage> stages;
+  if (scene.initial.stages.empty()) {
+    Stage all{"loads", Vector::Zero(model.size()), 1};
+    for (const Load& load : model.loads) {
+      acts.push_back(load.is_static);
+      if (load.is_static) load.direction.add_to(all.load, load.history.value(0.0));
+    }
+    return {all};
+  }
+  std::vector<int> taken(model.loads.size(), 0);
+  for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
+    stages.push_back(made(scene, i + 1, model, taken));
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    if (load.is_static && taken[i] == 0 && load.history.value(0.0) != 0.0)
+      throw SceneError(
+          scene.initial.stages.front().place, "run.stages",
+          fmt::format("\"{}\" acts from the beginning but is in no stage; add it to the loads of a stage",
+                      load.name));
+    acts.push_back(taken[i] > 0);
+  }
+  return stages;
+}
+
+/// True if a load of the stage is not zero; even on fixed degrees of freedom it then compresses members and bodies.
+bool presses(const StageSpec& spec, const Model& model) {
+  return std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
+    return load.history.value(0.0) != 0.0 &&
+           std::any_of(spec.loads.begin(), spec.loads.end(),
+                       [&](const std::string& name) { return is_called(load, name); });
+  });
+}
+
+}  // namespace
+
+void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (model.contacts[k].friction.by_force())
+      throw SceneError(scene.contacts[k].place, scene.contacts[k].key("friction"),
+                       "initial = \"frictional\" does not know friction that depends on the normal force; "
+                       "use one coefficient, "
+                       "or initial = \"static\"");
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (model.contacts[k].initial_shear != 0.0)
+      throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
+                       "has no meaning beside initial = \"frictional\", which finds it");
+  std::vector<bool> acts;
+  const std::vector<Stage> stages = stages_of(scene, model, acts);
+  FrictionalEquilibrium found =
+      frictional_equilibrium(model.stiffness, model.contacts, stages, map, scene.initial.place);
+  if (scene.run.geometric) found = stiffened_end(scene, acts, std::move(found), map, model);
+  for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
+    if (stages[i].load.isZero(0.0) && !(scene.run.geometric && presses(scene.initial.stages[i], model)))
+      found.start.doubts.push_back(
+          fmt::format("stage '{}' loads nothing: what it names is zero at t = 0", stages[i].name));
+  model.u0 = std::move(found.u);
+  model.v0 = Vector::Zero(model.size());
+  model.static_start = true;
+  model.statics = std::move(found.start);
+  model.warnings.insert(model.warnings.end(), model.statics.doubts.begin(), model.statics.doubts.end());
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    Contact& c = model.contacts[k];
+    if (!c.tangential_stiffness || !c.has_friction()) continue;
+    // The run computes N anew: the shear stays within its limit to the last digit.
+    const double N = c.resting_force(model.u0).value_or(-model.statics.reactions[k]);
+    const double limit = sticking_limit(c, N);
+    c.initial_shear = std::clamp(found.shears[k], -limit, limit);
+  }
 }
 
 }  // namespace signorini

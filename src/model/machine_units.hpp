@@ -9,11 +9,35 @@
 // the scene's units, the scene's units are used.
 #pragma once
 
+#include "scene/quantities.hpp"
+#include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
 
 /// One internal unit of each kind, in the scene's units.
 [[nodiscard]] Factors machine_units(const Scene& scene);
+
+// A model in other units of force, length and time.
+//
+//   u_i: length (translations) or none (rotations),   energy = force length
+//   M_ij = energy time^2 / (u_i u_j),   C_ij = energy time / (u_i u_j),   K_ij = energy / (u_i u_j)
+//
+// With powers of two the conversion is exact, and so is its inverse.
+
+/// A history whose values have the unit `of`.
+[[nodiscard]] History rescaled(History history, const Unit& of, const Factors& factors);
+
+/// Multiplies all numbers by the factors of their units; `unit` is divided by them, `machine` is unchanged.
+[[nodiscard]] Model rescaled(Model model, const Factors& factors);
+
+// Computed values in the scene's units, for messages.
+//
+//   value in scene units = value * factor of its unit          Model::unit; for whole results: run/physical.hpp
+
+[[nodiscard]] inline double said(const Model& model, double value, const Unit& of) {
+  return value * factor_of(of, model.unit);
+}
+[[nodiscard]] inline double said_time(const Model& model, double t) { return said(model, t, unit::time); }
 
 }  // namespace signorini

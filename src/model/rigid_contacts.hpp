@@ -1,6 +1,6 @@
 // rigid_contacts.hpp: requirements of rigid contacts on the structure.
 //
-//   mass at the contact; otherwise it uses borrowed springs (model/borrowed_springs.hpp) and is not checked here
+//   mass at the contact; otherwise it uses borrowed springs (model/compliance_split.hpp) and is not checked here
 //   g(u0) >= 0: no initial penetration
 //   no c, not zero, with sum_i c_i n_i = 0 and sum_i c_i g0_i = 0 over contacts that may close together: such
 //   contacts share one motion, and their individual forces are undetermined
@@ -13,5 +13,20 @@ namespace signorini {
 /// Errors: SceneError at the contact's place; it proposes law = "compliant". Gaps at u0 that are zero up to rounding
 /// become zero.
 void check_rigid_contacts(const Scene& scene, Model& model);
+
+// Contact elements with a tangential dashpot, as parts of the structure.
+//
+//   body --+--[ kt ]--+-- p --| friction: stick p' = 0, slip T = -s f N
+//          +--[ ct ]--+
+//
+// The sliding point p becomes a degree of freedom without mass, the element is added to K and C, and the contact acts
+// on p. Friction limits the total force of spring and dashpot, so energy is conserved when N or T jump; the element of
+// an open contact relaxes with its own time constant ct/kt. At the start p is ut - T/kt, or its value at the end of the
+// run that this one continues. Friction that rises with the slip rate needs the point even with ct = 0: p' follows from
+// T, and p is its integral.
+
+/// For contacts with tangential_damping > 0, or with a spring and rising friction; the rest of the model must be
+/// complete.
+void add_shear_elements(const Scene& scene, Model& model);
 
 }  // namespace signorini

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/history/history_internal.hpp"
+#include "base/history/pieces.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "model/assembly/motion_names.hpp"
+#include "model/assembly/dofs.hpp"
 #include "model/assembly/springs.hpp"
-#include "model/felt.hpp"
+#include "model/model_warnings.hpp"
 #include "model/modes/held.hpp"
 #include "model/modes/modes.hpp"
-#include "model/statics/null_motions.hpp"
+#include "model/statics/mechanisms.hpp"
 
 namespace signorini {
 namespace {

@@ -3,7 +3,7 @@
 //   force         largest static reaction, compression, load amplitude
 //   displacement  largest static deflection, initial displacement, static response to a load amplitude; if there
 //                 is none, static response to a slider's friction limit
-//   (a pulse that is too short for the structure counts with its effective amplitude: felt.hpp)
+//   (a pulse that is too short for the structure counts with its effective amplitude: model_warnings.hpp)
 //   velocity      omega * displacement, at least the initial velocity
 //   rotation = displacement / L,  angular velocity = velocity / L      L: diagonal of the structure
 //

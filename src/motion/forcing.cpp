@@ -1,6 +1,6 @@
 #include "motion/forcing.hpp"
 
-#include "base/history/history_internal.hpp"
+#include "base/history/pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

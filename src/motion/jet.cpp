@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "motion/term_size.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <functional>
 
-#include "contact/transition.hpp"
+#include "contact/law.hpp"
 #include "motion/taylor.hpp"
 
 namespace signorini {
@@ -25,7 +25,7 @@ struct Jet {
   Eigen::MatrixXd u, forces;
   ModeSystemPtr system;  ///< system of the contact state, with friction at this instant's slip rates
 
-  /// True for a jet by JetMaker. Local jets (motion/near_jets.hpp) end with accelerations and the rates of forces.
+  /// True for a jet by JetMaker. Local jets (motion/local_derivatives.hpp) end with accelerations and the rates of forces.
   [[nodiscard]] bool whole() const { return forces.cols() > orders; }
   [[nodiscard]] auto v() const { return u.col(1); }
   [[nodiscard]] auto a() const { return u.col(2); }

@@ -5,7 +5,7 @@
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "linear/restricted.hpp"
+#include "linear/unknowns.hpp"
 
 namespace signorini {
 namespace {

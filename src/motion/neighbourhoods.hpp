@@ -9,7 +9,7 @@
 
 #include <memory>
 
-#include "motion/mode_systems.hpp"
+#include "motion/state_systems.hpp"
 
 namespace signorini {
 

@@ -3,13 +3,27 @@
 //   u, v, N, T, a at t  ->  g, ut, g', ut', g'', ut'' of one contact       contact/motion.hpp
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <vector>
 
-#include "contact/friction_limit.hpp"
+#include "base/rounding.hpp"
+#include "contact/friction.hpp"
 #include "contact/motion.hpp"
+#include "contact/work.hpp"
+#include "linear/system_matrices.hpp"
 #include "motion/forcing.hpp"
+#include "signorini/model.hpp"
 
 namespace signorini {
+
+// The resolution of times that are doubles.
+
+/// Times closer than this are equal for an integrator: IDA's own measure.
+[[nodiscard]] inline double resolution_at(double t, double step) {
+  return rounding::of_time * (std::abs(t) + std::abs(step));
+}
 
 /// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
 /// Energy of the structure without its contacts.
@@ -62,6 +76,86 @@ struct BodySlide {
                                         double t, const Vector& u, const Vector& v) {
   return {contact.body_tangent().dot(u) - forcing.surface(k, t, 0),
           contact.body_tangent().dot(v) - forcing.surface(k, t, 1)};
+}
+
+// Residual of the equation of motion.
+//
+//   r = M a + C v + K u + sum ( n N + t T ) - P(t)
+
+/// Greatest |r_i| at a point whose accelerations are known. Unit: force.
+[[nodiscard]] double imbalance(const Model& model, const Structure& structure, const Forcing& forcing,
+                               double t, const Point& point);
+
+// The rates at which the system gains and loses energy.
+//
+//   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
+//   friction  T p'  of each contact          surface   -T s'(t)  of each contact
+//
+// Powers of a contact: contact/work.hpp.
+
+/// Integrals of the powers. friction, surface: one for each contact; pressing: of -N, unit force * time.
+struct Works {
+  explicit Works(std::size_t contacts = 0)
+      : friction(contacts, 0.0), surface(contacts, 0.0), pressing(contacts, 0.0) {}
+  double loads = 0.0, damping = 0.0;
+  std::vector<double> friction, surface, pressing;
+
+  void clear() {
+    loads = damping = 0.0;
+    std::fill(friction.begin(), friction.end(), 0.0);
+    std::fill(surface.begin(), surface.end(), 0.0);
+    std::fill(pressing.begin(), pressing.end(), 0.0);
+  }
+  /// Adds factor times the work of contact k.
+  void add(std::size_t k, const ContactWork& work, double factor) {
+    damping += factor * work.damping;
+    friction[k] += factor * work.friction;
+    surface[k] += factor * work.surface;
+    pressing[k] += factor * work.pressing;
+  }
+};
+
+class Powers {
+ public:
+  Powers(const Model& model, const Structure& structure) : model_(model), structure_(structure) {}
+
+  /// Number of powers at one time: loads, damping, then friction, surface and -N of each contact.
+  [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
+  /// Evaluates all powers into out[0 .. count()).
+  void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const;
+  /// works += factor * powers
+  void add(const double* powers, double factor, Works& works) const;
+
+ private:
+  const Model& model_;
+  const Structure& structure_;
+};
+
+// Uncertainty of form . x due to one rounding of the data, in roundings.
+//
+//   |form| |x|  in the plane, whatever the angle between them and the axes;  sum |form_i x_i|  of unlike coordinates
+
+inline constexpr std::size_t most_plane_terms = 4;  // for a form on the translations of one node, or of two
+
+/// x: maps a degree of freedom to its size. Components that the form does not contain do not count.
+template <class Size>
+double size_by(const Model& model, const Combination& form, const Size& x) {
+  double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
+  for (const auto& [dof, factor] : form.terms) {
+    const bool in_plane =
+        form.terms.size() <= most_plane_terms && !model.dofs[static_cast<std::size_t>(dof)].rotation;
+    if (!in_plane) {
+      terms += std::abs(factor * x(dof));
+    } else if (factor != 0.0) {
+      form_squared += factor * factor;
+      x_squared += x(dof) * x(dof);
+    }
+  }
+  return terms + std::sqrt(form_squared * x_squared);
+}
+template <class Entries>
+double size_of(const Model& model, const Combination& form, const Entries& x) {
+  return size_by(model, form, [&x](int dof) { return x[dof]; });
 }
 
 }  // namespace signorini

@@ -4,19 +4,113 @@
 //   M a_k + C v_k + K u_k + sum ( n N_k + t T_k ) = P_k,   rows of the contact state
 //   v_k = (k+1)/s u_(k+1),   a_k = (k+1)(k+2)/s^2 u_(k+2)
 //
-// Level k is one solve with the state's system (motion/mode_system.hpp): its unknowns are a_k of degrees of freedom
+// Level k is one solve with the state's system (motion/state_systems.hpp): its unknowns are a_k of degrees of freedom
 // with mass, v_k of massless degrees of freedom with damping, u_k of those without, N_k and T_k. So u, v at an instant
 // give consistent forces and accelerations (level 0), and then the whole series, for every kind of system: nonsymmetric
 // by friction, singular by free motions, with massless parts or rigid sticking.
 #pragma once
 
 #include <functional>
+#include <optional>
 
-#include "motion/friction_series.hpp"
-#include "motion/mode_systems.hpp"
+#include "contact/friction.hpp"
+#include "motion/forcing.hpp"
 #include "motion/point.hpp"
+#include "motion/state_systems.hpp"
 
 namespace signorini {
+
+// Coefficients of the motion's Taylor series.
+//
+//   u(t + s z) = sum_k u_k z^k,   N, T, g and ut likewise
+
+/// Coefficients about t, column k: order k. v follows from u; levels 0 .. `levels`.
+struct Series {
+  double t = 0.0, scale = 1.0;
+  int levels = 0;
+  Eigen::MatrixXd u;  ///< n x (levels + 3); complete to order `levels`, beyond only with mass
+  ForceLayout layout;
+  Eigen::MatrixXd forces;  ///< all contacts x (levels + 1)
+  ForcingSeries forcing;   ///< levels + 3 coefficients
+};
+
+/// Coefficient k of g = g0 + n . u, and of ut = t . u - s at contact number `index`.
+[[nodiscard]] inline double gap_coefficient(const Contact& contact, const Series& series, std::size_t k) {
+  const double* u = series.u.data() + k * static_cast<std::size_t>(series.u.rows());
+  return k == 0 ? contact.gap_at(u) : contact.normal.dot(u);
+}
+[[nodiscard]] inline double ut_coefficient(const Contact& contact, std::size_t index, const Series& series,
+                                           std::size_t k) {
+  const double* u = series.u.data() + k * static_cast<std::size_t>(series.u.rows());
+  return contact.tangent.dot(u) - series.forcing.surface[index * series.forcing.count + k];
+}
+
+/// Coefficient k of N of a contact with the normal row N = kn g + cn g', N = -q or N = 0, if u and v have mass: known
+/// before level k is.
+[[nodiscard]] inline double normal_coefficient(const Contact& contact, std::size_t index, const Form& row,
+                                               const Series& series, std::size_t k) {
+  const double* v = series.u.data() + (k + 1) * static_cast<std::size_t>(series.u.rows());
+  ContactMotion m;
+  m.gap = gap_coefficient(contact, series, k);
+  m.vn = static_cast<double>(k + 1) / series.scale * contact.normal.dot(v);
+  m.pressing = series.forcing.pressing[index * series.forcing.count + k];
+  return -(k == 0 ? row.value(m) : row.rate(m));
+}
+
+// Friction that depends on the slip rate or on N, along a series of the motion.
+//
+//   T_k + s sum_(j = 0..k) f_j N_(k-j) = 0       f_j: contact/friction.hpp
+//
+// f_0 is in the matrix of the system; the terms of the higher ones are known at level k, since p'_k is. A sliding point
+// without mass (a shear element) has p'_k as an unknown of level k:
+//
+//   T_k + s f_0 N_k + f'(s p'_0) N_0 p'_k = -s sum' f_j N_(k-j)     sum': without the part of p'_k in f_k
+//
+// and p'_0 follows from T_0 (contact/friction.hpp). If friction is at its greatest, or N_0 is zero, the point
+// follows quasi-statically: its displacement is the unknown, and friction's coefficient is constant.
+//
+// For friction that depends on N, F'(|N_0|) is in the matrix (contact/friction.hpp):
+//   T_k + s F' N_k = s ( F_k - F' |N|_k )
+
+class FrictionSeries {
+ public:
+  /// Begins a series whose u_0 and u_1 are known, u_1 for degrees of freedom with mass. s: direction of slip; contact
+  /// number `index`; normal: its row.
+  FrictionSeries(const Contact& contact, std::size_t index, int s, const Form& normal, const Series& series);
+
+  [[nodiscard]] std::size_t contact() const { return index_; }
+  /// The tangent row in the matrix.
+  [[nodiscard]] const Form& row() const { return row_; }
+  /// Instantaneous displacement of a point without mass if N has decreased so far that friction does not hold it at any
+  /// rate near its present one; else zero. Unit: length.
+  [[nodiscard]] double jump() const { return jump_; }
+  /// True if friction is at its greatest, the spring force does not determine the rate, and the growth rate of N
+  /// depends on accelerations, through a dashpot: row() is that of a rate at which friction just reaches its greatest
+  /// value.
+  [[nodiscard]] bool doubtful() const { return doubtful_; }
+  /// Changes to a point that follows quasi-statically; the accelerations require it.
+  void follow_at_once();
+  /// Rate along the slip in a series in which the point follows quasi-statically.
+  [[nodiscard]] double rate_in(const Series& series) const { return sign_ * slip_rate(0, series); }
+  [[nodiscard]] double greatest_rate() const;
+  /// Known part of the row; to be called for k = 0, 1, 2, ... in turn.
+  [[nodiscard]] double known(int k, const Series& series);
+
+ private:
+  void begin_by_force(const Form& normal, const Series& series);
+  void begin_massless(int s, const Form& normal, const Series& series);
+  [[nodiscard]] double slip_rate(std::size_t k, const Series& series) const;
+
+  const Contact* contact_;
+  std::size_t index_;
+  int sign_;
+  Form row_;
+  double jump_ = 0.0;
+  bool constant_ = false;  // friction's coefficient is constant
+  bool doubtful_ = false;
+  FrictionRecursion friction_;
+  std::optional<LimitSeries> limit_;  // for friction that depends on N
+};
 
 /// Some roundings of all terms of all equations, irregular but reproducible: equal disturbances would leave cancelling
 /// sums unchanged, so that an accidental zero would look like one of the equations.

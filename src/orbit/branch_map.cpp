@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
-#include "base/number.hpp"
-#include "model/rescale.hpp"
+#include "base/text.hpp"
+#include "model/machine_units.hpp"
 #include "orbit/orbit_engine.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"

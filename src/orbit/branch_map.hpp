@@ -10,8 +10,8 @@
 #pragma once
 
 #include "orbit/load_period.hpp"
+#include "orbit/orbit_engine.hpp"
 #include "orbit/period_map.hpp"
-#include "orbit/reader_at.hpp"
 #include "signorini/orbit.hpp"
 
 namespace signorini {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "model/rescale.hpp"
-#include "orbit/family_middle.hpp"
-#include "orbit/recurrence.hpp"
+#include "model/machine_units.hpp"
+#include "orbit/branch_newton.hpp"
+#include "orbit/load_period.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
 

@@ -3,7 +3,7 @@
 //   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
 //   (special_points.hpp)
 //
-// In a family of orbits the walk follows the middle one (family_middle.hpp).
+// In a family of orbits the walk follows the middle one (branch_newton.hpp).
 //
 // If no step is short enough, for instance where a guard grazes, a transient searches for the orbit a little further
 // on. Where another branch begins, the walk stores a junction:

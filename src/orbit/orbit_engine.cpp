@@ -1,10 +1,9 @@
 #include "orbit/orbit_engine.hpp"
 
-#include "model/decay.hpp"
+#include "model/slip_growth.hpp"
 #include "run/choose_engine.hpp"
-#include "run/choose_flow.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/engines.hpp"
-#include "run/expected.hpp"
 
 namespace signorini {
 namespace {

@@ -8,7 +8,13 @@
 // long run (run/choose_engine.hpp).
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text.hpp"
 #include "signorini/model.hpp"
+#include "signorini/sensitivity.hpp"
 
 namespace signorini {
 
@@ -19,5 +25,26 @@ namespace signorini {
 [[nodiscard]] Flow orbit_flow(const Model& model, const RunSpec& run);
 
 [[nodiscard]] double orbit_state_error(const RunSpec& run);
+
+// A reader of a scene with one key set to a value.
+//
+//   reader_at(read, path, x)(changes) = read([path = x, changes...])
+//   branch_reader: the same; for a branch over the energy of conservative motions no key is changed
+
+/// value: in the unit of the key. Errors: those of `read`.
+[[nodiscard]] inline SceneReader reader_at(SceneReader read, std::string path, double value) {
+  return [read = std::move(read), path = std::move(path), value](const std::vector<Override>& changes) {
+    std::vector<Override> all{{path, shortest(value)}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return read(all);
+  };
+}
+
+/// Path that stands for the energy of conservative motions instead of a key.
+inline constexpr const char* over_energy = "energy";
+
+[[nodiscard]] inline SceneReader branch_reader(SceneReader read, const std::string& path, double value) {
+  return path == over_energy ? std::move(read) : reader_at(std::move(read), path, value);
+}
 
 }  // namespace signorini

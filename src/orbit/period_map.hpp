@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "engine/exact/modal/modal_memory.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
 #include "orbit/orbit_state.hpp"
 #include "sensitivity/state_flow.hpp"
 

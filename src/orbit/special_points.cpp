@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/branch_walk.hpp"
+#include "orbit/sequence_search.hpp"
+
 namespace signorini {
 namespace {
 
@@ -56,6 +59,249 @@ std::optional<double> root_between(double a, double b,
     }
   }
   return lo + (hi - lo) * a / (a - b);
+}
+
+// Special points between two points of a branch: zeros of test functions, changes of the sequence of events.
+
+namespace {
+
+constexpr double beside_section = 1e-4;  // relative to the period, from an event to the section. Chosen
+                                         // value.
+// In the norm: resolution of changes of the sequence, and at least ten times the noise of the map.
+constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
+// An orbit at a graze is as continuous as a square root of the key. If the other orbit differs by more than ten times
+// the root of the width, it belongs to another branch. Chosen value.
+constexpr double roots_apart = 10.0;
+constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not checked. Chosen value.
+constexpr double parts_apart = 1e3;        // times that: distance of two places that determine a direction.
+                                           // Chosen value.
+
+constexpr double rounded = 1e-9;  // relative to the largest step: above the rounding of s. Chosen value.
+
+constexpr const char* other_branch = "other branch";
+
+BranchPlace place_of(const Corrected& at) { return {at.pass.begin, at.state.duration, at.state.s}; }
+
+/// An event at the section may be counted twice, or not at all.
+bool event_at_section(const Corrected& at) {
+  const double T = at.state.duration;
+  return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
+    return p.t < beside_section * T || p.t > (1.0 - beside_section) * T;
+  });
+}
+
+}  // namespace
+
+/// Place where a test function is zero on the step from here to next.
+std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, const Corrected& here,
+                                                       const Corrected& next, const Vector& t,
+                                                       double ds) const {
+  const double a = here.tests.*kind.value, b = next.tests.*kind.value;
+  if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
+  const bool turns = here.tests.fold * next.tests.fold < 0.0;
+  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // a fold causes this
+  Located point{0.0, kind.name, {}, {}};
+  const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
+    Corrected c = newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.by_s);
+    if (!c.done) return std::nullopt;
+    point.t = newton_.examine(c, t, here.ones);
+    point.at = std::move(c);
+    return point.at.tests.*kind.value;
+  });
+  if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
+  point.part = *part;
+  // Where two branches cross, every direction in their plane is a tangent; the way from here to next is this branch's.
+  if (kind.value == &TestValues::branch)
+    if (const auto way = newton_.secant(place_of(here), next)) point.t = newton_.split(point.at, *way).across;
+  return point;
+}
+
+/// The last point with the sequence of `here`; kind: other_branch if the next one is not connected to it.
+std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
+                                                               const Vector& t, double ds) const {
+  const std::string sequence = sequence_of(here.pass);
+  if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
+  Located point{0.0, "sequence", {}, {}};
+  bool seen = true;  // a different sequence at the end of the interval, not a failure
+  const auto stretches = [&](const Corrected& c) {
+    return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
+  };
+  const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
+  SequenceSearch search(stretches(here), stretches(next), enough / ds);
+  Vector way = ds * t;  // a step in x along the last direction found
+  std::string beyond = sequence_of(next.pass);
+  BranchPlace other = place_of(next);  // the nearest orbit with a different sequence
+  while (!search.done()) {
+    const double x = search.next();
+    const Corrected& from = point.at.done ? point.at : here;
+    Corrected c = newton_.correct(newton_.moved(from.state, from.pass, (x - point.part) * way), t, from.by_s);
+    const bool same = c.done && sequence_of(c.pass) == sequence;
+    search.see(x, same, c.done ? stretches(c) : std::vector<double>());
+    if (!same) {
+      seen = c.done;
+      if (seen) other = place_of(c);
+      if (!seen || sequence_of(c.pass) == beyond) continue;
+      beyond = sequence_of(c.pass);
+      point.behind_part = x;
+      point.behind = std::move(c);
+      continue;
+    }
+    const auto secant = newton_.secant({from.pass.begin, from.state.duration, from.state.s}, c);
+    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > alike) way = ds / part * *secant;
+    point.part = x;
+    point.at = std::move(c);
+  }
+  const auto way_to = newton_.difference(place_of(here), next);
+  const auto apart = newton_.difference(other, point.at.done ? point.at : here);
+  if (seen && way_to && apart &&
+      apart->norm() > roots_apart * std::sqrt(search.high() - search.low()) * way_to->norm()) {
+    point.kind = other_branch;
+    return point;
+  }
+  if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;
+  if ((point.behind_part - point.part) * ds < parts_apart * enough) point.behind.reset();
+  newton_.examine(point.at, t, here.ones);
+  return point;
+}
+
+/// True if the parameter turns on a step without a located fold, or a multiplier passes 1 without a turn and without a
+/// place where it is 1. Both are continuous as long as the sequence of events does not change, so the next orbit then
+/// belongs to another branch, as behind a fold.
+bool BranchWalk::changes_unseen(const Corrected& here, const Corrected& next,
+                                const std::vector<Located>& points) const {
+  const bool turns = here.tests.fold * next.tests.fold < 0.0;
+  if (!turns && (here.tests.branch < 0.0) == (next.tests.branch < 0.0)) return false;
+  const auto seen = [&](const Located& p) { return p.kind == (turns ? "fold" : "branch point"); };
+  return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
+}
+
+/// True if the way from one point to another differs from the branch's direction at the first one, `before`, or,
+/// onward, at the second one. Where fast mode shapes rotate the tangent, it is no direction of the branch.
+bool BranchWalk::bends(const BranchPlace& from, Corrected& to, const Vector* before, bool onward) const {
+  const std::optional<Vector> secant = newton_.secant(from, to);
+  if (!secant) return false;
+  const auto differs = [&](const Vector& direction) {
+    return newton_.split(to, *secant).across.dot(newton_.split(to, direction).across) < alike;
+  };
+  if (before != nullptr && before->size() == secant->size() && differs(*before)) return true;
+  return onward && !turning_ && differs(newton_.examine(to, *secant));
+}
+
+/// True if the branch turns on the step by more than its points show: another part of it, or another branch, could lie
+/// between. At a change of the sequence it may have a corner.
+bool BranchWalk::too_long(const Corrected& here, Corrected& next, const Vector& t, double length,
+                          std::vector<Located>& points) const {
+  if (length <= shortest_doubted) return false;
+  if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
+  if (sequence_of(here.pass) == sequence_of(next.pass)) {
+    // If it continues at both ends it has not returned: the other point is on another arm, as across a resonance.
+    const double along = t[t.size() - 1];
+    if (along * next.tests.fold > 0.0 && along * (next.state.s - here.state.s) < 0.0) return true;
+    return bends(place_of(here), next, &t, true);
+  }
+  const auto change =
+      std::find_if(points.begin(), points.end(), [](const Located& p) { return p.kind == "sequence"; });
+  if (change == points.end()) return bends(place_of(here), next, &t, true);
+  const auto doubted = [&](double part) { return part * length > shortest_doubted; };
+  if (doubted(change->part) && bends(place_of(here), change->at, &t, false)) return true;
+  if (!doubted(1.0 - change->part)) return false;
+  const auto folds = [](const Located& p) { return p.kind == "fold"; };
+  const double there = next.state.s - change->at.state.s;  // a fold just behind the corner, or at it?
+  if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
+  return bends(place_of(change->at), next, nullptr, true);
+}
+
+/// Special points of the step. If Newton's method has changed to another branch on the way, next becomes the last orbit
+/// of this one, and length is reduced.
+std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corrected& next, const Vector& t,
+                                                     double& length) {
+  std::vector<Located> all;
+  std::optional<Located> change = end_of_sequence(here, next, t, length);
+  if (change && change->kind == other_branch) {
+    const double part = change->part;
+    next = std::move(change->at);
+    change.reset();
+    next.done = next.done && ++jumps_ < most_jumps;
+    if (!next.done) {
+      next.reason = "Newton's method ends at another branch";
+      return all;
+    }
+    length *= part;
+    newton_.examine(next, t);
+  } else {
+    jumps_ = 0;
+  }
+  const auto take = [&](std::optional<Located> point) {
+    if (point) all.push_back(std::move(*point));
+  };
+  for (const SpecialKind& kind : special_kinds) {
+    // Just before a graze a test function may pass zero and jump at the graze: the part before is searched separately.
+    std::optional<Located> zero =
+        change ? zero_of(kind, here, change->at, t, change->part * length) : std::nullopt;
+    if (zero) zero->part *= change->part;
+    take(zero ? std::move(zero) : zero_of(kind, here, next, t, length));
+  }
+  const bool unseen = changes_unseen(here, next, all) || (change && changes_unseen(here, change->at, all));
+  if (length > shortest_doubted && unseen) {
+    next.done = false;
+    next.reason = "Newton's method ends at another branch";
+    return {};
+  }
+  take(std::move(change));
+  std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
+  return all;
+}
+
+/// Same; next is rejected if the step is too long to know the points between.
+std::vector<BranchWalk::Located> BranchWalk::between(const Corrected& here, Corrected& next, const Vector& t,
+                                                     double& length) {
+  newton_.examine(next, t);
+  std::vector<Located> points = located(here, next, t, length);
+  if (next.done && too_long(here, next, t, length, points)) {
+    next.done = false;
+    next.reason = "the branch turns within a step";
+  }
+  return points;
+}
+
+/// Adds the special points between here and next, in their order. A step crosses one change of the sequence; if more
+/// follow, next becomes a place before the second one. Returns the place that determines the direction at next, with
+/// the same sequence; nullopt: the caller wants to stop.
+std::optional<BranchPlace> BranchWalk::cross(std::vector<Located> points, const Corrected& here,
+                                             Corrected& next, const Vector& t, double& length) {
+  BranchPlace place = place_of(here);
+  const auto change =
+      std::find_if(points.begin(), points.end(), [](const Located& p) { return p.kind == "sequence"; });
+  double end = 1.0;
+  if (change != points.end()) {
+    if (change->behind) {
+      end = change->behind_part;
+      next = std::move(*change->behind);
+      newton_.examine(next, t);
+    }
+    if ((end - change->part) * length >= parts_apart * shortest_part) place = place_of(change->at);
+  }
+  folds_ = true;
+  for (const Located& point : points) {
+    if (point.part > end) break;
+    if (point.kind == "fold") folds_ = false;
+    if (!add(point.at, point.kind)) return std::nullopt;
+    keep_junction(point);
+  }
+  length *= end;
+  return place;
+}
+
+void BranchWalk::keep_junction(const Located& point) {
+  if (generation_ >= options_.switches) return;
+  const auto keep = [&](BranchMap map, const Vector& away) {
+    junctions_.push_back({std::move(map), point.at, away, point.kind, number_, generation_ + 1});
+  };
+  if (point.kind == "flip") keep(map_.doubled(), newton_.flip_direction(point.at));
+  if (point.kind != "branch point") return;
+  const Vector other = newton_.other_direction(point.at, point.t);
+  keep(map_, other);
+  keep(map_, -other);
 }
 
 }  // namespace signorini

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/number.hpp"
 #include "base/rounding.hpp"
-#include "result/csv_read.hpp"
+#include "base/text.hpp"
+#include "result/csv.hpp"
 
 namespace signorini {
 

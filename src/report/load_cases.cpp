@@ -8,11 +8,11 @@
 #include <optional>
 #include <tuple>
 
-#include "base/number.hpp"
 #include "base/rounding.hpp"
 #include "base/run_files.hpp"
+#include "base/text.hpp"
 #include "report/html.hpp"
-#include "result/unit_words.hpp"
+#include "result/summary_parts.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {

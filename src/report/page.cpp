@@ -8,16 +8,15 @@
 #include <map>
 #include <sstream>
 
-#include "base/embedded.hpp"
-#include "base/input_file.hpp"
+#include "base/files.hpp"
 #include "base/json.hpp"
 #include "base/version.hpp"
 #include "report/html.hpp"
 #include "report/load_cases.hpp"
 #include "report/picture.hpp"
 #include "report/run_data.hpp"
-#include "result/csv_read.hpp"
-#include "result/unit_words.hpp"
+#include "result/csv.hpp"
+#include "result/summary_parts.hpp"
 #include "signorini/error.hpp"
 #include "signorini/event.hpp"
 

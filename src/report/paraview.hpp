@@ -14,11 +14,74 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/json.hpp"
+#include "signorini/scene.hpp"
 
 namespace signorini {
+
+// Parts of VTK's XML files that all frames share, as text.
+//
+//   VtkCells cells;  cells.add(type, corners);  ...
+//   vtk_grid(points, cells, point_data + cell_data)           the text of a .vtu file
+//   VtkSeries series(folder, "frame");  series.add(t, text);  return series.finish("run.pvd");
+
+/// values: numbers separated by blanks or line ends.
+[[nodiscard]] std::string vtk_array(std::string_view type, std::string_view name, const std::string& values,
+                                    int components = 1);
+
+class VtkCells {
+ public:
+  /// type: VTK's cell type; corners: indices of points.
+  void add(int type, const std::vector<std::size_t>& corners);
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::string connectivity_, offsets_, types_;
+  std::size_t count_ = 0, end_ = 0;
+};
+
+/// points: three coordinates per point.
+[[nodiscard]] std::string vtk_grid(const std::string& points, std::size_t point_count, const VtkCells& cells,
+                                   const std::string& data);
+
+/// Files FOLDER/PREFIX-0001.vtu, ... and a list of them with their times. Errors: FileError.
+class VtkSeries {
+ public:
+  VtkSeries(std::filesystem::path folder, std::string prefix)
+      : folder_(std::move(folder)), prefix_(std::move(prefix)) {}
+  void add(double t, const std::string& text);
+  /// Writes the list, and returns its path.
+  [[nodiscard]] std::filesystem::path finish(const std::string& name) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string prefix_, list_;
+  int number_ = 0;
+};
+
+// Bodies and seams at the times of run.frames, for ParaView.
+//
+//   DIR/paraview/bodies.pvd        the frames with their times
+//   DIR/paraview/body-0001.vtu     one per time, ASCII:
+//
+//   points      undeformed nodes of all bodies; `displacement` moves them (Warp By Vector); `stress`: xx, yy, xy; `mises`;
+//               `traction`: force per area of a seam on its slave, -p n - tau t at its nodes, zero elsewhere
+//   cells       triangles and quadrilaterals, linear or quadratic; one vertex per node of a seam
+//   cell data   body: from 0, -1 for vertices; seam: from 0, -1 for elements; state, as in paraview.hpp; pressure,
+// opening
+//
+// Data: frame_bodies.csv and frame_seams.csv (result/body_frames.hpp) on the mesh of the scene.
+
+/// Adds frames to the folder of write_paraview(), and returns bodies.pvd; nullopt if the run has no such frames.
+/// Errors: FileError.
+std::optional<std::filesystem::path> write_paraview_bodies(const std::filesystem::path& directory,
+                                                           const Scene& scene);
 
 /// `count` equidistant times over the record; with `events`, also the times of events.
 [[nodiscard]] std::vector<double> frame_times(const Json& data, std::size_t count, bool events);

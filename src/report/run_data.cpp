@@ -9,15 +9,13 @@
 #include <map>
 #include <optional>
 
-#include "base/thinned.hpp"
+#include "base/curves.hpp"
 #include "model/element/element_kinds.hpp"
-#include "report/drawn_lines.hpp"
 #include "report/mesh_motion.hpp"
-#include "result/csv_read.hpp"
+#include "result/csv.hpp"
 #include "result/plot_parts.hpp"
 #include "scene/components.hpp"
-#include "scene/mesh_lines.hpp"
-#include "scene/outline.hpp"
+#include "scene/outlines.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {

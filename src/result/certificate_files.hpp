@@ -9,6 +9,7 @@
 #include <array>
 #include <filesystem>
 
+#include "base/json.hpp"
 #include "signorini/certify.hpp"
 
 namespace signorini {
@@ -29,5 +30,15 @@ inline constexpr std::array certificate_columns = {
 /// Errors: FileError.
 void write_certificate(const std::filesystem::path& directory, const Model& model,
                        const Certificate& certificate);
+
+// The certificate in summary.json (docs/output.md).
+
+/// `certified`; null if there is no certificate.
+[[nodiscard]] Json certificate_json(const CertifiedReport& run);
+
+/// Error bounds of the peaks of contact k; null if unknown.
+[[nodiscard]] Json peak_errors_json(const CertifiedReport& run, std::size_t k);
+/// Error bounds of one of its landings; null if unknown.
+[[nodiscard]] Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing);
 
 }  // namespace signorini

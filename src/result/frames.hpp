@@ -8,11 +8,35 @@
 // files are created with the first frame. Errors: FileError.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "model/element/line_elements.hpp"
+#include "result/csv.hpp"
 #include "result/run_tables.hpp"
+#include "signorini/result.hpp"
+#include "signorini/scene.hpp"
 
 namespace signorini {
+
+// Displacement of the nodes of a scene: by a degree of freedom, a support, or none.
+
+class NodeMovers {
+ public:
+  NodeMovers(const Scene& scene, const Model& model);
+  /// Displacement (order 0) or velocity (1) of a node of the scene along an axis (0: x).
+  [[nodiscard]] double value(std::size_t node, std::size_t axis, const Sample& sample, int order = 0) const;
+
+ private:
+  struct Mover {
+    int dof = -1;
+    std::optional<History> given = {};
+  };
+  std::vector<std::array<Mover, 2>> movers_;
+};
 
 class FrameWriter {
  public:
@@ -27,5 +51,67 @@ class FrameWriter {
   TableFile<FrameRow> shapes_;
   TableFile<FrameContactRow> contacts_;
 };
+
+// Reads deformed shapes, and finds the scales of their drawings.
+//
+//   X = x + magnification u,   arrow = force_scale (-N n - T t)
+//
+// magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an eighth of
+// the structure's size; 1 if it is that large already. Frames share one magnification, except those that would use less
+// than a fifth of their range. Arrows have one scale: the longest belongs to the largest force of the run.
+
+struct FrameEnd {
+  double x = 0.0, y = 0.0, ux = 0.0, uy = 0.0, rz = 0.0;
+};
+
+struct Frame {
+  struct Element {
+    std::string kind;
+    FrameEnd a, b;
+  };
+  struct Point {
+    std::string name;
+    bool support = false;
+    FrameEnd at;
+  };
+  struct Force {
+    std::string contact, state;
+    double x = 0.0, y = 0.0, ux = 0.0, uy = 0.0, nx = 0.0, ny = 0.0;
+    double fx = 0.0, fy = 0.0;  ///< on the body
+    double N = 0.0, T = 0.0;
+  };
+  double t = 0.0;
+  double slid_x = 0.0, slid_y = 0.0;  ///< mean translation, subtracted from displacements and added to
+                                      ///< positions
+  std::vector<Element> elements;
+  std::vector<Point> points;
+  std::vector<Force> forces;
+};
+
+struct FrameScales {
+  double magnification = 1.0;
+  double greatest_force = 0.0;                    ///< force
+  double force_scale = 0.0;                       ///< length in the picture per unit of force
+  double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0;  ///< drawn area, arrows included
+};
+
+/// Frames between the two times; empty if frames.csv is missing. Errors: FileError.
+[[nodiscard]] std::vector<Frame> read_frames(const TableFolder& tables, double from, double to);
+/// A structure that slides far would show no deformation: if the shapes differ from a translation by less than half of
+/// their largest displacement, each frame's mean translation is drawn in true scale.
+void take_out_slides(std::vector<Frame>& frames);
+/// greatest_force: largest force of the run; at least that of the frames is used.
+[[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force = 0.0);
+/// Scales of one frame among others whose scales are `shared`.
+[[nodiscard]] FrameScales scales_of(const Frame& frame, const FrameScales& shared);
+
+/// 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an eighth of the size; 1 if
+/// nothing moves.
+[[nodiscard]] double magnification_of(double size, double greatest);
+
+/// Displacement at the fraction s of an element: linear along it, cubic across it (beams).
+[[nodiscard]] FrameEnd between(const Frame::Element& element, double s);
+/// Same with given shape functions across the line (model/element/line_elements.hpp).
+[[nodiscard]] FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const LineShapes& across);
 
 }  // namespace signorini

@@ -11,13 +11,15 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "result/csv.hpp"
-#include "result/csv_read.hpp"
+#include "signorini/model.hpp"
 #include "signorini/result.hpp"
+#include "signorini/trace.hpp"
 
 namespace signorini {
 
@@ -59,6 +61,25 @@ class InstantReader {
   const Model& model_;
   std::vector<std::string> header_;
   CsvReader reader_;
+};
+
+// The rounds of all decisions, one JSON object per line (docs/output.md).
+//
+//   {"t":0.3,"round":1,"fired":[...],"touching":["A"],"impact":false,
+//    "tried":{"A":"slip+","B":"open"},"failed":[{"contact":"A","guard":"slip rate","order":1,"excess":7.5}],
+//    "holds":false}
+//
+// The last round of an instant holds, unless the run stops there. Errors: FileError.
+
+class TraceWriter {
+ public:
+  TraceWriter(const std::filesystem::path& path, const Model& model);
+  void write(const Round& round);
+
+ private:
+  const Model& model_;
+  std::filesystem::path path_;
+  std::ofstream file_;
 };
 
 }  // namespace signorini

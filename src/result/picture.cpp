@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/number.hpp"
-#include "result/picture_words.hpp"
+#include "base/text.hpp"
+#include "result/picture_look.hpp"
 
 namespace signorini {
 

@@ -1,18 +1,15 @@
 #include "result/picture_look.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
-#include "base/number.hpp"
-#include "base/suggest.hpp"
-#include "result/picture_words.hpp"
+#include "base/text.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
-
 namespace {
 
 constexpr double wide = 1120.0;                                           // pixels
@@ -114,6 +111,104 @@ std::string terminals(const Canvas& canvas, bool sized) {
                         canvas.height * canvas.pixel / 96.0),
             0.75 * font),
       line, line);
+}
+
+namespace {
+
+// clang-format off
+constexpr std::array words = {
+    std::array<std::string_view, 3>{"time t", "Zeit t", "время t"},
+    std::array<std::string_view, 3>{"horizontal ux", "horizontal ux", "горизонтальное ux"},
+    std::array<std::string_view, 3>{"vertical uy", "vertikal uy", "вертикальное uy"},
+    std::array<std::string_view, 3>{"rotation rz", "Verdrehung rz", "поворот rz"},
+    std::array<std::string_view, 3>{"displacement u", "Verschiebung u", "перемещение u"},
+    std::array<std::string_view, 3>{"acceleration", "Beschleunigung", "ускорение"},
+    std::array<std::string_view, 3>{"energy", "Energie", "энергия"},
+    std::array<std::string_view, 3>{"balance off by", "Bilanzfehler", "невязка баланса"},
+    std::array<std::string_view, 3>{"drift", "Drift", "дрейф"},
+    std::array<std::string_view, 3>{"kinetic", "kinetisch", "кинетическая"},
+    std::array<std::string_view, 3>{"elastic", "elastisch", "упругая"},
+    std::array<std::string_view, 3>{"contact springs", "Kontaktfedern", "в контактах"},
+    std::array<std::string_view, 3>{"lost by damping", "Dämpfungsverlust", "потери: демпф."},
+    std::array<std::string_view, 3>{"lost by friction", "Reibungsverlust", "потери: трение"},
+    std::array<std::string_view, 3>{"lost by impacts", "Stoßverlust", "потери: удары"},
+    std::array<std::string_view, 3>{"work of loads", "Arbeit der Lasten", "раб. нагрузок"},
+    std::array<std::string_view, 3>{"work of surfaces", "Arbeit d. Flächen", "раб. поверхн."},
+    std::array<std::string_view, 3>{"compression", "Druckkraft", "сжатие"},
+    std::array<std::string_view, 3>{"shear", "Schubkraft", "сдвигающая сила"},
+    std::array<std::string_view, 3>{"limits", "Grenzen", "предел"},
+    std::array<std::string_view, 3>{"static", "Haftgrenze", "статический"},
+    std::array<std::string_view, 3>{"kinetic limit", "Gleitgrenze", "кинетический"},
+    std::array<std::string_view, 3>{"gap g", "Spalt g", "зазор g"},
+    std::array<std::string_view, 3>{"motion ut", "Bewegung ut", "движение ut"},
+    std::array<std::string_view, 3>{"slip p", "Gleitweg p", "проскальз. p"},
+    std::array<std::string_view, 3>{"event", "Ereignis", "событие"},
+    std::array<std::string_view, 3>{"open", "offen", "открыт"},
+    std::array<std::string_view, 3>{"closed", "geschlossen", "закрыт"},
+    std::array<std::string_view, 3>{"stick", "Haften", "сцепление"},
+    std::array<std::string_view, 3>{"slip", "Gleiten", "скольжение"},
+    std::array<std::string_view, 3>{"slip+", "Gleiten +", "скольжение +"},
+    std::array<std::string_view, 3>{"slip-", "Gleiten −", "скольжение −"},
+    std::array<std::string_view, 3>{"reversal", "Umkehr", "реверс"},
+    std::array<std::string_view, 3>{"separation", "Abheben", "отрыв"},
+    std::array<std::string_view, 3>{"contact", "Aufsetzen", "касание"},
+    std::array<std::string_view, 3>{"impact", "Stoß", "удар"},
+    std::array<std::string_view, 3>{"load changes", "Lastwechsel", "смена нагрузки"},
+    std::array<std::string_view, 3>{"undeformed", "unverformt", "до деформации"},
+    std::array<std::string_view, 3>{"nodes", "Knoten", "узлы"},
+    std::array<std::string_view, 3>{"supports", "Lager", "опоры"},
+    std::array<std::string_view, 3>{"springs", "Federn", "пружины"},
+    std::array<std::string_view, 3>{"rigid bodies", "starre Körper", "жёсткие тела"},
+    std::array<std::string_view, 3>{"mesh", "Netz", "сетка"},
+    std::array<std::string_view, 3>{"bars", "Stäbe", "стержни"},
+    std::array<std::string_view, 3>{"beams", "Balken", "балки"},
+    std::array<std::string_view, 3>{"contact force", "Kontaktkraft", "сила контакта"},
+    std::array<std::string_view, 3>{"first {} of {}", "die ersten {} von {}", "первые {} из {}"},
+    std::array<std::string_view, 3>{"the {} of {} that move most", "die {} von {}, die sich am meisten bewegen", "{} из {} с наибольшим движением"},
+    std::array<std::string_view, 3>{"no friction", "ohne Reibung", "без трения"},
+    std::array<std::string_view, 3>{"friction {}", "Reibung {}", "трение {}"},
+    std::array<std::string_view, 3>{"friction {} static, {} kinetic", "Reibung {} (Haften), {} (Gleiten)", "трение {} (покоя), {} (скольжения)"},
+    std::array<std::string_view, 3>{"Contact '{}'", "Kontakt '{}'", "Контакт '{}'"},
+    std::array<std::string_view, 3>{"Displacements from the undeformed state", "Verschiebungen gegen den unverformten Zustand", "Перемещения относительно недеформированного состояния"},
+    std::array<std::string_view, 3>{"Response quantities", "Antwortgrößen", "Величины отклика"},
+    std::array<std::string_view, 3>{"Where the energy is, where it went, and the balance", "Wo die Energie ist, wohin sie ging, und die Bilanz", "Где энергия, куда она ушла, и баланс"},
+    std::array<std::string_view, 3>{"States of the contacts", "Zustände der Kontakte", "Состояния контактов"},
+    std::array<std::string_view, 3>{"Events of the contacts, a mark each", "Ereignisse der Kontakte, je ein Strich", "События контактов, по отметке на каждое"},
+    std::array<std::string_view, 3>{"Loads and motion of the base", "Lasten und Bewegung des Bodens", "Нагрузки и движение основания"},
+    std::array<std::string_view, 3>{"Contact forces and friction cones", "Kontaktkräfte und Reibungskegel", "Силы контактов и конусы трения"},
+    std::array<std::string_view, 3>{"inside sticks, on its edge slips", "innen haftet es, am Rand gleitet es", "внутри сцепление, на границе скольжение"},
+    std::array<std::string_view, 3>{"Shape at t = {} {}", "Form bei t = {} {}", "Форма при t = {} {}"},
+    std::array<std::string_view, 3>{"slid by ({}, {}) {}, deformation", "verschoben um ({}, {}) {}, Verformung", "сдвиг на ({}, {}) {}, деформация"},
+    std::array<std::string_view, 3>{"displacements", "Verschiebungen", "перемещения"},
+    std::array<std::string_view, 3>{"in true scale", "maßstäblich", "в масштабе"},
+    std::array<std::string_view, 3>{"magnified {} times", "{}-fach vergrößert", "увеличение в {} раз"},
+    std::array<std::string_view, 3>{"longest arrow of the run: {} {}", "längster Pfeil des Laufs: {} {}", "наибольшая стрелка расчёта: {} {}"},
+    std::array<std::string_view, 3>{" (run {})", " (Lauf {})", " (расчёт {})"},
+    std::array<std::string_view, 3>{"stopped", "abgebrochen", "остановлен"},
+    std::array<std::string_view, 3>{"interrupted", "unterbrochen", "прерван"},
+    std::array<std::string_view, 3>{"shaded: not certain, from t = {} on", "schattiert: nicht gesichert, ab t = {}", "серым: не гарантировано, с t = {}"},
+};
+// clang-format on
+
+}  // namespace
+
+const std::vector<std::string>& picture_languages() {
+  static const std::vector<std::string> names = {"en", "de", "ru"};
+  return names;
+}
+
+std::string say(std::string_view language, std::string_view english) {
+  const std::vector<std::string>& known = picture_languages();
+  for (const auto& row : words)
+    for (std::size_t i = 1; i < row.size(); ++i)
+      if (row[0] == english && known[i] == language) return std::string(row[i]);
+  return std::string(english);
+}
+
+std::vector<std::string> translated_phrases() {
+  std::vector<std::string> phrases;
+  for (const auto& row : words) phrases.emplace_back(row[0]);
+  return phrases;
 }
 
 }  // namespace signorini

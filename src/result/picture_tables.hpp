@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "result/run_tables.hpp"
+#include "signorini/model.hpp"
 
 namespace signorini {
 
@@ -24,5 +26,13 @@ class PictureTables {
   const Model& model_;
   std::unique_ptr<TableFile<ContactRow>> motion_;
 };
+
+// Loads over time, as a table for pictures (docs/output.md).
+//
+//   loads.csv  t,NAME,...   f_i(t) of every load that is not constant, amplitude included,
+//                           and the acceleration of the base; both sides of breakpoints
+
+/// Table from 0 to t_end; empty if no load varies.
+[[nodiscard]] std::string load_table(const Model& model, double t_end);
 
 }  // namespace signorini

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number.hpp"
-#include "result/frame_data.hpp"
+#include "base/text.hpp"
+#include "result/frames.hpp"
 #include "result/table.hpp"
 
 namespace signorini {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/file_name.hpp"
-#include "base/number.hpp"
-#include "result/picture_words.hpp"
+#include "base/files.hpp"
+#include "base/text.hpp"
+#include "result/picture_look.hpp"
 #include "scene/components.hpp"
 #include "signorini/error.hpp"
 

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "result/csv_read.hpp"
-#include "result/frame_data.hpp"
+#include "result/csv.hpp"
+#include "result/frames.hpp"
 #include "result/picture_look.hpp"
 #include "result/summary.hpp"
 #include "result/table.hpp"

@@ -1,30 +1,41 @@
 #include "result/run_directory.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <string_view>
 #include <system_error>
 
-#include "base/output_directory.hpp"
+#include "base/files.hpp"
 #include "base/run_files.hpp"
 #include "result/body_frames.hpp"
-#include "result/body_motion.hpp"
 #include "result/certificate_files.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"
-#include "result/frozen_forces.hpp"
 #include "result/instants.hpp"
-#include "result/load_table.hpp"
+#include "result/picture_files.hpp"
 #include "result/picture_tables.hpp"
-#include "result/plot_folder.hpp"
 #include "result/plots.hpp"
 #include "result/run_tables.hpp"
-#include "result/seam_table.hpp"
 #include "result/states.hpp"
 #include "result/summary.hpp"
-#include "scene/frozen_file.hpp"
+#include "scene/saved_state.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
+
+DirectoryLock::~DirectoryLock() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+bool DirectoryLock::take(const std::filesystem::path& directory) {
+  descriptor_ = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0)
+    throw FileError(directory.string(), "cannot be opened: " + std::generic_category().message(errno));
+  return flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
 
 namespace fs = std::filesystem;
 

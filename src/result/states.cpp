@@ -1,6 +1,8 @@
 #include "result/states.hpp"
 
 #include "model/assembly/loads.hpp"
+#include "result/csv.hpp"
+#include "scene/saved_state.hpp"
 
 namespace signorini {
 
@@ -57,6 +59,21 @@ void StateWriter::write(const Sample& sample) {
   for (const std::size_t k : own_) block_.number(sample.contacts[k].memory);
   block_.end_row();
   file_.write(block_);
+}
+
+std::string frozen_text(const FrozenForces& forces) {
+  CsvBlock block;
+  for (const std::string& name : frozen_heading()) block.text(name);
+  block.end_row();
+  for (const FrozenForces::Element& e : forces.elements) {
+    block.text("member").text(e.from).text(e.to).number(e.at_from).number(e.at_to).empty();
+    block.end_row();
+  }
+  for (const FrozenForces::Body& body : forces.bodies) {
+    block.text("rigid").text(body.name).empty().empty().empty().number(body.stiffness);
+    block.end_row();
+  }
+  return block.str();
 }
 
 }  // namespace signorini

@@ -8,8 +8,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "result/csv.hpp"
+#include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -32,5 +34,9 @@ class StateWriter {
   std::vector<const Load*> supports_;  // loads of moving supports
   double last_ = -1.0;
 };
+
+// Writes geometric.csv (scene/saved_state.hpp).
+
+[[nodiscard]] std::string frozen_text(const FrozenForces& forces);
 
 }  // namespace signorini

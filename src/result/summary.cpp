@@ -6,17 +6,14 @@
 #include <set>
 #include "base/json.hpp"
 
-#include "base/input_file.hpp"
+#include "base/files.hpp"
 #include "base/version.hpp"
 #include "contact/law.hpp"
 #include "engine/tolerance.hpp"
-#include "model/modes/rounding_floor.hpp"
-#include "model/statics/static_reaction.hpp"
-#include "result/certificate_json.hpp"
-#include "result/hangers_json.hpp"
-#include "result/reduction_json.hpp"
-#include "result/units_json.hpp"
-#include "result/witness_json.hpp"
+#include "model/modes/modes.hpp"
+#include "model/statics/static_system.hpp"
+#include "result/certificate_files.hpp"
+#include "result/summary_parts.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {

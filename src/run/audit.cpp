@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/rounding.hpp"
-#include "contact/conditions.hpp"
+#include "contact/law.hpp"
 #include "contact/motion.hpp"
 #include "contact/work.hpp"
 

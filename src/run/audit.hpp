@@ -4,11 +4,11 @@
 //   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, kinetic in slip
 //   E_kin + E_el + E_contact + D_friction + D_damping + D_impact - W_loads - W_surface = const
 //
-// Contacts are checked after every step; works and dissipations are integrals of powers (motion/powers.hpp) that the
+// Contacts are checked after every step; works and dissipations are integrals of powers (motion/point.hpp) that the
 // engine computes with its own accuracy.
 #pragma once
 
-#include "run/landings.hpp"
+#include "run/touch_tracker.hpp"
 
 namespace signorini {
 

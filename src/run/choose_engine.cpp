@@ -1,12 +1,14 @@
 #include "run/choose_engine.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 
-#include "model/decay.hpp"
+#include "engine/exact/modal/damped_system.hpp"
+#include "engine/exact/modal/modal_system.hpp"
+#include "model/slip_growth.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/engines.hpp"
-#include "run/expected.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini {
 namespace {
@@ -29,6 +31,71 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
                         "fastest oscillation, {:.3g} rad/{}",
                         decay, model.units.time, oscillation, model.units.time)};
   return {closed_form, true, "the laws are linear, and every decay is slow beside the fastest oscillation"};
+}
+
+namespace {
+
+constexpr int most_unknowns = 4000;  // shapes and their inverse take 16 n^2 bytes
+constexpr int fewest_unknowns =
+    16;  // below, a state's modes cost more than the series (validation/exact); chosen
+
+constexpr int fewest_damped_unknowns = 40;  // complex modes gain from here on (validation/exact); chosen
+constexpr double worth = 2.0;               // required cost ratio of the series and the states' modes
+constexpr int most_damped_unknowns = 500;   // a state's complex modes take 120 n^2 bytes and about 5 s there
+
+bool has_rigid_rows(const Model& model) {
+  return std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
+    return contact.takes_impulses() || contact.sticks_rigidly();
+  });
+}
+
+}  // namespace
+
+bool damped_modes_gain(const Model& model) {
+  return model.size() >= fewest_damped_unknowns && !has_rigid_rows(model);
+}
+
+ModalKind modal_kind(const Model& model) {
+  const std::string why = proportional_refusal(model);
+  if (model.size() > most_unknowns) return {false, false, "so many unknowns that their modes are not stored"};
+  if (why.empty()) return {false, most_state_springs(model) > most_rank, ""};
+  if (std::string other = damped_refusal(model); !other.empty()) return {true, false, other};
+  return {true, most_state_terms(model) > most_damped_terms,
+          model.size() > most_damped_unknowns ? why + ", with so many unknowns" : ""};
+}
+
+namespace {
+
+/// Choice for a scene whose motion can be computed with modes.
+FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind& kind) {
+  if (model.size() < fewest_unknowns) return {false, "auto: with so few unknowns the series is as fast"};
+  if (kind.crowded)
+    return {
+        false,
+        "auto: with this many contacts, computing the modes of each contact state costs more than it saves"};
+  if (!kind.damped) return {true, "auto: modes can follow the whole scene"};
+  // In complex modes a symmetric trestle on rigid feet loses its symmetry: its feet land at slightly different times.
+  if (has_rigid_rows(model))
+    return {false, "auto: hits of rigid contacts excite the whole mesh, so complex modes save no time"};
+  if (!damped_modes_gain(model) || worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
+    return {false, "auto: the complex modes of the contact states would cost as much as the series"};
+  return {true, "auto: complex modes can follow the whole scene"};
+}
+
+}  // namespace
+
+FlowChoice choose_flow(const Model& model, const RunSpec& run) {
+  if (run.flow == Flow::taylor) return {false, "as given"};
+  const ModalKind kind = modal_kind(model);
+  const std::string& why = kind.objection;
+  if (run.flow == Flow::automatic) {
+    if (!why.empty()) return {false, fmt::format("auto: modes cannot follow {}", why)};
+    return cheaper_flow(model, run, kind);
+  }
+  if (!why.empty())
+    throw SceneError(run.place, "run.flow",
+                     fmt::format("\"modal\" cannot follow this scene: {}; use \"taylor\"", why));
+  return {true, kind.damped ? "as given: complex modes" : "as given"};
 }
 
 }  // namespace signorini

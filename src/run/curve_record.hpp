@@ -4,21 +4,65 @@
 //   rows y_k at t_k;   where y_1 is a peak of three:   the vertex of the parabola through them is also a row
 //
 // Rows are both sides of every instant, and ends and interior points of steps as needed for a line, at the times of the
-// contact rows (motion_record.hpp). Each curve is thinned separately (base/thinned.hpp). No parabola extends across an
-// instant, whose two sides have the same time. Energies of a part are passed on immediately (energy_sum.hpp).
+// contact rows (motion_record.hpp). Each curve is thinned separately (base/curves.hpp). No parabola extends across an
+// instant, whose two sides have the same time. Energies of a part are passed on immediately (part_rows.hpp).
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <vector>
 
-#include "base/thinned.hpp"
-#include "run/part_share.hpp"
+#include "base/curves.hpp"
+#include "run/part_rows.hpp"
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
+
+// Distance of rows such that straight lines between them represent the curve.
+//
+//   rows at a, b, c:   y_b is off the line from y_a to y_c by   d = |y''| (b - a) (c - b) / 2
+//   rows h apart:      h^2 = (b - a) (c - b) bend R / d   rows are off by bend R, lines between them by a quarter of it
+//
+// R: the range of y. A curve with amplitude A = R / 2 has 47 rows per period at its turning points. The existing rows
+// determine h, and need not have equal distances.
+
+/// Fraction of the range. Half of a curve's first bend passes before rows detect it, and thinned rows are off by 0.3 %
+/// (base/curves.hpp). Chosen value; the test "what pictures draw of contacts is the motion" depends on it.
+inline constexpr double most_bend = 0.0045;
+/// Fraction of the run: 26 rows per pixel of the widest picture.
+inline constexpr double closest_rows = 1.0 / 32000.0;
+
+/// Spacing h of one curve; left, right: b - a and c - b, off: d. Infinite for a straight line.
+[[nodiscard]] inline double spacing_for(double left, double right, double off, double range) {
+  if (!(off > 0.0) || !(range > 0.0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(left * right * most_bend * range / off);
+}
+
+// Polynomials through values at nested Chebyshev points.
+//
+//   x_i = -cos(pi i / 16), i = 0, ..., 16, ascending on [-1, 1]; every second, fourth, eighth of them are
+//   the points of degree 8, 4, 2
+//   p(x) = sum w_i r_i / (x - x_i) / sum w_i / (x - x_i),   w_i = +-1, half at the ends
+//   p'(x_i) = sum over j != i of  c_i/c_j (-1)^(i+j) / (x_i - x_j) (r_j - r_i),   c = 2 at the ends, else 1
+//
+// `stride` chooses the points: 1, 2, 4, 8 for degree 16, 8, 4, 2. Values have all 17 entries; the others are not read.
+
+struct Chebyshev {
+  static constexpr std::size_t count = 17;
+  using Values = std::array<double, count>;
+
+  /// The 17 points.
+  [[nodiscard]] static const Values& nodes();
+  [[nodiscard]] static double through(const Values& values, std::size_t stride, double x);
+  /// Derivative p' at the points of the stride.
+  [[nodiscard]] static Values slopes(const Values& values, std::size_t stride);
+  /// Zero of p' between two points at which its signs differ; `slope` is the result of slopes().
+  [[nodiscard]] static double turn_between(const Values& slope, std::size_t stride, double a, double b);
+};
 
 /// Displacements shown in pictures.
 [[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
@@ -37,7 +81,7 @@ class CurveRecord {
   [[nodiscard]] bool wanted() const { return wanted_; }
   /// True if a line needs a row at t, without an event there.
   [[nodiscard]] bool needs(double t) const;
-  /// Row spacing required by the last three rows (row_spacing.hpp).
+  /// Row spacing required by the last three rows (curve_record.hpp).
   [[nodiscard]] double asked() const { return asked_; }
   /// Time of the last row; infinite if no rows are wanted.
   [[nodiscard]] double last() const { return last_; }

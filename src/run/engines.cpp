@@ -4,17 +4,17 @@
 
 #include <algorithm>
 
-#include "base/listed.hpp"
 #include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "contact/friction.hpp"
 #include "engine/exact/modal/modal_engine.hpp"
 #include "engine/ida/ida_engine.hpp"
-#include "engine/ida/order.hpp"
+#include "engine/ida/restart_order.hpp"
 #include "engine/newmark/friction_iteration.hpp"
 #include "engine/newmark/newmark_engine.hpp"
-#include "linear/shared_rows.hpp"
-#include "model/said.hpp"
-#include "run/choose_flow.hpp"
+#include "linear/redundant_rows.hpp"
+#include "model/machine_units.hpp"
+#include "run/choose_engine.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {

@@ -15,8 +15,8 @@
 
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
-#include "motion/mode_systems.hpp"
-#include "run/effort.hpp"
+#include "motion/state_systems.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/run_listener.hpp"
 #include "signorini/error.hpp"
 #include "signorini/result.hpp"

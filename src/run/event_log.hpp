@@ -16,11 +16,39 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "engine/stepper.hpp"
-#include "run/event_order.hpp"
+#include "signorini/model.hpp"
+#include "signorini/result.hpp"
 
 namespace signorini {
+
+// Detects events whose order is unknown.
+//
+//   t_2 - t_1 < e_1 + e_2      e: uncertainty of an event's time;   events of one instant are not compared
+//
+// Each event is compared with the last one before it in the log whose guard was zero.
+
+class EventOrder {
+ public:
+  /// Model and report must outlive the object. Warnings go to the report.
+  EventOrder(const Model& model, Report& report) : model_(model), report_(report) {}
+
+  /// Adds an event whose t_uncertainty is known.
+  void event(const Event& event, double resolution);
+  void load_jump(double t);
+  void warn(const std::string& which);
+  void finish();
+
+ private:
+  [[nodiscard]] std::string told(const Event& event) const;
+
+  const Model& model_;
+  Report& report_;
+  Event last_;  // last event with a contact and a guard
+  int unordered_ = 0;
+};
 
 /// let_go: friction let the contact go within the instant, although it sticks before and after.
 [[nodiscard]] std::optional<EventType> classify(State from, State to, bool let_go);

@@ -5,7 +5,7 @@
 // No scene uses this; a run without an injector is not affected.
 #pragma once
 
-#include "decide/decider.hpp"
+#include "decide/contact_state_solver.hpp"
 #include "engine/stepper.hpp"
 
 namespace signorini {

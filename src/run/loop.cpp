@@ -7,8 +7,8 @@
 #include "base/rounding.hpp"
 #include "decide/driven_states.hpp"
 #include "engine/tolerance.hpp"
-#include "model/said.hpp"
-#include "motion/clock.hpp"
+#include "model/machine_units.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 namespace {

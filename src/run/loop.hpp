@@ -11,13 +11,12 @@
 #include <memory>
 #include <optional>
 
-#include "decide/decider.hpp"
-#include "run/breakpoints.hpp"
+#include "decide/contact_state_solver.hpp"
 #include "run/engines.hpp"
-#include "run/last_touch.hpp"
+#include "run/run_limits.hpp"
 #include "run/run_record.hpp"
-#include "run/standstill.hpp"
 #include "run/steering.hpp"
+#include "run/touch_tracker.hpp"
 
 namespace signorini {
 

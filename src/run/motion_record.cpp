@@ -7,7 +7,7 @@
 
 #include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
-#include "run/row_spacing.hpp"
+#include "run/curve_record.hpp"
 
 namespace signorini {
 namespace {

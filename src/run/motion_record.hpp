@@ -1,7 +1,7 @@
 // motion_record.hpp: motion of the contacts for pictures, of bounded size for any output_dt.
 //
 //   rows of a contact: both sides of every instant that reaches it, turning points, and ends and interior points of
-//   steps as needed for a line; thinned (base/thinned.hpp) by N, T, gap and ut
+//   steps as needed for a line; thinned (base/curves.hpp) by N, T, gap and ut
 //
 // The distance of rows follows from the bends of the last three, of contacts and curves together; without bends it
 // grows by a fifth of the time passed.
@@ -17,9 +17,9 @@
 #include <span>
 #include <vector>
 
-#include "base/thinned.hpp"
+#include "base/curves.hpp"
 #include "run/audit.hpp"
-#include "run/part_share.hpp"
+#include "run/part_rows.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {

@@ -1,24 +1,85 @@
 // part_rows.hpp: merges rows of parts that run separately into rows of the whole model.
 //
 //   events:  ascending in t; at the same time, that of a load first, then in the order of the parts
-//   rows:    at a time of the grid u, v and contacts of all parts, energies summed (energy_sum.hpp)
+//   rows:    at a time of the grid u, v and contacts of all parts, energies summed (part_rows.hpp)
 //
 //   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.pass_on(t); ...
 //
 // All values are in the units of the whole model. A jump of a load is one row, for any number of parts it acts on.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
 
-#include "model/assembly/part_models.hpp"
-#include "run/energy_sum.hpp"
-#include "run/event_order.hpp"
+#include "base/curves.hpp"
+#include "model/assembly/parts.hpp"
+#include "run/event_log.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
+
+// Data that a run of a part has in common with the runs of the other parts.
+//
+//   rows per contact, points per curve:   as if all parts were one
+
+struct Energy;
+
+/// Share of a part; the default is the whole model.
+struct PartShare {
+  std::size_t parts = 1;
+  std::size_t contacts = 0, columns = 0;  ///< counts in the whole model; columns: drawn ones
+  std::vector<std::size_t> numbers = {};  ///< numbers of its contacts in the whole model
+  std::shared_ptr<const std::vector<double>> grid = nullptr;  ///< output times; null: its own
+  std::function<void(double t, const Energy&)> energies =
+      {};  ///< receives energies as often as a picture needs them
+
+  [[nodiscard]] bool whole() const { return parts == 1; }
+  [[nodiscard]] std::size_t number(std::size_t k) const { return whole() ? k : numbers[k]; }
+};
+
+// Energies of parts that run separately, summed for pictures during the run.
+//
+//   s(t) = sum_i y_i(t)     y_i: linear between the rows of part i; two rows at one time are a jump, and a jump of s
+//
+// The rows of a part are as close as its own energies need (curve_record.hpp). The sum is thinned, not its terms: a
+// peak of a sum need not be a peak of a term. Sums restart with every piece, so that rounding of steep slopes does not
+// accumulate.
+
+/// All energies, then the balance.
+using EnergyValues = std::array<double, energy_columns.size() + 1>;
+[[nodiscard]] EnergyValues values_of(const Energy& energy);
+
+/// Energies at one time, in any units; times of one part ascend.
+struct EnergyRow {
+  double t = 0.0;
+  EnergyValues values{};
+};
+using EnergyLine = std::deque<EnergyRow>;
+
+class EnergySum {
+ public:
+  /// Arguments are in the units of `whole`; curves are in those of its scene. most: rows per curve.
+  EnergySum(const Model& whole, double t_end, std::size_t most);
+
+  /// Adds the lines up to `until`, or to the end of the shortest line, and removes the added rows except one per line
+  /// at that time. All lines begin at the same time.
+  void take(const std::vector<EnergyLine*>& lines, double until);
+  /// Appends the curves and ends the sum.
+  void write(Curves& curves);
+
+ private:
+  struct ValueOf {
+    std::array<double, 1> operator()(const CurvePoint& point) const { return {point.value}; }
+  };
+  void add(double t, const EnergyValues& values);
+
+  double time_, energy_;  // units
+  std::vector<Thinned<CurvePoint, 1, ValueOf>> curves_;
+};
 
 /// Rows that a part has recorded and that are not merged yet; contacts have their numbers in the whole model.
 class PartRecorder final : public Recorder {

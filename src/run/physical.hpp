@@ -5,7 +5,7 @@
 // Factors are powers of two: the conversion is exact.
 #pragma once
 
-#include "model/rescale.hpp"
+#include "model/machine_units.hpp"
 #include "signorini/result.hpp"
 #include "signorini/trace.hpp"
 

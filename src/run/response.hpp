@@ -9,8 +9,8 @@
 //             otherwise more points, then both halves, until no motion turns by more than a radian in a part
 //
 // An output with stretches (an envelope, the extremes of a stress) is evaluated stretch by stretch, at the points of
-// each: stretch_peaks.hpp replaces p and p'. The fastest motion is that shown by outputs: modes whose oscillations are
-// rounding of every output are left out (pace.hpp).
+// each: output_resolution.hpp replaces p and p'. The fastest motion is that shown by outputs: modes whose oscillations are
+// rounding of every output are left out (output_resolution.hpp).
 //
 // The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average acceleration in
 // `newmark`, which is in equilibrium at the ends of its steps only: extremes of forces and accelerations are taken
@@ -22,11 +22,37 @@
 #include <string>
 #include <vector>
 
-#include "run/chebyshev.hpp"
-#include "run/output_value.hpp"
-#include "run/pace.hpp"
+#include "base/curves.hpp"
+#include "motion/jet.hpp"
+#include "run/audit.hpp"
+#include "run/curve_record.hpp"
+#include "run/output_resolution.hpp"
 
 namespace signorini {
+
+// Value of an output at one instant.
+//
+//   linear       r = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant
+//                    + sum_k c_k ( |N| - N_0 ) t.u
+//   stretches    r = largest |p(x)|, p through the linear outputs at their points (base/curves.hpp);
+//                with the largest p, the smallest p, and their positions
+
+struct OutputReading {
+  double value = 0.0, greatest = 0.0, least = 0.0;
+  OutputPlace at_greatest, at_least;
+};
+
+/// Value of a linear output; losses: of all contacts.
+[[nodiscard]] double value_of(const Output& output, double t, Side side, const Point& point,
+                              const ForceLayout& layout, const std::vector<double>& losses);
+[[nodiscard]] OutputReading reading_of(const Output& output, double t, Side side, const Point& point,
+                                       const ForceLayout& layout, const std::vector<double>& losses);
+/// Extremes along the i-th stretch, with their positions.
+[[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i, const Along::Values& values);
+
+/// Sum of the absolute terms of a linear output, to which rounding is relative.
+[[nodiscard]] double magnitude_of(const Output& output, double t, Side side, const Point& point,
+                                  const ForceLayout& layout);
 
 class ResponseWatch {
  public:

@@ -54,7 +54,7 @@ struct RunInstant {
 
 /// Requirements of a listener for the engine of the run.
 struct ListenerNeeds {
-  /// Data that engine `exact` in modes shares with the listener (engine/exact/modal/modal_memory.hpp); null: none.
+  /// Data that engine `exact` in modes shares with the listener (engine/exact/modal/modal_flow.hpp); null: none.
   ModalShare* modal = nullptr;
   /// True if the largest N, T, gap and ut inside steps are needed. `exact` in modes computes them only then.
   bool peaks = true;

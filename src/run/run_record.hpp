@@ -13,15 +13,15 @@
 #include "run/curve_record.hpp"
 #include "run/event_log.hpp"
 #include "run/fault_injector.hpp"
-#include "run/large_motions.hpp"
 #include "run/motion_record.hpp"
-#include "run/part_share.hpp"
+#include "run/part_rows.hpp"
 #include "run/response.hpp"
+#include "run/run_law_checker.hpp"
+#include "run/run_limits.hpp"
 #include "run/run_listener.hpp"
-#include "run/run_witness.hpp"
 #include "run/samples.hpp"
+#include "run/touch_tracker.hpp"
 #include "run/warnings.hpp"
-#include "run/zero_since.hpp"
 
 namespace signorini {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "base/listed.hpp"
 #include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "contact/friction.hpp"
-#include "engine/newmark/short_pulse.hpp"
-#include "model/said.hpp"
+#include "engine/newmark/newmark_step.hpp"
+#include "model/machine_units.hpp"
 #include "run/engines.hpp"
 
 namespace signorini {

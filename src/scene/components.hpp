@@ -7,9 +7,14 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "scene/quantities.hpp"
+#include "scene/readers.hpp"
+#include "signorini/scene.hpp"
 
 namespace signorini {
 
@@ -64,5 +69,28 @@ struct NamedMotion {
   const auto named = component_named(column);
   return named ? !named->rate : column.ends_with(".u");
 }
+
+// Which body a node belongs to.
+
+/// node: index into Scene::nodes; returns an index into Scene::bodies.
+[[nodiscard]] inline std::optional<std::size_t> body_of_node(const Scene& scene, std::size_t node) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodySpec& body = scene.bodies[i];
+    if (node >= body.first_node && node < body.first_node + body.node_count) return i;
+  }
+  return std::nullopt;
+}
+
+// The counterpart of a contact, if not the ground: a node, or a point on a segment.
+//
+//   u_b = sum_j w_j u_j,   segment B-C:  w = (1 - x, x),  x = (P - B).(C - B) / |C - B|^2,  0 <= x <= 1
+//
+// P: the undeformed position of the contact's own node. Displacements are small, so x is constant.
+
+/// Nodes and weights from the key `against`. Errors: SceneError for unknown or equal nodes, a segment of length zero, a
+/// point beside the segment.
+[[nodiscard]] std::vector<std::pair<std::string, double>> read_touched(Table& contact, const Scene& scene,
+                                                                       const Space& space,
+                                                                       const std::string& node);
 
 }  // namespace signorini

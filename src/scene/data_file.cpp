@@ -8,9 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "base/excerpt.hpp"
-#include "base/input_file.hpp"
-#include "base/number.hpp"
+#include "base/files.hpp"
+#include "base/text.hpp"
 
 namespace signorini {
 

@@ -10,8 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "base/excerpt.hpp"
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "scene/data_file.hpp"
 
 namespace signorini {

@@ -1,7 +1,6 @@
 #include "scene/overrides.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -9,14 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "base/excerpt.hpp"
-#include "base/number.hpp"
-#include "base/suggest.hpp"
+#include "base/text.hpp"
 #include "scene/keys.hpp"
 #include "scene/toml_node.hpp"
 
 namespace signorini {
-
 namespace {
 
 constexpr std::size_t most_parts = 16;  // much deeper than any key of a scene
@@ -303,6 +299,36 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides) 
       const Override one{path, change.value};
       Change(one, change).apply(root);
     }
+}
+
+const Key* key_of(const std::string& path) {
+  const std::size_t first = path.find('.'), last = path.rfind('.');
+  if (first == std::string::npos) return nullptr;
+  const std::string table = path.substr(0, first), name = path.substr(last + 1);
+  // [run], [sections.NAME], [[contacts]]: the table itself, a named table, or one of several.
+  for (const std::string& kind : {table, table + ".*", table + "[]"})
+    if (const Key* key = find_key(kind, name); key != nullptr && key->name == name) return key;
+  // A table within a named one: sections.NAME.pipe.wall.
+  if (const std::size_t second = path.find('.', first + 1); second < last)
+    for (const char* named : {".*", "[]"})
+      if (const Key* key = find_key(table + named + path.substr(second, last - second), name);
+          key != nullptr && key->name == name)
+        return key;
+  return nullptr;
+}
+
+KeyRange range_of(const Key& key) {
+  switch (key.type) {
+    case KeyType::positive:
+      return {.least = 0.0, .open = true};
+    case KeyType::non_negative:
+    case KeyType::friction:
+      return {.least = 0.0};
+    case KeyType::fraction:
+      return {.least = 0.0, .greatest = 1.0};
+    default:
+      return {};
+  }
 }
 
 }  // namespace signorini

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/listed.hpp"
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "mesh/gmsh_file.hpp"
 #include "mesh/grids.hpp"
 #include "mesh/plane_shapes.hpp"

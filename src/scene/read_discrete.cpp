@@ -6,8 +6,8 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "base/number.hpp"
 #include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {

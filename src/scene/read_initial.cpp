@@ -4,14 +4,10 @@
 #include <cmath>
 
 #include "base/json.hpp"
-#include "base/listed.hpp"
-#include "base/number.hpp"
 #include "base/run_files.hpp"
-#include "base/suggest.hpp"
+#include "base/text.hpp"
 #include "scene/components.hpp"
 #include "scene/data_file.hpp"
-#include "scene/frozen_file.hpp"
-#include "scene/left_contacts.hpp"
 #include "scene/readers.hpp"
 #include "scene/saved_state.hpp"
 

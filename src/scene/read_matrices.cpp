@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "scene/data_file.hpp"
 #include "scene/matrix_market.hpp"
 #include "scene/readers.hpp"

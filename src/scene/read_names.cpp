@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "scene/data_file.hpp"
 #include "scene/matrix_market.hpp"
 #include "scene/readers.hpp"

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 
-#include "scene/body_of_node.hpp"
+#include "scene/components.hpp"
 #include "scene/quantities.hpp"
 #include "scene/readers.hpp"
-#include "scene/unit_of_output.hpp"
-#include "scene/unit_of_text.hpp"
+#include "scene/units.hpp"
 #include "signorini/output.hpp"
 
 namespace signorini {

@@ -1,11 +1,16 @@
 // [run]: duration, accuracy and output times.
-#include <fmt/core.h>
 
-#include "base/number.hpp"
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/text.hpp"
 #include "scene/readers.hpp"
+#include "signorini/engine.hpp"
 
 namespace signorini {
-
 namespace {
 
 constexpr double most_output_rows = 1e8;
@@ -154,6 +159,107 @@ std::vector<double> RunSpec::grid() const {
   }
   times.push_back(t_end);
   return times;
+}
+
+// [reduction]: the cutoff, in cycles or in radians per time, or the tolerance from which it is found.
+
+void read_reduction(Table& top, Scene& scene, RecordedScene& record) {
+  if (!top.has("reduction")) return;
+  Table table = top.child("reduction");
+  if (table.has("cutoff_frequency") && table.has("cutoff_omega"))
+    table.fail("cutoff_frequency", "cannot be combined with cutoff_omega; give only one of them");
+  ReductionSpec spec;
+  spec.place = table.place();
+  for (const char* cutoff : {"cutoff_frequency", "cutoff_omega"})
+    if (table.has("tolerance") && table.has(cutoff))
+      table.fail("tolerance", std::string("stands beside ") + cutoff + ", expected one of the two");
+  if (const auto tolerance = table.optional_number("tolerance")) {
+    spec.tolerance = *tolerance;
+  } else if (const auto frequency = table.optional_number("cutoff_frequency")) {
+    spec.cutoff_omega = 2.0 * std::numbers::pi * *frequency;
+  } else {
+    table.require("cutoff_omega", " (give one of cutoff_omega, cutoff_frequency and tolerance)");
+    spec.cutoff_omega = *table.optional_number("cutoff_omega");
+  }
+  table.finish();
+  scene.reduction = spec;
+  record.add("reduction", "[reduction]", table.record());
+}
+
+// Units are names; the reader checks that Newton's law holds between them without a factor.
+
+namespace {
+
+double si_factor(const std::string& unit) {
+  static const std::map<std::string, double> factors = {{"N", 1.0},   {"kN", 1e3}, {"MN", 1e6},
+                                                        {"kg", 1.0},  {"t", 1e3},  {"m", 1.0},
+                                                        {"mm", 1e-3}, {"s", 1.0},  {"ms", 1e-3}};
+  return factors.at(unit);
+}
+
+bool same(double a, double b) { return std::abs(a - b) < 1e-9 * std::abs(b); }
+
+}  // namespace
+
+void read_units(Table& top, Scene& scene, RecordedScene& record) {
+  top.require("units", "");
+  Table table = top.child("units");
+  Units& units = scene.units;
+  units.force = table.choice("force");
+  units.mass = table.choice("mass");
+  units.length = table.choice("length");
+  units.time = table.choice("time");
+
+  const double time = si_factor(units.time);
+  const double fitting = si_factor(units.mass) * si_factor(units.length) / (time * time);
+  if (!same(si_factor(units.force), fitting)) {
+    const std::string product = fmt::format("{} {}/{}^2", units.mass, units.length, units.time);
+    std::string answer = "no unit of force that is known here (N, kN, MN)";
+    for (const std::string name : {"N", "kN", "MN"}) {
+      if (same(si_factor(name), fitting)) answer = "\"" + name + "\"";
+    }
+    table.fail("force", fmt::format("found \"{}\", expected mass * length / time^2: {} is {}", units.force,
+                                    product, answer));
+  }
+  table.finish();
+  record.top.set("units", table.record().inline_table());
+}
+
+std::string_view to_string(Engine engine) {
+  return engine == Engine::automatic ? "auto" : name_of(engine).name;
+}
+
+const EngineName& name_of(Engine engine) {
+  return *std::find_if(all_engines.begin(), all_engines.end(),
+                       [&](const EngineName& e) { return e.engine == engine; });
+}
+
+std::optional<Engine> engine_called(std::string_view name) {
+  for (const EngineName& e : all_engines)
+    if (e.name == name) return e.engine;
+  return std::nullopt;
+}
+
+bool has_key(const EngineName& engine, std::string_view key) {
+  std::string_view rest = engine.own_keys;
+  while (!rest.empty()) {
+    const std::size_t blank = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, blank) == key) return true;
+    rest.remove_prefix(std::min(blank + 1, rest.size()));
+  }
+  return false;
+}
+
+std::string_view accuracy_key(Accuracy accuracy) {
+  switch (accuracy) {
+    case Accuracy::tolerance:
+      return "run.rtol";
+    case Accuracy::step:
+      return "run.dt";
+    case Accuracy::rounding:
+      break;
+  }
+  return "";
 }
 
 }  // namespace signorini

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "scene/frozen_file.hpp"
 #include "scene/overrides.hpp"
 #include "scene/readers.hpp"
-#include "scene/same_structure.hpp"
-#include "scene/scene_text.hpp"
+#include "scene/resolved_scene.hpp"
+#include "scene/saved_state.hpp"
+#include "scene/toml_node.hpp"
 
 namespace signorini {
 

@@ -1,13 +1,13 @@
 #include "scene/saved_state.hpp"
 
 #include <fmt/core.h>
-
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
-#include "base/csv_row.hpp"
-#include "base/excerpt.hpp"
-#include "base/number.hpp"
+#include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "signorini/error.hpp"
 #include "signorini/form.hpp"
 
@@ -89,6 +89,82 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
     if (!t || std::abs(time - *t) <= 1e-9 * std::abs(*t)) found.wanted = std::move(state);
   }
   return found;
+}
+
+namespace {
+
+const std::vector<std::string> heading = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"};
+
+/// nullopt: a cell is not a number.
+std::optional<SavedState::Left> row_of(const std::vector<std::string>& cells) {
+  SavedState::Left left;
+  left.contact = cells[1];
+  left.state = cells[2];
+  if (!cells[3].empty() && !(left.gap = parse_number(cells[3]))) return std::nullopt;
+  double* const numbers[] = {&left.ut, &left.vt, &left.slip, &left.N, &left.T};
+  for (std::size_t i = 0; i < std::size(numbers); ++i) {
+    const std::optional<double> value = parse_number(cells[4 + i]);
+    if (!value) return std::nullopt;
+    *numbers[i] = *value;
+  }
+  return left;
+}
+
+}  // namespace
+
+std::vector<SavedState::Left> read_left_contacts(const std::filesystem::path& path, double t) {
+  std::ifstream in(path, std::ios::binary);
+  std::vector<std::string> cells;
+  std::vector<SavedState::Left> rows;
+  if (!in || !read_csv_row(in, cells)) return {};
+  if (cells.size() < heading.size() || !std::equal(heading.begin(), heading.end(), cells.begin())) return {};
+  const std::size_t width = cells.size();
+  while (read_csv_row(in, cells)) {
+    const std::optional<double> time = parse_number(cells[0]);
+    if (cells.size() != width || !time || std::abs(*time - t) > rounding::of_few * std::abs(t)) continue;
+    std::optional<SavedState::Left> row = row_of(cells);
+    if (!row) return {};
+    rows.push_back(std::move(*row));
+  }
+  return rows;
+}
+
+const std::vector<std::string>& frozen_heading() {
+  static const std::vector<std::string> heading = {"what", "from", "to", "N_from", "N_to", "stiffness"};
+  return heading;
+}
+
+std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path, const std::string& key) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return std::nullopt;
+  int line = 1;
+  const auto fail = [&](const std::string& message) {
+    throw SceneError({path.string(), line, 0}, key, message);
+  };
+  std::vector<std::string> cells;
+  if (!read_csv_row(in, cells) || cells != frozen_heading())
+    fail(fmt::format("found no heading \"{}\", expected the frozen forces of a run",
+                     fmt::join(frozen_heading(), ",")));
+  const auto number = [&](const std::string& cell) {
+    const auto value = parse_number(cell);
+    if (!value || !std::isfinite(*value)) fail(fmt::format("found \"{}\", expected a number", excerpt(cell)));
+    return *value;
+  };
+  FrozenForces forces;
+  while (read_csv_row(in, cells)) {
+    ++line;
+    if (cells.size() != frozen_heading().size())
+      fail(fmt::format("found {} cells, expected {}", cells.size(), frozen_heading().size()));
+    if (cells[0] == "member")
+      forces.elements.push_back({cells[1], cells[2], number(cells[3]), number(cells[4])});
+    else if (cells[0] == "rigid")
+      forces.bodies.push_back({cells[1], number(cells[5])});
+    else
+      fail(fmt::format("found \"{}\", expected member or rigid", excerpt(cells[0])));
+  }
+  ++line;
+  if (!cells.empty()) fail("found no line break, expected the end of a row");
+  return forces;
 }
 
 }  // namespace signorini

@@ -8,6 +8,7 @@
 // column "x.state" with numbers belongs to a degree of freedom of that name.
 #pragma once
 
+#include <filesystem>
 #include <istream>
 #include <optional>
 #include <string>
@@ -32,5 +33,29 @@ struct SavedStates {
 /// The state at t, or the last one. Errors: SceneError at the line of the file; `key` begins the message.
 [[nodiscard]] SavedStates read_saved_states(std::istream& in, const std::string& file, const std::string& key,
                                             std::optional<double> t);
+
+// States of the contacts at the end of a run, from contacts.csv.
+//
+//   t,contact,state,gap,ut,vt,slip,N,T   further columns are ignored
+//
+// A continued motion does not depend on these rows; the witness compares it with them (src/law_check).
+
+/// The rows at t. Empty: there are none, or the file is not that of a run.
+[[nodiscard]] std::vector<SavedState::Left> read_left_contacts(const std::filesystem::path& path, double t);
+
+// Geometric.csv, the forces whose stiffness acted in a run with run.geometric.
+//
+//   what,from,to,N_from,N_to,stiffness
+//   member,A,A-B.1,-12.5,-12.25,
+//   rigid,block,,,,-98.1
+//
+// The file has one row for each finite element and each rigid body, in model order. A continued run reads them here.
+
+inline constexpr const char* frozen_file = "geometric.csv";
+[[nodiscard]] const std::vector<std::string>& frozen_heading();
+
+/// nullopt: the file does not exist. Errors: SceneError at the line of the file; `key` begins the message.
+[[nodiscard]] std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path,
+                                                             const std::string& key);
 
 }  // namespace signorini

@@ -8,8 +8,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "base/excerpt.hpp"
-#include "base/suggest.hpp"
+#include "base/text.hpp"
 
 namespace signorini {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "scene/keys.hpp"
-#include "scene/record.hpp"
+#include "scene/resolved_scene.hpp"
 #include "scene/toml_node.hpp"
 
 namespace signorini {

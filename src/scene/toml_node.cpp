@@ -1,15 +1,19 @@
 #include "scene/toml_node.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <tuple>
 
-#include "base/number.hpp"
-#include "scene/record.hpp"
+#include "base/files.hpp"
+#include "base/text.hpp"
+#include "scene/resolved_scene.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini {
-
 namespace {
 
 bool is_override(const toml::source_region& region) {
@@ -76,6 +80,37 @@ std::vector<Entry> entries_of(const toml::table& table) {
   if (!std::is_sorted(entries.begin(), entries.end(), before))
     std::stable_sort(entries.begin(), entries.end(), before);
   return entries;
+}
+
+std::string scene_text(const std::string& path) {
+  constexpr std::size_t longest_file = 64u << 20;
+  if (const std::string why = why_no_input_file(path); !why.empty())
+    throw FileError(path, why + ", expected a scene file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path, std::strerror(errno ? errno : EIO));
+  std::string text;
+  std::array<char, 8192> block;
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
+    if (text.size() > longest_file)
+      throw SceneError({path, 0, 0}, "", "larger than 64 MB, expected a scene file");
+  }
+  if (in.bad()) throw FileError(path, "cannot be read");
+  return text;
+}
+
+Json json_of(const toml::node& node) {
+  if (const auto* value = node.as_boolean()) return value->get();
+  if (const auto* value = node.as_integer()) return value->get();
+  if (const auto* value = node.as_floating_point()) return value->get();
+  if (const auto* value = node.as_string()) return value->get();
+  Json json = node.is_array() ? Json::array() : Json::object();
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& item : *array) json.push_back(json_of(item));
+  if (const toml::table* table = node.as_table())
+    for (const auto& [name, item] : *table) json[std::string(name.str())] = json_of(item);
+  return json;
 }
 
 }  // namespace signorini

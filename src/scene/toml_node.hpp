@@ -4,11 +4,11 @@
 #pragma once
 
 #include <toml++/toml.h>
-
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/json.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -38,5 +38,15 @@ struct Entry {
 
 /// The entries in the order of the file (toml++ sorts by name), then those of overrides.
 [[nodiscard]] std::vector<Entry> entries_of(const toml::table& table);
+
+// The text of a scene file, before it is parsed.
+
+/// The whole file; parse_scene() makes a scene of it. Errors: FileError; SceneError where it is larger than 64 MB.
+[[nodiscard]] std::string scene_text(const std::string& path);
+
+// A TOML value as a JSON value of the same shape.
+
+/// Dates and times, which no scene has, become empty objects.
+[[nodiscard]] Json json_of(const toml::node& node);
 
 }  // namespace signorini

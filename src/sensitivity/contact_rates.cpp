@@ -1,6 +1,11 @@
 #include "sensitivity/contact_rates.hpp"
 
+#include <fmt/core.h>
 #include <set>
+
+#include "contact/friction.hpp"
+#include "contact/law.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini {
 
@@ -94,6 +99,56 @@ BodySlide slide_rate(const Contact& contact, const ContactRates& rates, const Se
   const Combination& body = contact.body_tangent();
   return {body.dot(w.u) + rates.body_tangent.dot(point.u) - driven.surface[0],
           body.dot(w.v) + rates.body_tangent.dot(point.v) - driven.surface[1]};
+}
+
+LawRates law_rates(const Contact& contact, std::size_t c, const ContactState& state,
+                   const ContactRates& rates, const Forcing& forcing, double t, const TangentSource& source) {
+  LawRates result;
+  const double pressing = forcing.pressing(c, t, 0);
+  result.law = force_law(contact, state, pressing);
+  const Rows row = rows(contact, state);
+  const Rows& by = rates.rows[index_of(state.state)];
+  const std::size_t place = c * source.forcing.count;
+  ForceLaw& d = result.rates;
+  d.N_gap = -by.normal.gap;
+  d.N_constant = -(by.normal.pressing * pressing + row.normal.pressing * source.forcing.pressing[place] +
+                   by.normal.constant);
+  d.T_gap = -(by.tangent.N * result.law.N_gap + row.tangent.N * d.N_gap);
+  d.T_ut = -by.tangent.ut;
+  d.T_constant = -(by.tangent.N * result.law.N_constant + row.tangent.N * d.N_constant + by.tangent.constant);
+  if (state.state == State::stick && contact.tangential_stiffness)
+    d.T_constant -=
+        rates.tangential_stiffness * state.anchor + *contact.tangential_stiffness * source.start->anchors[c];
+  result.gap = contact.gap;
+  result.gap_rate = rates.gap;
+  result.surface = forcing.surface(c, t, 0);
+  result.surface_rate = source.forcing.surface[place];
+  return result;
+}
+
+void check_tangent_laws(const Scene& scene, const Model& model) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    const bool rises = c.friction.rises();
+    const bool remembers = c.law->has_memory();
+    const bool multiplies = !c.law->capabilities.linear_guards;
+    const char* what = remembers                    ? "a law of contact with a memory"
+                       : multiplies                 ? "a law of contact whose guards hold products"
+                       : c.curved_surface()         ? "a pendulum whose normal force varies"
+                       : rises && c.sliding_point() ? "friction that rises with the slip rate beside a "
+                                                      "tangential_stiffness"
+                       : c.friction.by_force()      ? named_friction(c)
+                       : c.compliance_split()       ? "a rigid contact on parts without mass"
+                       : rises && c.takes_impulses()
+                           ? "friction that rises with the slip rate at a rigid contact"
+                           : nullptr;
+    if (what != nullptr)
+      throw SceneError(scene.contacts[k].place,
+                       scene.contacts[k].key(remembers || multiplies || c.compliance_split() ? "law"
+                                             : c.curved_surface()                            ? "radius"
+                                                                                             : "friction"),
+                       fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));
+  }
 }
 
 }  // namespace signorini

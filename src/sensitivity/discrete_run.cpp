@@ -4,7 +4,7 @@
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "sensitivity/tangent_impact.hpp"
+#include "sensitivity/tangent_event.hpp"
 
 namespace signorini {
 namespace {

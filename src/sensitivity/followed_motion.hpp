@@ -13,10 +13,10 @@
 #include <memory>
 #include <optional>
 
-#include "decide/decider.hpp"
+#include "decide/contact_state_solver.hpp"
 #include "engine/exact/modal/modal_engine.hpp"
-#include "run/last_touch.hpp"
 #include "run/run_listener.hpp"
+#include "run/touch_tracker.hpp"
 #include "sensitivity/tangent_series.hpp"
 
 namespace signorini {

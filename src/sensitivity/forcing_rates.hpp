@@ -4,10 +4,21 @@
 //   time tau_p: of the instants at which the forcing is not smooth
 #pragma once
 
+#include <optional>
+
 #include "motion/forcing.hpp"
-#include "sensitivity/history_rates.hpp"
+#include "sensitivity/model_derivative.hpp"
 
 namespace signorini {
+
+// Derivative of a history's piece by a parameter, as a series in time.
+//
+//   f = sum c_j s^j + a sin(w s + phi),   s = t - t0
+//   f_p = sum c_j,p s^j - t0,p f' + a_p sin(w s + phi) + a cos(w s + phi) (w_p s + phi_p)
+
+/// out[k] += factor scale^k / k! (d/dt)^k f_p at t, 0 <= k < count.
+void add_rate_series(const Piece& piece, const Piece& rates, double t, double scale, std::size_t count,
+                     double factor, double* out);
 
 /// Same layout as ForcingSeries: rows of `count` coefficients, one per contact; columns of `load`.
 struct ForcingRatesSeries {
@@ -43,5 +54,16 @@ struct MovingBreakpoint {
 [[nodiscard]] std::vector<MovingBreakpoint> breakpoints_at(const Model& model,
                                                            const ModelDerivative& derivative, double t,
                                                            double resolution);
+
+// Derivative of the static start by a parameter.
+//
+//   (K + sum_closed kn n n^T) w = P_p - K_p u0 - sum_closed ( n_p N + n N_p ),   N_p = kn_p g + kn (g0_p + n_p . u0)
+//   rigid ones: K w + sum n N_p = P_p - K_p u0 - sum n_p N,   n . w = -g0_p - n_p . u0
+//   t_h . w = -t_h,p . u0 at contacts that hold a free motion
+//
+// A difference of two equilibria has the rounding of their solves divided by the step; this has that of one solve.
+
+/// model: with a frictionless static start. nullopt if its matrix remains singular.
+[[nodiscard]] std::optional<Vector> static_rate(const Model& model, const ModelDerivative& derivative);
 
 }  // namespace signorini

@@ -6,9 +6,8 @@
 #include <algorithm>
 
 #include "base/rounding.hpp"
-#include "sensitivity/listed_modes.hpp"
-#include "sensitivity/modal_store.hpp"
 #include "sensitivity/modal_tangents.hpp"
+#include "sensitivity/state_rates.hpp"
 
 namespace signorini {
 

@@ -9,10 +9,31 @@
 // differenced too, so that a law is implemented in one place (contact/law.hpp).
 #pragma once
 
+#include <vector>
+
 #include "contact/law.hpp"
 #include "signorini/sensitivity.hpp"
 
 namespace signorini {
+
+// Finite-difference stencils.
+//
+//   f' = sum_i w_i f(p + k_i h) / h          k_i: points, w_i: weights
+//
+// `check` are weights of lower order at the same points: where both results differ, the function is not smooth.
+
+/// Points in units of the step, and weights divided by the step.
+struct Stencil {
+  std::vector<int> points;
+  std::vector<double> weights, check;  ///< check: weights of lower order at the same points
+};
+
+/// Exact for linear and quadratic functions.
+[[nodiscard]] const Stencil& two_points();
+/// Sixth order, checked by fourth order.
+[[nodiscard]] const Stencil& six_points();
+/// Fifth order, checked by fourth order; for the upper side; h is negative for the lower side.
+[[nodiscard]] const Stencil& one_side();
 
 /// Derivatives of a history's numbers, piece by piece. Empty: no change.
 struct HistoryRates {
@@ -58,5 +79,74 @@ void take_weight(const Model& from, Model& model);
 /// or if the data do not depend smoothly on it.
 [[nodiscard]] ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path,
                                          double value, double size);
+
+// All numbers of a model that a parameter may change, in a fixed order.
+//
+//   data_of(model): the numbers themselves, in the place of their derivatives;   visit(d, f): f(x) of each
+//
+// Two models whose shapes are equal have the same numbers in the same order, once align() has given their
+// combinations the same terms.
+
+template <class Visit>
+void visit_form(Form& f, const Visit& visit) {
+  for (double* x :
+       {&f.N, &f.T, &f.gap, &f.ut, &f.vn, &f.vt, &f.an, &f.at, &f.pressing, &f.pressing_rate, &f.constant})
+    visit(*x);
+}
+
+template <class Visit>
+void visit_rates(HistoryRates& h, const Visit& visit) {
+  for (double& t : h.starts) visit(t);
+  for (Piece& piece : h.pieces) {
+    visit(piece.origin);
+    for (double& c : piece.coefficients) visit(c);
+    visit(piece.amplitude);
+    visit(piece.omega);
+    visit(piece.phase);
+  }
+}
+
+template <class Visit>
+void visit_combinations(ModelDerivative& d, const Visit& visit) {
+  for (LoadRates& load : d.loads) visit(load.direction);
+  for (ContactRates& c : d.contacts)
+    for (Combination* form : {&c.normal, &c.tangent, &c.body_tangent}) visit(*form);
+}
+
+template <class Visit>
+void visit_all(ModelDerivative& d, const Visit& visit) {
+  visit_combinations(d, [&](Combination& c) {
+    for (auto& [index, factor] : c.terms) visit(factor);
+  });
+  for (LoadRates& load : d.loads) visit_rates(load.history, visit);
+  for (ContactRates& c : d.contacts) {
+    for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.shear_stiffness,
+                      &c.friction.static_, &c.friction.kinetic})
+      visit(*x);
+    for (const FrictionConstant& constant : friction_constants)
+      if (auto& x = c.friction.*constant.value) visit(*x);
+    visit_rates(c.normal_force, visit);
+    visit_rates(c.surface_motion, visit);
+    for (Rows& rows : c.rows) {
+      visit_form(rows.normal, visit);
+      visit_form(rows.tangent, visit);
+    }
+    for (auto& guards : c.guards)
+      for (Form& guard : guards) visit_form(guard, visit);
+  }
+  for (double& u : d.u0) visit(u);
+  for (double& v : d.v0) visit(v);
+}
+
+/// Zero entries may have no terms in some models: adds the terms of each model to all.
+void align(const std::vector<ModelDerivative*>& all);
+/// The data themselves, in a ModelDerivative.
+[[nodiscard]] ModelDerivative data_of(const Model& model);
+/// Sizes and structure that must be equal for differences to be meaningful.
+[[nodiscard]] std::vector<long> shape_of(const Model& model);
+/// All numbers except the matrices; those of u0 and v0 are last.
+[[nodiscard]] std::vector<double> values_of(ModelDerivative& data);
+/// Magnitudes to which the rounding of each number is relative: itself, in a form its largest factor.
+[[nodiscard]] std::vector<double> sizes_of(ModelDerivative data);
 
 }  // namespace signorini

@@ -14,7 +14,7 @@
 #include <map>
 #include <vector>
 
-#include "engine/exact/modal/plain_complex.hpp"
+#include "engine/exact/modal/complex_lanes.hpp"
 
 namespace signorini {
 

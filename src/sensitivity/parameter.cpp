@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "scene/keys.hpp"
 #include "scene/overrides.hpp"
 #include "scene/quantities.hpp"

@@ -8,7 +8,7 @@
 
 #include "run/forwarding_recorder.hpp"
 #include "run/physical.hpp"
-#include "sensitivity/landing_rates.hpp"
+#include "sensitivity/tangent_run.hpp"
 
 namespace signorini {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "model/build.hpp"
-#include "model/rescale.hpp"
+#include "model/machine_units.hpp"
 #include "run/engines.hpp"
-#include "scene/key_path.hpp"
-#include "scene/scene_text.hpp"
+#include "scene/overrides.hpp"
+#include "scene/toml_node.hpp"
+#include "sensitivity/contact_rates.hpp"
 #include "sensitivity/discrete_run.hpp"
-#include "sensitivity/known_laws.hpp"
 #include "sensitivity/parameter.hpp"
 #include "sensitivity/rate_record.hpp"
 #include "sensitivity/tangent_run.hpp"

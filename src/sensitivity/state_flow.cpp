@@ -5,9 +5,9 @@
 #include <set>
 
 #include "base/rounding.hpp"
-#include "model/same_states.hpp"
+#include "model/build.hpp"
 #include "sensitivity/contact_rates.hpp"
-#include "sensitivity/listed_modes.hpp"
+#include "sensitivity/state_rates.hpp"
 
 namespace signorini {
 namespace {

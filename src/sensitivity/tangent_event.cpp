@@ -1,15 +1,58 @@
 #include "sensitivity/tangent_event.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "contact/friction.hpp"
+#include "decide/impact.hpp"
 #include "run/physical.hpp"
-#include "sensitivity/tangent_impact.hpp"
 
 namespace signorini {
+
+ImpactRates impact_rates(ModeSystems& systems, const ModelDerivative& derivative, Mode mode,
+                         const Decision& after, const Vector& v, const Vector& Dv,
+                         const std::vector<double>& surface) {
+  const Model& model = systems.model();
+  ImpactRates result;
+  mode = mode_of_impact(model, std::move(mode), after.impulses);
+  const ModeSystemPtr system = systems.of(mode);
+  if (!system) return result;
+  const Unknowns& at = system->unknowns();
+  std::vector<double> x(at.size(), 0.0), work(at.size());
+  Eigen::Map<Vector> momentum(x.data(), model.size());
+  const Vector jump = after.v - v;
+  if (derivative.mass.nonZeros() > 0) momentum -= derivative.mass * jump;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Impulse& impulse = after.impulses[c];
+    if (!(impulse.normal > 0.0)) continue;
+    const Contact& contact = model.contacts[c];
+    const ContactRates& rates = derivative.contacts[c];
+    rates.normal.add_to(momentum, impulse.normal);
+    rates.tangent.add_to(momentum, impulse.tangent);
+    const double vn = contact.normal.dot(v);
+    const double Dvn = contact.normal.dot(Dv) + rates.normal.dot(v);
+    double rebound = 0.0;
+    if (!impulse.rests && vn < 0.0) rebound = -contact.restitution * Dvn - rates.restitution * vn;
+    x[at.normal(c)] = rebound - rates.normal.dot(after.v) - contact.normal.dot(Dv);
+    if (mode[c].state == State::stick)
+      x[at.tangent(c)] = surface[c] - rates.tangent.dot(after.v) - contact.tangent.dot(Dv);
+    else if (const int s = slip_sign(mode[c].state); s != 0)
+      x[at.tangent(c)] = s * rates.friction.kinetic * impulse.normal;
+  }
+  system->solve(x.data(), work.data());
+  result.known = true;
+  result.v = Dv;
+  for (std::size_t i = 0; i < at.dofs; ++i)
+    if (system->kinds()[i] == DofKind::massive) result.v[static_cast<Eigen::Index>(i)] += x[i];
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const bool takes = after.impulses[c].normal > 0.0;
+    result.normal.push_back(takes ? -x[at.normal(c)] : 0.0);
+    result.tangent.push_back(takes ? -x[at.tangent(c)] : 0.0);
+  }
+  return result;
+}
+
 namespace {
 
 // Relative difference up to which two derivatives count as equal: far above rounding, far below actual differences.
@@ -245,7 +288,7 @@ void TangentEvents::look_for_kinks(Course& course) const {
   const Vector &w = course.after.point.u, &wv = course.after.point.v;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
-    const Form& form = decision.form(slot);  // laws with products are refused (known_laws.hpp)
+    const Form& form = decision.form(slot);  // laws with products are refused (contact_rates.hpp)
     if (guard.kind == Guard::none || !guard.at_zero || form.an != 0.0) continue;
     const std::size_t c = contact_of_guard(slot);
     const Contact& contact = model_.contacts[c];

@@ -11,8 +11,8 @@
 #pragma once
 
 #include "contact/friction.hpp"
-#include "motion/mode_systems.hpp"
-#include "motion/series.hpp"
+#include "motion/state_systems.hpp"
+#include "motion/taylor.hpp"
 #include "sensitivity/forcing_rates.hpp"
 #include "sensitivity/model_derivative.hpp"
 

@@ -2,16 +2,19 @@
 //
 //   W_p+ = W_p + int d/dp ( power at fixed time ) dt         between instants, Gauss's rule over a series
 //   W_p+ = W_p- + (power- - power+) dt/dp + DL               across an instant with a loss L
-//   power: P . v,  v^T C v + cn g'^2,  T p',  -T s',  -N     motion/powers.hpp
+//   power: P . v,  v^T C v + cn g'^2,  T p',  -T s',  -N     motion/point.hpp
 //   E_p = v^T M w' + v^T M_p v / 2 + u^T K w + ...           stored energy, at one time
 //
 // L: loss by impacts, drops of friction, and jumps of loads on parts without mass (run/audit.hpp). D: along the moving
 // instant. Units: the machine's, over that of the key.
 #pragma once
 
-#include "linear/structure.hpp"
-#include "motion/powers.hpp"
+#include <optional>
+
+#include "linear/system_matrices.hpp"
+#include "motion/point.hpp"
 #include "sensitivity/contact_rates.hpp"
+#include "sensitivity/tangent_event.hpp"
 
 namespace signorini {
 
@@ -71,5 +74,40 @@ class WorkTangent {
 /// The derivative of ut - T/kt.
 [[nodiscard]] double slip_by(const Contact& contact, const ContactRates& rates, const ContactMotion& m,
                              const ContactMotion& D);
+
+// Energy lost at an instant, and its derivative by a parameter.
+//
+//   impact     L = v-^T M v-/2 - v+^T M v+/2 + sum Pt s'
+//   friction   L = (T-^2 - T+^2)/2kt                at a drop of a force
+//   parts without mass, which respond immediately (run/audit.hpp):
+//   friction   L = T+ (slip+ - slip-)               at a jump of a load; L = released energy at a drop of friction;
+//                                                   several contacts: each its own and an equal part of the rest
+//   loads      W += sum of L - released energy      at a jump of a load, else W += P . (u+ - u-), which is released,
+// too
+//
+// DL: along the moving instant, like everything at it.
+
+class LossRates {
+ public:
+  /// All arguments must outlive the object. massless: moves_at_once(model).
+  LossRates(const Model& model, const ModelDerivative& derivative, bool massless)
+      : model_(model), derivative_(derivative), massless_(massless) {}
+
+  /// Crosses an instant; `works` changes from the derivatives at fixed time before it to those after it. Returns the
+  /// derivatives along the instant, all losses included.
+  WorkRates pass(const InstantMotion& motion, const TangentBefore& before, const TangentAfter& after,
+                 WorkTangent& works) const;
+
+ private:
+  struct Sides;
+  void add_impact(const Sides& sides, WorkRates& works) const;
+  [[nodiscard]] std::optional<double> drop_by(const Sides& sides, std::size_t contact) const;
+  [[nodiscard]] double driven_by(const Sides& sides) const;
+  void add_drops(const Sides& sides, WorkTangent& works) const;
+
+  const Model& model_;
+  const ModelDerivative& derivative_;
+  bool massless_;
+};
 
 }  // namespace signorini

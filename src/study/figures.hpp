@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "base/json.hpp"
+#include "signorini/scene.hpp"
 
 namespace signorini {
 
@@ -19,5 +21,14 @@ template <class Value>
 [[nodiscard]] Json json_of(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
 }
+
+// The unit of a key of the scene, by its path, with the scene's unit names.
+//
+//   key_unit("contacts.left.normal_stiffness", units) == "kN/m",   key_unit("contacts.*.friction", units) == ""
+
+/// Empty for a plain number, and if the path is not a key.
+[[nodiscard]] std::string key_unit(const std::string& path, const Units& units);
+/// "PATH [UNIT]", or the path alone.
+[[nodiscard]] std::string key_with_unit(const std::string& path, const Units& units);
 
 }  // namespace signorini

@@ -1,15 +1,23 @@
 #include "study/prepared_run.hpp"
 
 #include <fmt/core.h>
-
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/json.hpp"
+#include "base/run_files.hpp"
+#include "base/version.hpp"
+#include "result/body_frames.hpp"
+#include "result/picture_tables.hpp"
 #include "signorini/error.hpp"
 #include "signorini/simulate.hpp"
 #include "study/reduction/find_cutoff.hpp"
 
 namespace signorini {
-
 namespace {
 
 PreparedRun built(Scene scene) {
@@ -56,6 +64,118 @@ RunSpec without_rows(RunSpec run) {
   run.output_times = std::vector<double>{0.0};
   run.frames.clear();
   return run;
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_there(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(file, none);
+}
+
+/// A file beside the manifest that it does not list was not written to its end.
+bool was_written(const fs::path& directory, const std::optional<Manifest>& manifest, std::string_view file) {
+  return is_there(directory / file) && (!manifest || manifest->find(file) != nullptr);
+}
+
+/// Events, and what pictures need, in memory: files are written when both are known.
+class PictureRows final : public Recorder {
+ public:
+  PictureRows(const PreparedRun& prepared, bool instants, const std::function<bool()>& go_on)
+      : table_(event_table(prepared.model)),
+        instants_(instants),
+        go_on_(go_on),
+        motions_(prepared.model.contacts.size()) {
+    if (!prepared.scene.bodies.empty()) bodies_.emplace(prepared.scene, prepared.model);
+    table_.put_header(events_);
+  }
+
+  void event(const Event& event) override { table_.put_row(events_, event); }
+  void sample(const Sample& sample) override {
+    if (bodies_) bodies_->add(sample);
+  }
+  [[nodiscard]] bool wants_motion() const override { return true; }
+  void motion(int contact, const std::vector<MotionRow>& rows) override {
+    motions_[static_cast<std::size_t>(contact)] = rows;
+  }
+  void curves(const Curves& curves) override { curves_ = curves; }
+  /// Instants are not used, but a run that delivers them is not split into parts (run/independent_parts.hpp).
+  [[nodiscard]] bool wants_instants() const override { return instants_; }
+  bool progress(double /*t*/) override { return go_on_(); }
+
+  [[nodiscard]] const std::string& events() const { return events_.str(); }
+  void write(const fs::path& directory, const Model& model) const {
+    PictureTables tables(directory, model);
+    for (std::size_t k = 0; k < motions_.size(); ++k) tables.motion(static_cast<int>(k), motions_[k]);
+    tables.curves(curves_);
+    if (bodies_) bodies_->write(directory);
+  }
+
+ private:
+  CsvTable<Event> table_;
+  bool instants_;
+  const std::function<bool()>& go_on_;
+  CsvBlock events_;
+  std::vector<std::vector<MotionRow>> motions_;
+  Curves curves_;
+  std::optional<BodyMotionFile> bodies_;
+};
+
+/// Compares row by row; a certificate has appended columns to those of the run.
+bool same_events(const std::string& events, const fs::path& file) {
+  std::istringstream expected(events);
+  std::ifstream found(file, std::ios::binary);
+  std::string a, b;
+  while (std::getline(expected, a))
+    if (!std::getline(found, b) || !(b == a || b.starts_with(a + ","))) return false;
+  return !std::getline(found, b);
+}
+
+}  // namespace
+
+bool lacks_picture_rows(const fs::path& directory) {
+  const std::optional<Manifest> manifest = read_manifest(directory);
+  for (const char* table : {"motion.csv", "curves.csv"})
+    if (was_written(directory, manifest, table)) return false;
+  std::ifstream stream(directory / "summary.json", std::ios::binary);
+  try {
+    const Json summary = parse_json(stream);
+    const std::string kind = summary.at("outcome").at("kind");
+    // A run that a full disk ended would not end there again.
+    const bool by_itself = summary.at("outcome").value("exit_code", 0) != static_cast<int>(ExitCode::file);
+    return (kind == "done" || kind == "stopped") && by_itself &&
+           summary.at("versions").at("signorini") == version;
+  } catch (const Json::exception&) {
+    return false;  // the drawing itself reports the error
+  }
+}
+
+bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go_on) {
+  const PreparedRun prepared = prepare_run((directory / "run.toml").string(), {}, go_on);
+  PictureRows rows(prepared, is_there(directory / "instants.csv"), go_on);
+  const Report report = simulate(prepared.model, prepared.scene.run, rows);
+  if (report.outcome.kind == Outcome::Kind::interrupted) return false;
+  if (!same_events(rows.events(), directory / "events.csv"))
+    throw FileError(
+        (directory / "events.csv").string(),
+        "the run was computed again for its pictures (it was made with --no-plots), and has other "
+        "events now: the program, or a file that run.toml reads, is another than it was");
+  std::optional<Manifest> manifest = read_manifest(directory);
+  if (manifest) {
+    for (const std::string_view table : picture_rows) manifest->drop(table);
+    write_file(directory / manifest_file, manifest->text());
+  }
+  std::error_code ignored;
+  for (const std::string_view table : picture_rows)
+    fs::remove(directory / table, ignored);  // opening a pipe would wait
+  rows.write(directory, prepared.model);
+  if (manifest) {
+    for (const std::string_view table : picture_rows) manifest->take(directory, table);
+    write_file(directory / manifest_file, manifest->text());
+  }
+  return true;
 }
 
 }  // namespace signorini

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/paraview_bodies.hpp"
-#include "result/csv_read.hpp"
+#include "report/paraview.hpp"
+#include "result/csv.hpp"
 #include "result/run_directory.hpp"
 #include "signorini/simulate.hpp"
 #include "unit/report/vtu_array.hpp"

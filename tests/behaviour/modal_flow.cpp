@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "run/choose_flow.hpp"
+#include "run/choose_engine.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;

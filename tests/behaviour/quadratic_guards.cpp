@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "signorini/own_law.hpp"
 #include "signorini/simulate.hpp"
+#include "signorini/user_contact_law.hpp"
 
 using namespace signorini;
 

@@ -9,7 +9,7 @@
 
 #include "behaviour/engines.hpp"
 #include "behaviour/scene_parts.hpp"
-#include "scene/outline.hpp"
+#include "scene/outlines.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/simulate.hpp"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "behaviour/witness_scenes.hpp"
 #include "own_folder.hpp"
 #include "result/run_directory.hpp"

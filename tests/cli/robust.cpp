@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "base/fingerprint.hpp"
+#include "base/text.hpp"
 #include "program.hpp"
 
 using nlohmann::json;

@@ -12,8 +12,8 @@
 #include "scene/matrix_market.hpp"
 #include "signorini/error.hpp"
 #include "study/check/check.hpp"
+#include "study/sweep/parameter_range.hpp"
 #include "study/sweep/sweep_directory.hpp"
-#include "study/sweep/vary.hpp"
 
 namespace signorini::fuzz {
 namespace {

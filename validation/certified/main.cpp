@@ -16,10 +16,9 @@
 #include <map>
 
 #include "certify/companion.hpp"
-#include "certify/judge.hpp"
-#include "certify/tracker.hpp"
+#include "certify/event_matcher.hpp"
 #include "differential/generator.hpp"
-#include "run/expected.hpp"
+#include "run/cost_estimate.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/error.hpp"
 

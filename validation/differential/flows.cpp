@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/choose_flow.hpp"
+#include "run/choose_engine.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini::differential {

@@ -9,7 +9,7 @@
 
 #include "differential/neighbour.hpp"
 #include "differential/random.hpp"
-#include "motion/clock.hpp"
+#include "motion/point.hpp"
 
 namespace signorini::differential {
 namespace {

@@ -1,4 +1,4 @@
-// witnessed.hpp: a scene through all engines, each before its witness (src/witness): correct runs give no alarm.
+// witnessed.hpp: a scene through all engines, each before its witness (src/law_check): correct runs give no alarm.
 //
 //   exact by series, exact in modes, ida 1e-9 and 1e-6, newmark dt and 8 dt, friction-iteration dt and 8 dt
 //

@@ -7,8 +7,8 @@
 
 #include <optional>
 
+#include "contact/contact_states.hpp"
 #include "contact/law.hpp"
-#include "contact/mode.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini::esdirk {

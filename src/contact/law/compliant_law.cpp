@@ -1,7 +1,7 @@
 // A spring and a dashpot along the normal:  N = kn g + cn g' while closed. It opens at N = 0, so it never pulls.
 #include <cmath>
 
-#include "contact/conditions.hpp"
+#include "contact/law.hpp"
 #include "contact/law/built_in.hpp"
 #include "contact/law/coulomb_law.hpp"
 

@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "contact/conditions.hpp"
 #include "contact/friction.hpp"
+#include "contact/law.hpp"
 #include "contact/motion.hpp"
-#include "contact/transition.hpp"
 #include "contact/work.hpp"
 
 namespace signorini {

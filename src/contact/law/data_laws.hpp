@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "signorini/own_law.hpp"
+#include "signorini/user_contact_law.hpp"
 
 namespace signorini {
 

@@ -1,7 +1,7 @@
 // A constraint along the normal:  g'' = 0 while closed. Closing with g' < 0 is an impact (decide/impact.hpp).
 #include <cmath>
 
-#include "contact/conditions.hpp"
+#include "contact/law.hpp"
 #include "contact/law/built_in.hpp"
 #include "contact/law/coulomb_law.hpp"
 

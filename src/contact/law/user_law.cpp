@@ -5,9 +5,7 @@
 #include <algorithm>
 
 #include "base/unit.hpp"
-#include "contact/conditions.hpp"
 #include "contact/law.hpp"
-#include "contact/transition.hpp"
 #include "contact/work.hpp"
 
 namespace signorini {

@@ -1,10 +1,10 @@
-// user_law.hpp: a user-defined law made of data (signorini/own_law.hpp), behind the interface of all laws.
+// user_law.hpp: a user-defined law made of data (signorini/user_contact_law.hpp), behind the interface of all laws.
 #pragma once
 
 #include <string>
 
 #include "signorini/contact_law.hpp"
-#include "signorini/own_law.hpp"
+#include "signorini/user_contact_law.hpp"
 
 namespace signorini {
 

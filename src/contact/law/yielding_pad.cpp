@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 
 namespace signorini {
 

@@ -9,10 +9,9 @@
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "model/said.hpp"
-#include "motion/clock.hpp"
-#include "motion/equilibrium.hpp"
-#include "motion/hold.hpp"
+#include "model/machine_units.hpp"
+#include "motion/point.hpp"
+#include "motion/state_systems.hpp"
 
 namespace signorini {
 namespace {

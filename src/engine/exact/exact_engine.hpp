@@ -1,7 +1,7 @@
 // exact_engine.hpp: engine `exact`: the motion in each contact state in closed form, and no missed event.
 //
 //   u(t + s x) = sum_k u_k x^k        motion/taylor.hpp; h = s x chosen so that the remainder is below rounding
-//   guard(x)   = sum_k g_k x^k        first root by interval bounds, engine/falls/first_fall.hpp
+//   guard(x)   = sum_k g_k x^k        first root by interval bounds, engine/events/first_root.hpp
 //
 // Between events the system of a contact state is linear with constant coefficients, so its Taylor series has the
 // radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth rate of the state. A
@@ -9,19 +9,19 @@
 // docs/theory.md gives the argument that no event is missed. A step is computed in vain beyond an event, so a step that
 // begins at an event is limited to twice the recent time between events. On large structures an event in compliant
 // contacts changes only the motion near them as long as the series reaches: the series is updated there, roots found
-// elsewhere stay valid (motion/near_series.hpp), and a series spans several events.
+// elsewhere stay valid (motion/local_series.hpp), and a series spans several events.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <random>
 
+#include "engine/events/active_guards.hpp"
+#include "engine/events/first_root.hpp"
+#include "engine/events/turning_points.hpp"
 #include "engine/exact/flow_growth.hpp"
-#include "engine/exact/pieced_series.hpp"
+#include "engine/exact/patched_series.hpp"
 #include "engine/exact/series_works.hpp"
-#include "engine/falls/arming.hpp"
-#include "engine/falls/first_fall.hpp"
-#include "engine/falls/turning_points.hpp"
 #include "engine/stepper.hpp"
 #include "motion/contact_series.hpp"
 

@@ -1,6 +1,6 @@
 // flow_growth.hpp: the growth rate of the motion in a contact state.
 //
-//   |x_(k+1)| <= W s/(k+1) |x_k|      of a Taylor series of scale s, k large, in the norm of flow_norm.hpp
+//   |x_(k+1)| <= W s/(k+1) |x_k|      of a Taylor series of scale s, k large, in the norm of flow_growth.hpp
 //
 // W of a state is found from twenty levels of a series. On large structures most states differ from a known one in few
 // soft contacts; in that norm these add at most
@@ -8,10 +8,33 @@
 // and this bound is used as long as the sum is small.
 #pragma once
 
-#include "engine/exact/flow_norm.hpp"
+#include "contact/contact_states.hpp"
 #include "motion/taylor.hpp"
+#include "signorini/model.hpp"
 
 namespace signorini {
+
+// A norm for Taylor coefficients that bounds the remainder of a series.
+//
+//   |x|^2 = x^T G x,   G = M + C / W + K_c / W^2,   W the highest circular frequency
+//   |n . x| <= sqrt(n^T G^-1 n) |x|
+//
+// K_c contains all contact springs, so that G is regular whenever the motion is determined.
+
+class FlowNorm {
+ public:
+  explicit FlowNorm(const Model& model);
+
+  [[nodiscard]] double of(const Eigen::Ref<const Vector>& x);
+  /// Greatest |n . x| and |t . x| of contact k among |x| = 1.
+  [[nodiscard]] double normal(std::size_t k) const { return normal_[k]; }
+  [[nodiscard]] double tangent(std::size_t k) const { return tangent_[k]; }
+
+ private:
+  SparseMatrix g_;
+  std::vector<double> normal_, tangent_;
+  Vector product_;
+};
 
 /// Growth rates of states are kept longer than their systems: a rate takes a series to compute and 8 bytes to keep.
 inline constexpr CacheBounds most_growths{16384, std::size_t{1} << 20};

@@ -15,7 +15,7 @@
 #include "engine/ida/fast_vector.hpp"
 #include "engine/ida/ida_problem.hpp"
 #include "engine/ida/step_newton.hpp"
-#include "model/said.hpp"
+#include "model/machine_units.hpp"
 
 namespace signorini {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <memory>
 
-#include "engine/falls/watch.hpp"
-#include "engine/ida/rehearsal.hpp"
+#include "engine/events/active_guards.hpp"
+#include "engine/ida/restart_order.hpp"
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
 

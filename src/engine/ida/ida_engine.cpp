@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "contact/friction.hpp"
-#include "decide/plain_form.hpp"
-#include "decide/release.hpp"
+#include "decide/guard_signs.hpp"
+#include "decide/massless_jump.hpp"
 #include "engine/ida/locate.hpp"
-#include "model/said.hpp"
-#include "motion/clock.hpp"
+#include "model/machine_units.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 namespace {
@@ -62,7 +62,7 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion_of(contact, k, *segment_.forcing, t, point);
     const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
-    const double ut = contact.body_tangent().dot(point.u) - still;      // history_turns.hpp
+    const double ut = contact.body_tangent().dot(point.u) - still;      // locate.hpp
     for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // order: TurningPoints::watched
     for (const GuardForm& guard : decision.forms[k])
       *out++ = guard.is_linear() ? QuickForm(guard.form).value(m) : guard.value(m);

@@ -1,17 +1,16 @@
 // ida_engine.hpp: engine `ida`: IDA's steps, and proof that no guard reaches zero unnoticed inside one.
 //
-//   advance: a step of IDA -> the guards' polynomials on it (step_history.hpp, watch.hpp) -> the first
+//   advance: a step of IDA -> the guards' polynomials on it (step_history.hpp, active_guards.hpp) -> the first
 //            zero crossing, refined with forces recomputed from u and v (locate.hpp)
 //
 // Works are integrals of the polynomials through the powers at the ends of steps.
 #pragma once
 
-#include "engine/falls/grazes.hpp"
-#include "engine/falls/near_hits.hpp"
-#include "engine/falls/step_history.hpp"
-#include "engine/falls/watch.hpp"
+#include "engine/events/active_guards.hpp"
+#include "engine/events/near_events.hpp"
+#include "engine/events/step_history.hpp"
 #include "engine/ida/bdf_integrator.hpp"
-#include "engine/ida/history_turns.hpp"
+#include "engine/ida/locate.hpp"
 #include "engine/ida/short_flight.hpp"
 #include "engine/stepper.hpp"
 #include "motion/consistent.hpp"

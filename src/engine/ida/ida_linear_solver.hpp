@@ -15,8 +15,8 @@
 #include <optional>
 
 #include "linear/condensed_matrix.hpp"
-#include "linear/pinned.hpp"
 #include "linear/system_matrix.hpp"
+#include "linear/undamped_motion.hpp"
 #include "linear/unknowns.hpp"
 
 namespace signorini {

@@ -5,11 +5,11 @@
 
 #include "base/rounding.hpp"
 #include "base/wide_lanes.hpp"
-#include "contact/bowl.hpp"
+#include "contact/curved_surface.hpp"
 #include "contact/friction.hpp"
-#include "decide/plain_form.hpp"
-#include "engine/ida/rehearsal.hpp"
-#include "motion/equilibrium.hpp"
+#include "decide/guard_signs.hpp"
+#include "engine/ida/restart_order.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 namespace {

@@ -6,11 +6,11 @@
 // and y' as without r1/cj, and a solve needs no extra product with K.
 #pragma once
 
-#include "engine/falls/watch.hpp"
+#include "engine/events/active_guards.hpp"
 #include "engine/ida/ida_linear_solver.hpp"
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
-#include "linear/momentum.hpp"
+#include "linear/system_matrices.hpp"
 
 namespace signorini {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "engine/falls/root.hpp"
+#include "engine/events/first_root.hpp"
 
 namespace signorini {
 
@@ -35,6 +35,82 @@ double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& s
     }
   }
   return time;
+}
+
+namespace {
+
+/// a_k = C(n, k) sum_i (-1)^(k-i) C(k, i) b_i: differences of the coefficients.
+std::array<double, max_degree + 1> powers_of(Bernstein p) {
+  std::array<double, max_degree + 1> a{};
+  double choose = 1.0;
+  for (int k = 0; k <= p.degree; ++k) {
+    a[z(k)] = choose * p.b[0];
+    choose *= static_cast<double>(p.degree - k) / static_cast<double>(k + 1);
+    for (int i = 0; i < p.degree - k; ++i) p.b[z(i)] = p.b[z(i + 1)] - p.b[z(i)];
+  }
+  return a;
+}
+
+bool goes_one_way(const Bernstein& p) {
+  bool rises = false, falls = false;
+  for (int i = 0; i < p.degree; ++i) {
+    rises = rises || p.b[z(i + 1)] > p.b[z(i)];
+    falls = falls || p.b[z(i + 1)] < p.b[z(i)];
+  }
+  return !(rises && falls);
+}
+
+constexpr std::size_t slide_place = static_cast<std::size_t>(
+    std::find(TurningPoints::watched.begin(), TurningPoints::watched.end(), ContactSeries::slide) -
+    TurningPoints::watched.begin());
+
+}  // namespace
+
+void HistoryTurns::start(const Decision& decision, const Forcing& forcing) {
+  turns_.start(decision);
+  forcing_ = &forcing;
+  carried_.clear();
+  for (std::size_t c = 0; c < contacts_; ++c)
+    if (forcing.moves(c)) carried_.push_back(c);
+}
+
+void HistoryTurns::find(const StepHistory& history, double x_end) {
+  turns_.open();
+  // Nearly always all values stay within their earlier ranges.
+  const double *last = history.lasts() + first_, *bend = history.bends() + first_;
+  const TurningPoints::Range* seen = turns_.ranges();
+  const std::size_t shown = count();
+  for (std::size_t i = 0; i < shown; ++i)
+    if (!(last[i] + bend[i] <= seen[i].greatest) || !(last[i] - bend[i] >= seen[i].least))
+      look_at(i, history, x_end);
+  for (const std::size_t c : carried_) look_at_slide(c, history, x_end);
+  turns_.close();
+}
+
+void HistoryTurns::look_at_slide(std::size_t c, const StepHistory& history, double x_end) {
+  const Bernstein p = history.polynomial(first_ + TurningPoints::watched.size() * c + slide_place);
+  const std::array<double, max_degree + 1> a = powers_of(p);
+  const double h = history.end() - history.begin();
+  const std::size_t count = forcing_->surface_terms(c);
+  of_surface_.resize(count);
+  forcing_->expand_surface(c, history.begin(), h, count, of_surface_.data());
+  series_.assign(std::max(count, z(p.degree) + 1), 0.0);
+  std::copy_n(a.begin(), z(p.degree) + 1, series_.begin());
+  for (std::size_t k = 0; k < count; ++k) series_[k] -= of_surface_[k];
+  turns_.find(c, ContactSeries::slide, series_.data(), series_.size() - 1, x_end, history.begin(), h);
+}
+
+void HistoryTurns::look_at(std::size_t shown, const StepHistory& history, double x_end) {
+  const std::size_t i = first_ + shown, c = shown / TurningPoints::watched.size();
+  const ContactSeries::Field field = TurningPoints::watched[shown % TurningPoints::watched.size()];
+  if (field == ContactSeries::slide && forcing_->moves(c)) return;
+  const double last = history.last(i);
+  if (x_end == 1.0 && history.clearly_goes_one_way(i)) return turns_.see(c, field, last);
+  const Bernstein p = history.polynomial(i);
+  if (goes_one_way(p)) return turns_.see(c, field, x_end == 1.0 ? last : p.value(x_end));
+  const std::array<double, max_degree + 1> a = powers_of(p);
+  turns_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
+              history.end() - history.begin());
 }
 
 }  // namespace signorini

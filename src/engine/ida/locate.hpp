@@ -7,8 +7,13 @@
 // recomputed from the interpolated u and v.
 #pragma once
 
+#include <vector>
+
+#include "engine/events/step_history.hpp"
+#include "engine/events/turning_points.hpp"
 #include "engine/ida/bdf_integrator.hpp"
 #include "motion/consistent.hpp"
+#include "motion/forcing.hpp"
 
 namespace signorini {
 
@@ -17,5 +22,38 @@ namespace signorini {
 [[nodiscard]] double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& segment,
                             const Model& model, std::size_t slot, double begin, double end, double time,
                             double resolution);
+
+// Extreme values of contacts inside a BDF step.
+//
+//   N, T, g and ut are linear in y, so their polynomials through the last steps are those of the step
+//   ut = t.u - s(t) on a moving surface: p(x) - s(t_0 + h x), s in its own series, since no step follows it
+//
+// Searched only if a polynomial may leave its earlier range and is not monotone (by its Bernstein coefficients).
+
+class HistoryTurns {
+ public:
+  /// The scalars of the history from `first` on are those of the contacts, in the order of TurningPoints::watched.
+  HistoryTurns(std::size_t contacts, std::size_t first)
+      : contacts_(contacts), first_(first), turns_(contacts) {}
+
+  [[nodiscard]] std::size_t count() const { return TurningPoints::watched.size() * contacts_; }
+  /// The forcing must outlive the segment.
+  void start(const Decision& decision, const Forcing& forcing);
+  /// Examines the part [0, x_end] of the last step. On a moving surface the history contains t.u in place of ut.
+  void find(const StepHistory& history, double x_end);
+  [[nodiscard]] const std::vector<TurningPoints::Turn>& turns() const { return turns_.turns(); }
+  /// Times of the turning points of the last step, ascending.
+  [[nodiscard]] const std::vector<double>& times() const { return turns_.times(); }
+
+ private:
+  void look_at(std::size_t shown, const StepHistory& history, double x_end);
+  void look_at_slide(std::size_t contact, const StepHistory& history, double x_end);
+
+  std::size_t contacts_, first_;
+  TurningPoints turns_;
+  const Forcing* forcing_ = nullptr;
+  std::vector<std::size_t> carried_;  // contacts whose surface moves
+  std::vector<double> series_, of_surface_;
+};
 
 }  // namespace signorini

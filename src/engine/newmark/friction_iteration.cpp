@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/listed.hpp"
 #include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "contact/friction.hpp"
-#include "contact/transition.hpp"
-#include "engine/newmark/short_pulse.hpp"
-#include "model/said.hpp"
-#include "motion/clock.hpp"
+#include "contact/law.hpp"
+#include "engine/newmark/newmark_step.hpp"
+#include "model/machine_units.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 namespace {

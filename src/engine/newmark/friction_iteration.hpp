@@ -15,10 +15,9 @@
 #include <numbers>
 
 #include "engine/newmark/newmark_step.hpp"
-#include "engine/newmark/newmark_works.hpp"
 #include "engine/stepper.hpp"
 #include "motion/consistent.hpp"
-#include "motion/equilibrium.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 

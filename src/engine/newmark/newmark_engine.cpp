@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/rounding.hpp"
-#include "engine/falls/root.hpp"
-#include "engine/newmark/short_pulse.hpp"
-#include "motion/clock.hpp"
+#include "engine/events/first_root.hpp"
+#include "engine/newmark/newmark_step.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 namespace {

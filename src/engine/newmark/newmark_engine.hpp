@@ -14,14 +14,13 @@
 
 #include <numbers>
 
-#include "engine/falls/guard_path.hpp"
+#include "engine/events/step_history.hpp"
 #include "engine/newmark/newmark_step.hpp"
-#include "engine/newmark/newmark_works.hpp"
 #include "engine/newmark/step_guards.hpp"
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
 #include "motion/consistent.hpp"
-#include "motion/equilibrium.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 

@@ -11,20 +11,21 @@
 // Large structures (`economical_from`) with compliant contacts and a narrow band are factorised anew for each length
 // that will not recur; for lengths that recur, factors follow changes of state (linear/condensed_matrix.hpp).
 // Factorisations of other structures:
-//   after a change of state at the full length   an update of low rank of the last one (linear/updated_factors.hpp)
+//   after a change of state at the full length   an update of low rank of the last one (linear/mass_factors.hpp)
 //                                                until its solves have cost as much as a factorisation
 //   at a length near the last odd one            x += A_odd^-1 (b - A x), until only rounding remains
 #pragma once
 
 #include <optional>
 
-#include "base/bounded_cache.hpp"
-#include "engine/newmark/near_step.hpp"
+#include "base/containers.hpp"
+#include "engine/newmark/local_step.hpp"
 #include "linear/condensed_matrix.hpp"
+#include "linear/mass_factors.hpp"
 #include "linear/system_matrix.hpp"
 #include "linear/undamped_motion.hpp"
-#include "linear/updated_factors.hpp"
 #include "motion/point.hpp"
+#include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -106,5 +107,47 @@ class NewmarkStep {
   Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
   long solves_ = 0;
 };
+
+// Work of the loads and dissipation in a step of average acceleration.
+//
+//   loads     1/2 (P0 + P1) . du
+//   damping   h v^T C v + sum_closed cn vn dg          v, vn: means of both ends
+//   friction  1/2 (T0 + T1) dp
+//   surface  -1/2 (T0 + T1) ds
+//
+// With these works the energy balance of a step holds to rounding: it is that of the trapezoidal rule, which conserves
+// the energy of a linear system.
+
+class NewmarkWorks {
+ public:
+  NewmarkWorks(const Model& model, const Structure& structure)
+      : model_(model), structure_(structure), du_(model.size()), v_(model.size()) {}
+
+  /// works += factor * the works of the step from `a` at t0 to `b` at t1, in one mode.
+  void add(const Forcing& forcing, const Mode& mode, const Point& a, double t0, const Point& b, double t1,
+           double factor, Works& works);
+
+ private:
+  const Model& model_;
+  const Structure& structure_;
+  Vector du_, v_;
+};
+
+// Steps of a segment that is hardly longer than dt, so that its loads transfer their impulses.
+//
+//   J = int f dt ~ T(1024),   T(n) = h sum'' f(t_i): impulse in n steps of average acceleration
+//   dt    where |T - J| <= int |f| / 16 of its own steps
+//   h     else: the segment in n = 2^k parts, the fewest with |T(n) - J| <= 1e-4 int |f|
+//
+// A half sine is zero where it begins and ends: one step from end to end would miss it entirely, two steps lose a
+// fifth. A dt that is short enough for a load is kept, also for tables: a step ends at each row, beyond which no curve
+// goes.
+
+/// Longer segments use dt, which integrates half waves of such a length to within a 200th.
+inline constexpr double short_of_steps = 16.0;
+
+/// Length of the steps from `begin` to `end`, at most dt; no history breaks between them. Loads and compressions are
+/// considered.
+[[nodiscard]] double step_within(const Model& model, double begin, double end, double dt);
 
 }  // namespace signorini

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/rounding.hpp"
-#include "decide/plain_form.hpp"
-#include "motion/clock.hpp"
+#include "decide/guard_signs.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 

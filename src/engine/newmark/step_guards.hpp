@@ -8,8 +8,8 @@
 // such guards are stored contiguously, and gathered anew if a contact's state has changed.
 #pragma once
 
-#include "engine/falls/arming.hpp"
-#include "engine/falls/guard_path.hpp"
+#include "engine/events/active_guards.hpp"
+#include "engine/events/step_history.hpp"
 #include "engine/stepper.hpp"
 #include "motion/point.hpp"
 

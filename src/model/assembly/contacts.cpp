@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/history/history_internal.hpp"
+#include "base/history/pieces.hpp"
 #include "contact/law.hpp"
 #include "contact/law/user_law.hpp"
 #include "scene/history_from_spec.hpp"

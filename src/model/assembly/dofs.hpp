@@ -44,9 +44,9 @@ struct DofMap {
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> where;  ///< per degree of freedom: mesh node, component
   std::vector<int> body;                   ///< per mesh node: index into Scene::rigid, or `absent`
-  std::vector<AxialForces> frozen;         ///< per element: its frozen axial forces (geometric.hpp); empty:
+  std::vector<AxialForces> frozen;         ///< per element: its frozen axial forces (prestress.hpp); empty:
                                            ///< none
-  std::vector<double> body_stiffness;  ///< per rigid body: stiffness of its frozen forces (geometric.hpp);
+  std::vector<double> body_stiffness;  ///< per rigid body: stiffness of its frozen forces (prestress.hpp);
                                        ///< empty: none
   std::vector<TiedDof> tied;           ///< for the numbers size(), size() + 1, ...
   std::vector<Column> columns;
@@ -99,5 +99,31 @@ struct DofMap {
 /// absent one is an error with its name, unless `skip_absent`. `unit`: normalise the plane vector.
 [[nodiscard]] Combination combination(const DofMap& map, const Direction& direction, const std::string& key,
                                       bool unit, bool skip_absent = false);
+
+// Place in the scene file from which a degree of freedom comes.
+//
+//   a named node       its line in [nodes]
+//   an inner node      the member that it stands on, as does the rotation of a hinged end
+//   matrices           the stiffness
+
+[[nodiscard]] SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof);
+/// Place of the structure as a whole: its first member or node, or its mass matrix.
+[[nodiscard]] SourcePlace place_of_structure(const Scene& scene);
+
+// Describes a motion in words.
+//
+//   u = a                    "horizontal motion", "vertical motion", "motion along (0.8, 0.6)"
+//   u = a + theta x (r - c)  "rotation about (12, 6)"
+//
+// The text adds "of node 'A'" if only one node moves; other motions are named by their largest degree of freedom.
+
+/// motion: length n. Entries below 1e-3 of the largest count as at rest.
+[[nodiscard]] std::string describe_motion(const Vector& motion, const DofMap& map);
+
+/// True if all nodes move as one rigid body.
+[[nodiscard]] bool is_rigid(const Vector& motion, const DofMap& map);
+
+/// Largest displacement of a node (matrix scenes: the largest component).
+[[nodiscard]] double greatest_translation(const Vector& motion, const DofMap& map);
 
 }  // namespace signorini

@@ -8,7 +8,7 @@
 
 #include "base/rounding.hpp"
 #include "mesh/plane_shapes.hpp"
-#include "model/assembly/pieces.hpp"
+#include "model/assembly/member_pieces.hpp"
 #include "scene/components.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"

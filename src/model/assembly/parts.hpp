@@ -62,4 +62,35 @@ class Parts {
 /// Groups of contacts whose forces are coupled through M, C, K and other contacts, in the same order.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model);
 
+// Some rows and columns of a sparse matrix.
+//
+//   S = [e_i1 e_i2 ...],   S^T A S = A(i, i),   S x scatters x to its original positions
+
+/// Columns are unit vectors; n x m, m being the number of indices.
+[[nodiscard]] SparseMatrix selection(const std::vector<int>& indices, int n);
+
+/// Selection of the degrees of freedom with mass > 0, or of the others.
+[[nodiscard]] SparseMatrix select_by_mass(const SparseMatrix& mass, bool with_mass);
+
+/// Number of degrees of freedom with mass.
+[[nodiscard]] int degrees_with_mass(const SparseMatrix& mass);
+
+// Splits a model into uncoupled models.
+//
+//   M, C, K, n_k, t_k:   block by block (parts.hpp);   P_i: restriction of P(t) to block i
+//
+// The contacts of one part are coupled with each other; the last part is everything without contacts. A part has the
+// loads that act on it; loads that act nowhere belong to the first part. Scales, frequencies and factors are those of
+// the whole model, so that decisions are the same as in the whole model.
+
+struct PartModel {
+  Model model;                        ///< data needed by a run: without outputs, foreign names and drawing
+  std::vector<int> dofs;              ///< its degrees of freedom in the whole model, ascending
+  std::vector<std::size_t> contacts;  ///< its contacts in the whole model, ascending
+};
+
+/// Parts in the order of their first contacts. Empty if all contacts are coupled; if the model is reduced, has rigid
+/// bodies or has outputs, which may be sums over parts; or if the histories are too long for one copy per part.
+[[nodiscard]] std::vector<PartModel> part_models(const Model& model);
+
 }  // namespace signorini

@@ -1,7 +1,9 @@
 #include "model/assembly/springs.hpp"
 
+#include <fmt/core.h>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace signorini {
@@ -90,6 +92,57 @@ Vector CholeskyFactor::solve_factor(const Vector& x) const {
 Vector CholeskyFactor::solve_transposed_factor(const Vector& x) const {
   const Vector y = impl_->llt.matrixU().solve(x);
   return impl_->llt.permutationPinv() * y;
+}
+
+namespace {
+
+struct Stiffness {
+  double value = 0.0;
+  SourcePlace place;
+  std::string key, what;
+};
+
+void add_members(const Scene& scene, const DofMap& map, std::vector<Stiffness>& all) {
+  for (const MeshPiece& piece : map.mesh.pieces)
+    for (std::size_t i = 0; i < piece.count; ++i) {
+      const LineData& line = map.mesh.line(piece.first + i).data();
+      const double length = line.axis.length;
+      const Member& member = scene.members[static_cast<std::size_t>(line.member)];
+      const std::string key = fmt::format("members.{}.section", line.member + 1);
+      all.push_back({line.EA / length, member.place, key,
+                     fmt::format("EA/L of an element of section '{}'", member.section)});
+      if (member.type == MemberType::beam)
+        all.push_back({line.EI / length / length / length, member.place, key,
+                       fmt::format("EI/L^3 of an element of section '{}'", member.section)});
+    }
+}
+
+}  // namespace
+
+void check_stiffness_range(const Scene& scene, const DofMap& map) {
+  static const double widest = std::sqrt(std::numeric_limits<double>::max());
+  std::vector<Stiffness> all;
+  add_members(scene, map, all);
+  for (std::size_t i = 0; i < scene.springs.size(); ++i)
+    all.push_back({scene.springs[i].stiffness, scene.springs[i].place,
+                   fmt::format("springs.{}.stiffness", i + 1), "the stiffness of this spring"});
+  for (const ContactSpec& contact : scene.contacts)
+    all.push_back({contact.normal_stiffness, contact.place, contact.key("normal_stiffness"),
+                   fmt::format("normal_stiffness of contact '{}'", contact.name)});
+  std::erase_if(all, [](const Stiffness& k) { return !(k.value > 0.0); });
+  if (all.size() < 2) return;
+  const auto less = [](const Stiffness& a, const Stiffness& b) { return a.value < b.value; };
+  std::sort(all.begin(), all.end(), less);
+  const Stiffness &low = all.front(), &high = all.back();
+  if (low.value >= high.value / widest) return;
+  const bool too_stiff = std::abs(std::log(high.value)) > std::abs(std::log(low.value));
+  const Stiffness &odd = too_stiff ? high : low, &other = too_stiff ? low : high;
+  throw SceneError(
+      odd.place, odd.key,
+      fmt::format("found {:.4g} as {}, beside {:.4g} as {}: with a ratio beyond {:.3g} squares of "
+                  "frequencies leave the range of numbers; expected {}",
+                  odd.value, odd.what, other.value, other.what, widest,
+                  too_stiff ? "less, or a rigid body" : "more"));
 }
 
 }  // namespace signorini

@@ -4,7 +4,7 @@
 //
 // k, m, k_g: stiffness(), mass(), geometric(); r: translation(). Unknowns are ux, uy, rz of its nodes, or the element's
 // own. An element lies in the plane and has an extent, its length or its area; density() is mass per extent, so
-// density() g is the distributed weight. Bars and beams are lines (line_element.hpp); element_kinds.cpp converts
+// density() g is the distributed weight. Bars and beams are lines (line_elements.hpp); element_kinds.cpp converts
 // members to elements.
 #pragma once
 
@@ -30,7 +30,7 @@ struct ElementUnknown {
               ///< members
 };
 
-/// Frozen axial forces at both ends of an element, tension positive (assembly/geometric.hpp).
+/// Frozen axial forces at both ends of an element, tension positive (assembly/prestress.hpp).
 struct AxialForces {
   double a = 0.0, b = 0.0;
   [[nodiscard]] bool none() const { return a == 0.0 && b == 0.0; }

@@ -7,7 +7,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "model/element/line_element.hpp"
+#include "model/element/line_elements.hpp"
 
 namespace signorini {
 

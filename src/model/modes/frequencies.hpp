@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/modes/modes.hpp"
+#include "signorini/model.hpp"
 
 namespace signorini {
 
@@ -33,5 +34,16 @@ struct Frequencies {
 
 /// The springs along the normals of all contacts, tangents free.
 [[nodiscard]] Holding close_contacts(const std::vector<Contact>& contacts);
+
+// Number of modes below a frequency, without computing them.
+//
+//   number of omega_i^2 < s  =  number of negative pivots of  K - s M = L D L^T
+//
+// Sylvester's law of inertia. Massless degrees of freedom, on which K is positive definite, contribute no negative
+// pivots. Source: Bathe, Finite Element Procedures, section 11.4 (Sturm sequence check).
+
+/// Counts multiplicities and free motions. `square` = s > 0; if K - s M is singular to rounding, modes up to 1e-5 of s
+/// above it are counted. -1: no factorisation near s is accurate.
+[[nodiscard]] int modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square);
 
 }  // namespace signorini

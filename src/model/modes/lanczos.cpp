@@ -3,9 +3,13 @@
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/SymEigsSolver.h>
 #include <Spectra/SymGEigsShiftSolver.h>
-
 #include <algorithm>
+#include <cmath>
 #include <exception>
+#include <random>
+
+#include "model/assembly/parts.hpp"
+#include "model/assembly/springs.hpp"
 
 namespace signorini {
 namespace {
@@ -83,6 +87,166 @@ EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, dou
     // With few distinct eigenvalues the iteration ends early: the caller has alternatives.
   }
   return {Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
+}
+
+namespace {
+
+constexpr double nothing_new = 1e-20;  // relative, of a square: ten of sixteen digits are lost
+constexpr double settled = 1e-8;       // residual of a Ritz vector; the error of its omega^2 is its square
+constexpr int widest_block = 100;
+constexpr int most_rounds = 50;
+
+/// The modes of `pairs` up to the limit and the lowest of the others, sorted.
+EigenPairs sorted(const EigenPairs& pairs, double limit) {
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) order.push_back(j);
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return pairs.values[a] < pairs.values[b]; });
+  std::size_t kept = 0;
+  while (kept < order.size() && pairs.values[order[kept]] < limit) ++kept;
+  order.resize(std::min(kept + 1, order.size()));
+  return {pairs.values(order), pairs.vectors(Eigen::all, order)};
+}
+
+Eigen::Index number_below(const EigenPairs& pairs, double limit) {
+  return (pairs.values.array() < limit).count();
+}
+
+EigenPairs join(const EigenPairs& a, const EigenPairs& b) {
+  EigenPairs both{Eigen::VectorXd(a.values.size() + b.values.size()),
+                  Eigen::MatrixXd(a.vectors.rows(), a.values.size() + b.values.size())};
+  both.values << a.values, b.values;
+  both.vectors << a.vectors, b.vectors;
+  return both;
+}
+
+/// Modes that a single start vector finds. Free motions are removed from each solution; rounding would otherwise make
+/// them dominate.
+EigenPairs lanczos(int count, const SymmetricSolver& solver, const SparseMatrix& mass,
+                   const Eigen::MatrixXd& free, double shift, int heavies) {
+  const Eigen::MatrixXd inertia = mass * free;
+  const Operator inverse = [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXd answer = solver.solve(x);
+    if (free.cols() > 0) answer -= free * (inertia.transpose() * answer).eval();
+    return answer;
+  };
+  return lowest_by_inverse(count, std::min(2 * count + 20, heavies), mass, shift, inverse);
+}
+
+/// Grows span {X, A X, A^2 X, ...} in the M-complement of `known`, and reads modes off it.
+class BlockKrylov {
+ public:
+  BlockKrylov(const SymmetricSolver& solver, const SparseMatrix& mass, const Eigen::MatrixXd& known,
+              double shift, int width, unsigned seed)
+      : solver_(solver),
+        mass_(mass),
+        known_(known),
+        shift_(shift),
+        basis_(mass.rows(), 0),
+        images_(mass.rows(), 0) {
+    std::mt19937 random(seed);  // fixed seeds: reproducible results
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    Eigen::MatrixXd x(mass.rows(), width);
+    for (Eigen::Index j = 0; j < x.cols(); ++j)
+      for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, j) = uniform(random);
+    next_ = image(x);
+  }
+  /// Returns false if the space is invariant or has its maximal size.
+  bool grow(Eigen::Index greatest) {
+    Eigen::MatrixXd x = next_;
+    const Vector before = (x.transpose() * (mass_ * x)).diagonal();
+    take_out(known_, mass_, x);
+    take_out(basis_, mass_, x);
+    x = orthonormalised(x, before);
+    take_out(basis_, mass_, x);
+    if (x.cols() == 0 || basis_.cols() + x.cols() > greatest) return false;
+    next_ = image(x);
+    const Eigen::Index size = basis_.cols();
+    basis_.conservativeResize(Eigen::NoChange, size + x.cols());
+    images_.conservativeResize(Eigen::NoChange, size + x.cols());
+    basis_.rightCols(x.cols()) = x;
+    images_.rightCols(x.cols()) = next_;
+    return true;
+  }
+  /// Ritz pairs with a converged residual, from the lowest up to the first above the limit, or up to the first that has
+  /// not converged.
+  [[nodiscard]] EigenPairs modes(double limit) const {
+    const Eigen::MatrixXd h = basis_.transpose() * (mass_ * images_);
+    const EigenPairs ritz = symmetric_eigen(0.5 * (h + h.transpose()));
+    EigenPairs found{Vector(0), Eigen::MatrixXd(basis_.rows(), 0)};
+    for (Eigen::Index j = ritz.values.size() - 1; j >= 0 && ritz.values[j] > 0.0; --j) {
+      const Vector y = ritz.vectors.col(j), x = basis_ * y, miss = images_ * y - ritz.values[j] * x;
+      if (!(std::sqrt(std::max(0.0, miss.dot(mass_ * miss))) <= settled * ritz.values[j])) break;
+      const double square = 1.0 / ritz.values[j] - shift_;
+      found = join(found, {Vector::Constant(1, square), x});
+      if (square >= limit) break;
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd image(const Eigen::MatrixXd& x) const {
+    Eigen::MatrixXd y = mass_ * x;
+    for (Eigen::Index j = 0; j < y.cols(); ++j) y.col(j) = solver_.solve(y.col(j));
+    take_out(known_, mass_, y);
+    return y;
+  }
+  /// Drops columns that lost nearly all of their norm, `before` = x^T M x: they add no new direction.
+  [[nodiscard]] Eigen::MatrixXd orthonormalised(const Eigen::MatrixXd& x, const Vector& before) const {
+    Eigen::MatrixXd q(x.rows(), 0);
+    for (Eigen::Index j = 0; j < x.cols(); ++j) {
+      Eigen::MatrixXd v = x.col(j);
+      take_out(q, mass_, v);
+      const double square = v.col(0).dot(mass_ * v.col(0));
+      if (!(square > nothing_new * before[j])) continue;
+      q.conservativeResize(Eigen::NoChange, q.cols() + 1);
+      q.rightCols(1) = v / std::sqrt(square);
+    }
+    return q;
+  }
+
+  const SymmetricSolver& solver_;
+  const SparseMatrix& mass_;
+  const Eigen::MatrixXd& known_;
+  double shift_;
+  Eigen::MatrixXd basis_, images_, next_;
+};
+
+}  // namespace
+
+void take_out(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x) {
+  for (int round = 0; round < 2 && basis.cols() > 0; ++round)
+    x -= (basis * (basis.transpose() * (mass * x)).eval()).eval();
+}
+
+EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass, const SparseMatrix& stiffness,
+                        const Eigen::MatrixXd& free, double shift) {
+  const SymmetricSolver solver(SparseMatrix(stiffness + shift * mass));
+  EigenPairs found{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
+  if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) return found;
+  const int heavies = degrees_with_mass(mass) - static_cast<int>(free.cols());
+  found = sorted(lanczos(below + 1, solver, mass, free, shift, heavies), limit);
+  const auto complete = [&] {
+    return found.values.size() == below + 1 && number_below(found, limit) == below;
+  };
+  for (unsigned round = 1; round <= most_rounds && !complete(); ++round) {
+    const Eigen::Index old = number_below(found, limit);
+    if (old > below) return found;
+    Eigen::MatrixXd known(mass.rows(), free.cols() + old);
+    known << free, found.vectors.leftCols(old);
+    const int missing = below - static_cast<int>(old);
+    const int rest = heavies - static_cast<int>(old), width = std::min({missing + 8, widest_block, rest});
+    BlockKrylov space(solver, mass, known, shift, width, round);
+    const Eigen::Index greatest = std::min(rest, 40 * width);
+    EigenPairs fresh{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
+    for (bool grows = true; grows && number_below(fresh, limit) == fresh.values.size();) {
+      grows = space.grow(greatest);
+      fresh = space.modes(limit);
+    }
+    if (fresh.values.size() == 0) return found;
+    found = sorted(join({found.values.head(old), found.vectors.leftCols(old)}, fresh), limit);
+  }
+  return found;
 }
 
 }  // namespace signorini

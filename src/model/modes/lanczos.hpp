@@ -25,4 +25,23 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 [[nodiscard]] EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
                                            const Operator& inverse);
 
+// A given number of the lowest modes of a large structure, repeated ones included.
+//
+//   K phi = omega^2 M phi,   Phi_free^T M phi = 0
+//   A = (K + s M)^-1 M,   A phi = phi / (omega^2 + s)
+//
+// One Lanczos run (Spectra) of the required size. A single start vector finds one motion of each repeated frequency;
+// the missing ones are found by block Krylov iteration M-orthogonal to the known ones (Golub and Van Loan, Matrix
+// Computations, section 10.3.6), with blocks as wide as the number of missing modes.
+
+/// Subtracts from x its part along the M-orthonormal columns of the basis, twice because of rounding.
+void take_out(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x);
+
+/// The `below` lowest modes that are not free, then the first one above them: omega^2 ascending, and M-orthonormal
+/// shapes, n x (below + 1). `limit` (omega^2) separates the two. Fewer columns if some were not found. `free`: all
+/// M-orthonormal free motions, n x f; `shift` = s, K + s M positive definite.
+[[nodiscard]] EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass,
+                                      const SparseMatrix& stiffness, const Eigen::MatrixXd& free,
+                                      double shift);
+
 }  // namespace signorini

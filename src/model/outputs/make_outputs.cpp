@@ -1,20 +1,19 @@
 #include "model/outputs/make_outputs.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "base/along.hpp"
-#include "contact/bowl.hpp"
-#include "model/outputs/body_reaction.hpp"
-#include "model/outputs/member_cuts.hpp"
+#include "base/curves.hpp"
+#include "contact/curved_surface.hpp"
+#include "model/outputs/reactions.hpp"
 #include "model/outputs/structure_rows.hpp"
 #include "model/reduce/reduction.hpp"
-#include "scene/body_of_node.hpp"
+#include "scene/components.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
-#include "scene/unit_of_output.hpp"
+#include "scene/units.hpp"
+#include "signorini/output.hpp"
 
 namespace signorini {
 namespace {
@@ -406,6 +405,30 @@ void make_outputs(const Scene& scene, const DofMap& map, Model& model) {
   if (!reactions || model.reduction) return;
   for (const std::size_t c : {std::size_t(0), std::size_t(1)})
     model.reaction_sums.push_back(maker.reaction_sum(c));
+}
+
+namespace {
+
+void add(std::string& text, const std::string& name, int power) {
+  if (power <= 0) return;
+  if (!text.empty()) text += ' ';
+  text += name;
+  if (power > 1) text += '^' + std::to_string(power);
+}
+
+}  // namespace
+
+std::string unit_text(const Unit& unit, const Units& names) {
+  std::string above, below;
+  if (unit.force == 0 && unit.length == 0) above = "rad";
+  add(above, names.force, unit.force);
+  add(above, names.length, unit.length);
+  add(above, names.time, unit.time);
+  add(below, names.force, -unit.force);
+  add(below, names.length, -unit.length);
+  add(below, names.time, -unit.time);
+  if (above.empty()) above = "1";
+  return below.empty() ? above : above + '/' + below;
 }
 
 }  // namespace signorini

@@ -1,7 +1,7 @@
 // make_outputs.hpp: the outputs of a scene as functionals of the computed model.
 //
 //   displacement   d.u            velocity  d.v          acceleration  d.a + d.r a_b(t)
-//   member_force   a cut of a finite element (element/element.hpp); stress: of its N and M (member_cuts.hpp)
+//   member_force   a cut of a finite element (element/element.hpp); stress: of its N and M (structure_rows.hpp)
 //   stress         of a body: a component in axes along `direction` and across (element/nodal_stress.hpp)
 //   envelope       cuts at the points of each element: the largest along the way
 //   contact        N, T, gap = g0 + n.u, slip = t.u - s(t) - T / kt, loss

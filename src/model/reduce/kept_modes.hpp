@@ -9,11 +9,13 @@
 // chapter 17.
 //
 // Dense up to 400 degrees of freedom with mass, and up to 5000 if a third of the modes or more is kept. Otherwise the
-// modes below the cutoff are counted (model/modes/mode_count.hpp), and this number of modes is computed
-// (model/modes/lowest_modes.hpp).
+// modes below the cutoff are counted (model/modes/frequencies.hpp), and this number of modes is computed
+// (model/modes/lanczos.hpp).
 #pragma once
 
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "model/assembly/springs.hpp"
 #include "signorini/model.hpp"
@@ -62,5 +64,47 @@ class ResidualFlexibility {
   bool complete_;
   SymmetricSolver solver_;
 };
+
+// Shapes for the static compliance of the modes left out.
+//
+//   massive:   Ritz vectors of (K, M) in the span of G_res f_h,   psi^T M psi = 1,  psi^T K psi = omega_h^2
+//   massless:  K-orthonormal, in the span of G_res f, K-orthogonal to the massive ones
+//
+// A direction gets no shape of its own if its residual compliance, beyond that of earlier shapes, is below 1e-12 of its
+// compliance in all modes.
+
+/// A direction along which a force acts.
+struct ActingForce {
+  ComplianceShare share;    ///< with its name; its numbers are computed here
+  Vector force;             ///< n
+  bool needs_mass = false;  ///< the direction needs inertia
+};
+
+struct StaticShapes {
+  Eigen::MatrixXd massive, massless;    ///< n x h, n x r
+  Eigen::VectorXd massive_squares;      ///< omega_h^2, ascending
+  std::vector<ComplianceShare> shares;  ///< one per force, in their order
+  std::vector<Vector> answers;          ///< G_res f of every force
+};
+
+[[nodiscard]] StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffness,
+                                         const KeptModes& modes, const std::vector<ActingForce>& forces);
+
+// Is a damping matrix from a file alpha M + beta K?
+//
+//   | C - alpha M - beta K |_ij <= 1e-9 ( |C| + |alpha M| + |beta K| )_ij   for all ij,   alpha, beta >= 0
+//
+// 1e-9: programs write matrices with at least ten digits. A reduced model then damps its modes by alpha and beta. With
+// C itself its static shapes would have dampers with time constants far below those of the modes.
+
+struct RayleighFactors {
+  double alpha = 0.0;  ///< 1/time
+  double beta = 0.0;   ///< time
+};
+
+/// All matrices symmetric, of one size. nullopt: C is not of that form, or zero.
+[[nodiscard]] std::optional<RayleighFactors> rayleigh_factors(const SparseMatrix& damping,
+                                                              const SparseMatrix& mass,
+                                                              const SparseMatrix& stiffness);
 
 }  // namespace signorini

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "contact/friction.hpp"
-#include "model/statics/held_rows.hpp"
 #include "model/statics/static_system.hpp"
 
 namespace signorini {

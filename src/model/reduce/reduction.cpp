@@ -8,14 +8,12 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "model/assembly/selection.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
-#include "model/modes/growth.hpp"
+#include "model/modes/stability.hpp"
 #include "model/reduce/kept_modes.hpp"
-#include "model/reduce/rayleigh.hpp"
 #include "model/reduce/reduced_start.hpp"
-#include "model/reduce/static_shapes.hpp"
-#include "model/statics/null_motions.hpp"
+#include "model/statics/mechanisms.hpp"
 
 namespace signorini {
 namespace {

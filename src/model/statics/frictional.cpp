@@ -7,14 +7,11 @@
 #include <limits>
 
 #include "base/complementarity.hpp"
-#include "base/listed.hpp"
-#include "model/assembly/motion_names.hpp"
-#include "model/statics/held_rows.hpp"
-#include "model/statics/least_share.hpp"
-#include "model/statics/loose_motions.hpp"
-#include "model/statics/null_motions.hpp"
-#include "model/statics/slow_rates.hpp"
-#include "model/statics/standing.hpp"
+#include "base/text.hpp"
+#include "model/assembly/dofs.hpp"
+#include "model/statics/least_motion.hpp"
+#include "model/statics/mechanisms.hpp"
+#include "model/statics/quasi_static_rates.hpp"
 #include "model/statics/static_system.hpp"
 
 namespace signorini {

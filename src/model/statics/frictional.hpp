@@ -11,7 +11,7 @@
 //                          -f N' -+ T'   _|_ a, b >= 0
 //   at its limit, T = s f |N|    -f N' - s T'  _|_ s p' >= 0
 //
-// This is one linear complementarity problem of all contacts that touch or are at their limit (slow_rates.hpp). If
+// This is one linear complementarity problem of all contacts that touch or are at their limit (quasi_static_rates.hpp). If
 // there is no solution, or no stiffness left, the continuation would be dynamic, and the start is refused. If there are
 // several solutions, one is taken and reported.
 //
@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "model/assembly/dofs.hpp"
-#include "model/statics/standing.hpp"
+#include "model/statics/quasi_static_rates.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

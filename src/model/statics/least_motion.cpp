@@ -1,9 +1,12 @@
 #include "model/statics/least_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/complementarity.hpp"
 #include "base/eigen_dense.hpp"
+#include "model/assembly/dofs.hpp"
+#include "model/statics/mechanisms.hpp"
 
 namespace signorini {
 
@@ -45,6 +48,89 @@ bool is_one_of_many(const Eigen::MatrixXd& b, const Eigen::VectorXd& r, const st
   for (const double way : {1.0, -1.0})
     if ((least_motion(b, r, ways, own + way * draft) - r).norm() > moves * size) return true;
   return false;
+}
+
+namespace {
+
+// Rates that differ by less, relative to the largest one, count as equal, being results of one solve; a contact below
+// its limit then hardly leaves it. Chosen value.
+constexpr double same_rate = 1e-9;
+
+/// A row along which a contact may move now: its rate, and the admissible directions.
+struct Loose {
+  std::size_t row, contact;
+  double rate;
+  Way way;
+};
+
+std::vector<Loose> loose_rows(const SharedOut& given, const std::vector<bool>& may) {
+  std::vector<Loose> loose;
+  for (std::size_t j = 0; j < given.unknowns.size(); ++j) {
+    if (!may[j]) continue;
+    const Unknown& unknown = given.unknowns[j];
+    const auto row = static_cast<std::size_t>(unknown.row);
+    const double rate = unknown.sign * given.z[static_cast<Eigen::Index>(j)] / given.rows[row].stiffness;
+    if (!loose.empty() && loose.back().row == row) {  // the two directions of a slip are adjacent
+      loose.back().rate += rate;
+      loose.back().way = Way::both;
+    } else {
+      loose.push_back({row, unknown.contact, rate, unknown.sign > 0 ? Way::forth : Way::back});
+    }
+  }
+  return loose;
+}
+
+/// Motions that neither the structure nor the remaining rows resist.
+Eigen::MatrixXd free_motions(const SharedOut& given, const std::vector<Loose>& loose) {
+  std::vector<LineSpring> stay;
+  for (std::size_t i = 0; i < given.rows.size(); ++i)
+    if (std::none_of(loose.begin(), loose.end(), [&](const Loose& l) { return l.row == i; }))
+      stay.push_back({given.rows[i].form, given.rows[i].stiffness});
+  const SparseMatrix held = with_springs(given.stiffness, stay);
+  if (loose.empty() || !may_have_null_motions(held)) return {given.stiffness.rows(), 0};
+  return null_motions(held);
+}
+
+}  // namespace
+
+LeastShare least_share(const SharedOut& given, Vector& rates) {
+  LeastShare share;
+  for (const double z : given.z) share.moves.push_back(z > 0.0);
+  const double zero = same_rate * std::max(given.greatest_force, given.z.cwiseAbs().maxCoeff());
+  std::vector<bool> may;
+  for (std::size_t j = 0; j < given.unknowns.size(); ++j)
+    may.push_back(given.z[static_cast<Eigen::Index>(j)] > 0.0 || given.conditions[j] <= zero);
+  const std::vector<Loose> loose = loose_rows(given, may);
+  const Eigen::MatrixXd motions = free_motions(given, loose);
+  if (motions.cols() == 0) return share;
+
+  Eigen::MatrixXd b(static_cast<Eigen::Index>(loose.size()), motions.cols());
+  Eigen::VectorXd g(b.rows());
+  std::vector<Way> ways;
+  for (Eigen::Index i = 0; i < b.rows(); ++i) {
+    const Loose& l = loose[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) = given.rows[l.row].form.dot(motions.col(j));
+    g[i] = l.rate;
+    ways.push_back(l.way);
+  }
+  Eigen::VectorXd r = least_motion(b, g, ways, Eigen::VectorXd::Zero(b.cols()));
+  rates += motions * least_squares(b, Eigen::VectorXd(r - g));
+  const bool moves = r.cwiseAbs().maxCoeff() > same_rate * greatest_translation(rates, given.map);
+  if (moves && is_one_of_many(b, r, ways)) {
+    share.motion = motions.col(0);
+    for (const Loose& l : loose)
+      if (share.undetermined.empty() || share.undetermined.back() != l.contact)
+        share.undetermined.push_back(l.contact);
+  }
+  for (double& rate : r)
+    if (std::abs(rate) <= same_rate * r.cwiseAbs().maxCoeff()) rate = 0.0;
+  for (std::size_t j = 0; j < given.unknowns.size(); ++j) {
+    const Unknown& unknown = given.unknowns[j];
+    for (std::size_t i = 0; i < loose.size() && may[j]; ++i)
+      if (loose[i].row == static_cast<std::size_t>(unknown.row))
+        share.moves[j] = unknown.sign * r[static_cast<Eigen::Index>(i)] > 0.0;
+  }
+  return share;
 }
 
 }  // namespace signorini

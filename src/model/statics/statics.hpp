@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "model/assembly/dofs.hpp"
+#include "model/statics/static_system.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -40,5 +41,14 @@ struct EquilibriumSearch {
                                            const std::vector<Contact>& contacts, const DofMap& map,
                                            const SourcePlace& place, const Units& units,
                                            const EquilibriumSearch& search = {});
+
+// Closed contacts in frictionless equilibrium.
+//
+//   minimise  u K u / 2 - P u + sum_k kn_k min(g_k(u), 0)^2 / 2 + (1e-12) u D u / 2,   D = diag of the matrix
+//
+// The last term only keeps every Newton matrix regular while contacts open and close.
+
+/// closed[k] for every contact (false for sliders).
+[[nodiscard]] std::vector<bool> closed_supports(const StaticProblem& problem);
 
 }  // namespace signorini

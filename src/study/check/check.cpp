@@ -2,8 +2,12 @@
 
 #include <fmt/core.h>
 
-#include "run/expected.hpp"
-#include "study/check/check_parts.hpp"
+#include "base/json.hpp"
+#include "contact/friction.hpp"
+#include "contact/law.hpp"
+#include "mesh/mesh_quality.hpp"
+#include "result/summary_parts.hpp"
+#include "run/cost_estimate.hpp"
 
 namespace signorini {
 namespace {
@@ -81,6 +85,113 @@ CheckReport check(const Scene& scene, const Model& model) {
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
   report.cost = checks::cost_of(model, scene.run, report.method);
   return report;
+}
+
+namespace {
+
+Json frequency_json(const Frequencies& frequencies) {
+  Json modes = Json::array();
+  for (const NaturalMode& mode : frequencies.modes)
+    modes.push_back({{"omega", mode.omega}, {"damping_ratio", mode.damping_ratio}});
+  return {{"free_motions", frequencies.free_motions},
+          {"unstable_motions", frequencies.unstable},
+          {"modes", std::move(modes)}};
+}
+
+Json contact_json(const Contact& contact, const ContactSample& sample) {
+  Json json = {{"name", contact.name}, {"law", contact.law->name()}, {"state", to_string(sample.state)}};
+  if (const auto gap = contact.gap_if_any(sample.gap)) json["gap"] = *gap;
+  json["ut"] = sample.ut;
+  json["N"] = sample.N;
+  json["T"] = sample.T;
+  json["limit"] = sticking_limit(contact, sample.N);
+  return json;
+}
+
+Json body_json(const Scene& scene, const BodySpec& body) {
+  const MeshQuality q = quality_of(body.mesh.elements, [&](int n) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(n)];
+    return PlanePoint{node.x, node.y};
+  });
+  const auto worst = [](const MeshQuality::Worst& w) {
+    return Json{{"value", w.value}, {"element", w.element}};
+  };
+  return {{"name", body.name},
+          {"nodes", body.node_count},
+          {"elements", body.mesh.elements.size()},
+          {"least_angle", worst(q.least_angle)},
+          {"greatest_angle", worst(q.greatest_angle)},
+          {"aspect", worst(q.aspect)}};
+}
+
+Json run_json(const Scene& scene, const CheckReport& report) {
+  Json json = {{"t_end", scene.run.t_end},
+               {"rtol", scene.run.rtol},
+               {"engine", to_string(report.method.engine)},
+               {"engine_reason", report.method.engine_reason()},
+               {"max_order", report.method.max_order},
+               {"max_order_reason", report.method.max_order_reason},
+               {"rows", report.rows},
+               {"unknowns", report.cost.unknowns},
+               {"omega_max", report.cost.omega_max}};
+  if (report.cost.effort.steps > 0.0) {
+    json["steps_about"] = report.cost.effort.steps;
+    json["seconds_about"] = report.cost.effort.seconds;
+    const Effort& effort = report.cost.effort;
+    if (effort.by_series > 0.0) json["seconds_by_series_about"] = effort.by_series;
+    if (effort.by_modes > 0.0) json["seconds_in_modes_about"] = effort.by_modes;
+    if (report.cost.exact) json["seconds_with_exact_about"] = *report.cost.exact;
+  }
+  for (const Trial& trial : report.cost.trials) {
+    Json row = {{"engine", to_string(trial.engine)}, {"seconds", trial.seconds}};
+    if (trial.cutoff > 0.0) row["cutoff_frequency"] = trial.cutoff;
+    json["expected"].push_back(std::move(row));
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string check_json(const Scene& scene, const Model& model, const CheckReport& report) {
+  const Units& u = model.units;
+  Json json = {{"scene", scene.file},         {"title", model.title},
+               {"units", units_json(u)},      {"degrees_of_freedom", report.degrees_of_freedom},
+               {"massless", report.massless}, {"static_start", model.static_start}};
+  if (report.mass) {
+    const MassFacts& m = *report.mass;
+    json["mass"] = {{"total", m.total},
+                    {"centre", {m.x, m.y}},
+                    {"weight", {m.total * scene.gravity[0], m.total * scene.gravity[1]}},
+                    {"moving", {m.moving_x, m.moving_y}}};
+  }
+  for (const BodySpec& body : scene.bodies) json["bodies"].push_back(body_json(scene, body));
+  json["contacts"] = Json::array();
+  for (std::size_t k = 0; k < report.contacts.size(); ++k)
+    json["contacts"].push_back(contact_json(model.contacts[k], report.contacts[k]));
+  if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
+  json["warnings"] = report.warnings;
+  json["free_motions"] = report.free_motions;
+  json["frequencies"] = {{"open", frequency_json(report.open)},
+                         {"closed", frequency_json(report.closed)},
+                         {"stuck", frequency_json(report.stuck)}};
+  if (report.load_factors) json["load_factors"] = *report.load_factors;
+  json["damping"] = {{"alpha", model.alpha}, {"beta", model.beta}, {"omega1", model.omega1}};
+  json["stiffness"] = Json::array();
+  for (const StiffnessRatio& s : report.stiffness)
+    json["stiffness"].push_back({{"contact", model.contacts[static_cast<std::size_t>(s.contact)].name},
+                                 {"direction", s.normal ? "normal" : "tangential"},
+                                 {"contact_stiffness", s.stiffness},
+                                 {"rest", s.rest}});
+  json["discontinuities"] = Json::array();
+  for (const Discontinuity& d : report.discontinuities)
+    json["discontinuities"].push_back({{"t", d.t}, {"kind", d.jump ? "jump" : "kink"}, {"what", d.what}});
+  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, nullptr);
+  json["run"] = run_json(scene, report);
+  Json columns = {"t"};
+  for (const Column& column : model.columns) columns.push_back(column.name);
+  json["columns"] = std::move(columns);
+  // Names come from files in any encoding; a byte that is not UTF-8 must not prevent the output.
+  return json_text(json);
 }
 
 }  // namespace signorini

@@ -7,16 +7,15 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "base/listed.hpp"
+#include "base/text.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/loads.hpp"
-#include "model/assembly/motion_names.hpp"
-#include "model/modes/growth.hpp"
 #include "model/modes/held.hpp"
-#include "model/statics/null_motions.hpp"
+#include "model/modes/stability.hpp"
+#include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
-#include "study/check/check_parts.hpp"
+#include "study/check/check.hpp"
 
 namespace signorini::checks {
 namespace {
@@ -126,7 +125,7 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
 
 namespace {
 
-/// The structure without sliding points (model/shear.hpp), the last degrees of freedom: in a free motion their springs
+/// The structure without sliding points (model/rigid_contacts.hpp), the last degrees of freedom: in a free motion their springs
 /// have no elongation, so the points add no motion of their own.
 struct WithoutSlipPoints {
   WithoutSlipPoints(const Model& model, int own) : contacts(model.contacts), size(own) {

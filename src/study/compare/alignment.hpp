@@ -8,13 +8,115 @@
 // of the loads, not changes of the motion; they are ignored.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "result/csv.hpp"
 #include "signorini/event.hpp"
 
 namespace signorini {
+
+// The largest of many differences, and its place.
+
+struct Greatest {
+  double value = 0.0;
+  double t = 0.0;
+  std::string where;  ///< a column, a contact, an event
+
+  /// Keeps the larger difference. NaN counts as larger than all numbers.
+  void take(double difference, double at, const std::string& place) {
+    if (std::isnan(value) || difference <= value) return;
+    value = difference;
+    t = at;
+    where = place;
+  }
+};
+
+/// Largest difference of one quantity: over the time that both runs cover, and up to the first difference of their
+/// sequences.
+struct Deviation {
+  Greatest whole, until_split;
+  std::size_t count = 0;              ///< number of compared pairs; 0: nothing to compare
+  std::size_t count_until_split = 0;  ///< number of pairs after t = 0 and before the sequences differ
+  std::vector<std::string> alone;     ///< columns or contacts that only one of the two runs has
+
+  void take(double difference, double at, const std::string& place, double split) {
+    ++count;
+    whole.take(difference, at, place);
+    if (!(at < split)) return;
+    until_split.take(difference, at, place);
+    if (at > 0.0) ++count_until_split;
+  }
+};
+
+// Reads two CSV tables over time in parallel.
+//
+//   TimeJoin join(a / "history.csv", b / "history.csv");
+//   while (join.next()) use(join.t(), join.a().number(3), join.b().number(4));
+//   join.rows()                                               number of rows of each, and of common ones
+//
+// Rows at times that only one table has are skipped, and counted. Times are equal if they differ by rounding only.
+
+/// Number of rows of two tables, and number of compared rows.
+struct RowCount {
+  std::size_t compared = 0, reference = 0, other = 0;
+  [[nodiscard]] bool all() const { return compared == reference && compared == other; }
+  friend bool operator==(const RowCount&, const RowCount&) = default;
+};
+
+/// Errors of all members: FileError.
+class TimeJoin {
+ public:
+  /// Rows after `until` are ignored.
+  TimeJoin(const std::filesystem::path& a, const std::filesystem::path& b,
+           double until = std::numeric_limits<double>::infinity())
+      : a_(a), b_(b), until_(until) {}
+  /// Moves to the next common time; false: there is none, and all rows have been counted.
+  bool next();
+  /// Rows of a (reference) and b (other).
+  [[nodiscard]] const RowCount& rows() const { return rows_; }
+  [[nodiscard]] double t() const { return t_; }
+  [[nodiscard]] const CsvReader& a() const { return a_; }
+  [[nodiscard]] const CsvReader& b() const { return b_; }
+
+ private:
+  bool read(CsvReader& reader, std::size_t& count) const;
+
+  CsvReader a_, b_;
+  double until_, t_ = 0.0;
+  RowCount rows_;
+};
+
+/// Reads contacts.csv, which has one row per time and contact, time by time.
+class ContactRowReader {
+ public:
+  explicit ContactRowReader(const std::filesystem::path& path);
+  /// Moves to the next time; an incomplete last time may have fewer contacts.
+  bool next();
+  struct Forces {
+    double N = 0.0, T = 0.0;
+  };
+  [[nodiscard]] double t() const { return t_; }
+  [[nodiscard]] const std::map<std::string, Forces>& forces() const { return forces_; }
+
+ private:
+  CsvReader reader_;
+  std::size_t contact_, N_, T_;
+  bool pending_ = false;  // the reader is at the first row of the next time
+  double t_ = 0.0;
+  std::map<std::string, Forces> forces_;
+};
+
+/// True if the times are equal up to rounding.
+[[nodiscard]] bool same_time(double a, double b);
+/// True if t is after the end, by more than rounding.
+[[nodiscard]] inline bool beyond(double t, double end) { return t > end && !same_time(t, end); }
 
 /// Columns of a row of events.csv that are needed for the comparison.
 struct LoggedEvent {

@@ -8,11 +8,11 @@
 #include <memory>
 #include <optional>
 
-#include "base/number.hpp"
 #include "base/run_files.hpp"
+#include "base/text.hpp"
 #include "scene/components.hpp"
-#include "study/compare/comparison_tables.hpp"
-#include "study/compare/joined_tables.hpp"
+#include "study/compare/alignment.hpp"
+#include "study/compare/comparison_files.hpp"
 
 namespace signorini {
 

@@ -14,8 +14,6 @@
 #include <vector>
 
 #include "study/compare/alignment.hpp"
-#include "study/compare/greatest.hpp"
-#include "study/compare/joined_tables.hpp"
 #include "study/compare/run_figures.hpp"
 
 namespace signorini {

@@ -3,13 +3,10 @@
 #include <fmt/core.h>
 
 #include "base/json.hpp"
-
-#include "result/units_json.hpp"
-#include "study/compare/comparison_tables.hpp"
+#include "result/summary_parts.hpp"
 #include "study/figures.hpp"
 
 namespace signorini {
-
 namespace {
 
 using Audit = std::map<std::string, double>;

@@ -11,9 +11,59 @@
 #include <string>
 #include <vector>
 
+#include "result/table.hpp"
+#include "study/compare/alignment.hpp"
 #include "study/compare/limits.hpp"
 
 namespace signorini {
+
+// The tables of a comparison for its pictures, as lists of columns.
+//
+//   plots/motion-RUN.csv  t,displacement,velocity     largest difference of any column from the reference at t
+//   plots/forces-RUN.csv  t,N,T                       the same for any contact
+//   events.csv            run,t_reference,t,difference,contact,event,from,to,swapped   one row per aligned pair
+
+/// Units: length, length/time.
+struct MotionDifference {
+  double t, displacement, velocity;
+};
+[[nodiscard]] inline const CsvTable<MotionDifference>& motion_difference_table() {
+  using D = MotionDifference;
+  static const CsvTable<D> table = {
+      {"t", &D::t}, {"displacement", &D::displacement}, {"velocity", &D::velocity}};
+  return table;
+}
+
+/// Unit: force.
+struct ForceDifference {
+  double t, N, T;
+};
+[[nodiscard]] inline const CsvTable<ForceDifference>& force_difference_table() {
+  using D = ForceDifference;
+  static const CsvTable<D> table = {{"t", &D::t}, {"N", &D::N}, {"T", &D::T}};
+  return table;
+}
+
+/// An event of the reference and its partner in another run.
+struct EventPair {
+  const std::string& run;
+  const LoggedEvent& reference;
+  double t;  ///< time in the other run
+  bool swapped;
+};
+[[nodiscard]] inline const CsvTable<EventPair>& event_pair_table() {
+  using P = EventPair;
+  static const CsvTable<P> table = {{"run", [](const P& p) { return std::string_view(p.run); }},
+                                    {"t_reference", [](const P& p) { return p.reference.t; }},
+                                    {"t", &P::t},
+                                    {"difference", [](const P& p) { return p.t - p.reference.t; }},
+                                    {"contact", [](const P& p) { return p.reference.contact; }},
+                                    {"event", [](const P& p) { return p.reference.type; }},
+                                    {"from", [](const P& p) { return p.reference.from; }},
+                                    {"to", [](const P& p) { return p.reference.to; }},
+                                    {"swapped", [](const P& p) { return p.swapped ? "true" : "false"; }}};
+  return table;
+}
 
 struct ComparisonReport {
   std::vector<ComparedRun> runs;        ///< readable runs; the first is the reference

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 
-#include "base/file_name.hpp"
-#include "base/number.hpp"
+#include "base/files.hpp"
+#include "base/text.hpp"
 #include "result/picture_files.hpp"
-#include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
 #include "result/run_tables.hpp"
-#include "study/compare/comparison_tables.hpp"
+#include "study/compare/comparison_files.hpp"
 
 namespace signorini {
 

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "base/number.hpp"
-#include "base/suggest.hpp"
+#include "base/text.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {

@@ -4,8 +4,8 @@
 #include <fstream>
 #include "base/json.hpp"
 
-#include "base/number.hpp"
-#include "result/csv_read.hpp"
+#include "base/text.hpp"
+#include "result/csv.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {

@@ -1,17 +1,21 @@
 #include "study/orbit/branch_files.hpp"
 
+#include <fmt/core.h>
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <functional>
 
+#include "base/files.hpp"
 #include "base/json.hpp"
-#include "base/number.hpp"
-#include "base/output_directory.hpp"
-#include "orbit/reader_at.hpp"
-#include "result/csv_read.hpp"
-#include "result/units_json.hpp"
-#include "scene/resolved_keys.hpp"
+#include "base/text.hpp"
+#include "orbit/orbit_engine.hpp"
+#include "result/csv.hpp"
+#include "result/summary_parts.hpp"
+#include "result/table.hpp"
+#include "scene/resolved_scene.hpp"
+#include "study/figures.hpp"
 #include "study/orbit/orbit_files.hpp"
 
 namespace signorini {
@@ -196,6 +200,204 @@ std::string branch_json(const BranchOptions& options, const Units& units, const 
                      {"sides", sides},
                      {"last", last}};
   return json_text(json);
+}
+
+namespace {
+
+constexpr std::size_t most_outputs = 6;
+constexpr const char* low_colour = "#d95f02";
+constexpr const char* high_colour = "#1f77b4";
+
+/// Points of one curve: gnuplot breaks a line at a value that is not a number.
+struct DrawnPoint {
+  const BranchPoint* point;  // null: a break
+  bool stable, unstable;     // curves that contain the point
+};
+
+/// A segment is unstable if one of its ends is. A located point belongs to both sides.
+std::vector<DrawnPoint> drawn_points(const Branch& branch) {
+  std::vector<const BranchPoint*> order;
+  for (const BranchPoint& p : branch.points) order.push_back(&p);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->branch < b->branch; });
+  const auto bad = [&](std::size_t i) { return order[i]->stable.has_value() && !*order[i]->stable; };
+  const auto good = [&](std::size_t i) { return order[i]->stable.value_or(false); };
+  std::vector<DrawnPoint> list;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool follows = i > 0 && order[i - 1]->branch == order[i]->branch;
+    const bool followed = i + 1 < order.size() && order[i + 1]->branch == order[i]->branch;
+    if (!follows && i > 0) list.push_back({nullptr, false, false});
+    const bool beside_bad = (follows && bad(i - 1)) || (followed && bad(i + 1));
+    const bool beside_good = (follows && good(i - 1)) || (followed && good(i + 1));
+    const bool unstable = bad(i) || beside_bad;
+    list.push_back({order[i], good(i) || (!bad(i) && (beside_good || !unstable)), unstable});
+  }
+  return list;
+}
+
+using Cell = std::function<double(const BranchPoint&)>;
+
+class BranchTable {
+ public:
+  BranchTable() {
+    column("x", [](const BranchPoint& p) { return p.parameter; });
+    table_.add("stable", [](const DrawnPoint& p) { return p.stable ? 1 : 0; });
+    table_.add("unstable", [](const DrawnPoint& p) { return p.unstable ? 1 : 0; });
+    table_.add("special", [](const DrawnPoint& p) {
+      return std::string_view(p.point == nullptr ? "" : p.point->special.c_str());
+    });
+    column("sequence", [](const BranchPoint& p) { return p.sequence; });
+    column("multiplier", [](const BranchPoint& p) { return p.max_multiplier; });
+    column("amplitude", [](const BranchPoint& p) { return p.amplitude; });
+  }
+  void column(const std::string& name, const Cell& cell) {
+    table_.add_put(name, [cell](CsvBlock& block, const DrawnPoint& p) {
+      if (p.point == nullptr)
+        block.text("NaN");
+      else
+        block.number(cell(*p.point));
+    });
+  }
+  /// Values in the stable or unstable parts, NaN elsewhere.
+  [[nodiscard]] std::string parts(const std::string& name, const char* kind) const {
+    return fmt::format("{}:({} > 0 ? {} : NaN)", table_.number("x"), table_.value(kind), table_.value(name));
+  }
+  [[nodiscard]] std::string at(const std::string& name, const std::string& special) const {
+    return fmt::format("{}:(strstrt({}, '{}') > 0 ? {} : NaN)", table_.number("x"), table_.word("special"),
+                       special, table_.value(name));
+  }
+  [[nodiscard]] std::string plain(const std::string& name) const {
+    return fmt::format("{}:{}", table_.number("x"), table_.number(name));
+  }
+  [[nodiscard]] std::string text(const std::vector<DrawnPoint>& points) const { return table_.text(points); }
+
+ private:
+  CsvTable<DrawnPoint> table_;
+};
+
+const std::string rows = "'branch.csv' skip 1";
+
+/// unstable_too: the legend names the dashed parts.
+void add_line(const BranchTable& table, const std::string& name, const std::string& colour,
+              const std::string& title, bool unstable_too, Panel& panel) {
+  const std::string dashed = "with lines linewidth 1.4 dashtype (6,5) linecolor '" + colour + "'";
+  panel.curves.push_back(
+      {rows, table.parts(name, "stable"), "with lines linewidth 1.8 linecolor '" + colour + "'", title});
+  panel.curves.push_back({rows, table.parts(name, "unstable"), dashed,
+                          unstable_too ? std::optional<std::string>("unstable") : std::nullopt});
+}
+
+bool has_unstable(const Branch& branch) {
+  return std::any_of(branch.points.begin(), branch.points.end(),
+                     [](const BranchPoint& p) { return p.stable.has_value() && !*p.stable; });
+}
+
+struct MarkOfPoint {
+  const char *special, *look;
+};
+constexpr std::array marks{
+    MarkOfPoint{"fold", "with points pointtype 9 pointsize 1.1 linecolor '#1a1a1a'"},
+    MarkOfPoint{"flip", "with points pointtype 5 pointsize 0.9 linecolor '#c0182b'"},
+    MarkOfPoint{"neimark-sacker", "with points pointtype 7 pointsize 1.0 linecolor '#7b3294'"},
+    MarkOfPoint{"branch point", "with points pointtype 13 pointsize 1.2 linecolor '#1b9e77'"},
+    MarkOfPoint{"end", "with points pointtype 3 pointsize 1.1 linecolor '#1a1a1a'"},
+    MarkOfPoint{"restart", "with points pointtype 2 pointsize 1.0 linecolor '#666666'"}};
+
+/// Marks of the kinds that occur, with their names in the first panel.
+void add_marks(const BranchTable& table, const Branch& branch, const std::string& name, bool first,
+               Panel& panel) {
+  for (const MarkOfPoint& mark : marks) {
+    const bool occurs = std::any_of(branch.points.begin(), branch.points.end(), [&](const BranchPoint& p) {
+      return p.special.find(mark.special) != std::string::npos;
+    });
+    if (!occurs) continue;
+    panel.curves.push_back({rows, table.at(name, mark.special), mark.look,
+                            first ? std::optional<std::string>(mark.special) : std::nullopt});
+  }
+}
+
+/// Grey bands for every second sequence; only if the branch has no fold, where bands would overlap.
+std::string bands(const Branch& branch) {
+  std::string s;
+  int object = 10;
+  bool turns = false;
+  for (const BranchPoint& p : branch.points)
+    turns = turns || p.branch != 1 || p.special.find("fold") != std::string::npos;
+  if (turns) return s;
+  for (std::size_t i = 0; i < branch.points.size();) {
+    std::size_t j = i;
+    while (j + 1 < branch.points.size() && branch.points[j + 1].sequence == branch.points[i].sequence) ++j;
+    const double from = branch.points[i].parameter;
+    const double to = branch.points[std::min(j + 1, branch.points.size() - 1)].parameter;
+    if (branch.points[i].sequence % 2 == 0)
+      s += fmt::format(
+          "set object {} rectangle from first {},graph 0 to first {},graph 1 behind fillstyle solid noborder "
+          "fillcolor '#f0f0f0'\n",
+          object++, shortest(std::min(from, to)), shortest(std::max(from, to)));
+    i = j + 1;
+  }
+  return s;
+}
+
+Panel multiplier_panel(const BranchTable& table, const Branch& branch) {
+  Panel panel{"greatest multiplier", {}, "set yrange [0:*]\n", 0.7};
+  add_line(table, "multiplier", "#1a1a1a", "stable", has_unstable(branch), panel);
+  panel.curves.push_back({"1", "", "with lines linewidth 0.8 linecolor '#c0182b'", "unit circle"});
+  add_marks(table, branch, "multiplier", false, panel);
+  return panel;
+}
+
+Panel sequence_panel(const BranchTable& table, const Branch& branch, const std::string& x_name) {
+  Panel panel{"sequence",
+              {{rows, table.plain("sequence"), "with points pointtype 7 pointsize 0.4 linecolor '#1b9e77'",
+                "sequence"}},
+              fmt::format("set yrange [0:{}]\nset ytics 1\nset xlabel {}\n", branch.sequences.size() + 1,
+                          signorini::quoted(x_name)),
+              0.5};
+  return panel;
+}
+
+}  // namespace
+
+bool is_picture_of_branch(const std::filesystem::path& file) { return file.stem() == "branch"; }
+
+PictureFiles branch_pictures(const std::string& title, const Units& units, const BranchOptions& options,
+                             const std::vector<std::string>& outputs, const Branch& branch,
+                             const PictureLook& look) {
+  PictureFiles files(is_picture_of_branch);
+  if (branch.points.size() < 2) return files;
+  const PlottedRun run = untold_run(title, units, look);
+  BranchTable table;
+  const std::size_t shown = std::min(outputs.size(), most_outputs);
+  for (std::size_t i = 0; i < shown; ++i) {
+    table.column(fmt::format("low {}", i), [i](const BranchPoint& p) { return p.minima[i]; });
+    table.column(fmt::format("high {}", i), [i](const BranchPoint& p) { return p.maxima[i]; });
+  }
+  files.add_table("branch", table.text(drawn_points(branch)));
+  const std::size_t panels = std::max<std::size_t>(1, shown);
+  Picture picture{"branch", "Orbits over " + key_with_unit(options.path, units) + ": " + branch.end,
+                  canvas_of(look, 420.0 + 260.0 * static_cast<double>(panels), false), false};
+  picture.space = 24.0;
+  picture.setup = "set offsets 0,0,graph 0.05,graph 0.05\n" +
+                  range_of('x', std::min(options.from, options.to), std::max(options.from, options.to)) +
+                  bands(branch);
+  for (std::size_t i = 0; i < shown; ++i) {
+    Panel panel{outputs[i], {}, "set yrange [*:*]\n"};
+    add_line(table, fmt::format("high {}", i), high_colour, "greatest", has_unstable(branch), panel);
+    add_line(table, fmt::format("low {}", i), low_colour, "least", false, panel);
+    add_marks(table, branch, fmt::format("high {}", i), i == 0, panel);
+    picture.panels.push_back(panel);
+  }
+  if (shown == 0) {
+    Panel panel{"amplitude [" + units.length + "]", {}, "set yrange [0:*]\n"};
+    add_line(table, "amplitude", high_colour, "stable", has_unstable(branch), panel);
+    add_marks(table, branch, "amplitude", true, panel);
+    picture.panels.push_back(panel);
+  }
+  picture.panels.push_back(multiplier_panel(table, branch));
+  picture.panels.push_back(sequence_panel(table, branch, key_with_unit(options.path, units)));
+  files.add(run, picture);
+  return files;
 }
 
 }  // namespace signorini

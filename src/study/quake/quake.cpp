@@ -8,7 +8,7 @@
 #include <memory>
 #include <numbers>
 
-#include "study/quake/response_spectrum.hpp"
+#include "study/quake/spectra.hpp"
 
 namespace signorini {
 

@@ -1,6 +1,6 @@
 // find_cutoff.hpp: finds the cutoff for a given tolerance.
 //
-//   few modes -> run -> contribution of the modes left out (left_out.hpp) -> more modes -> run -> ...
+//   few modes -> run -> contribution of the modes left out (find_cutoff.hpp) -> more modes -> run -> ...
 //   error = |u - u_finer| + missed_finer max(1, error / missed)
 //   the first trial with error <= tolerance is used
 //
@@ -15,9 +15,57 @@
 #include <functional>
 #include <optional>
 
+#include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
+
+// Dynamic contribution of the modes that a reduction leaves out.
+//
+//   z'' + c z' + omega^2 z = phi . F(t),    missed(p) = sum over modes left out  phi(p) (z - phi . F / omega^2)
+//
+// F: loads and contact forces of a reduced run, which includes the static part phi . F / omega^2 already. Between
+// samples F is a cubic with slopes from five samples, for which z is exact. The effect of the missing motion at
+// contacts on their forces is neglected.
+
+/// A place at which displacements are evaluated.
+struct AskedPlace {
+  std::string name;  ///< "normal of contact 'first'", "A.ux"
+  Vector form;       ///< on displacements of the structure; the motion of supports is left aside
+};
+
+/// Contacts along normal and tangent, and named nodes; rotations left aside. The model: build_structure's.
+[[nodiscard]] std::vector<AskedPlace> asked_places(const Model& full);
+
+class LeftOut {
+ public:
+  /// full: build_structure's, must outlive it; `square`, `shapes`: its modes, ascending; `kept`: how many of
+  /// them the reduction keeps. Or, with 0, what stands for those left out (excited_modes.hpp).
+  LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes, Eigen::Index kept,
+          double step);
+
+  [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
+  /// Forces of contacts, in the order of the model's layout, at times 0, step, 2 step, ...
+  void sample(double t, const std::vector<double>& forces);
+  /// To be called after the last sample.
+  void finish();
+  /// Largest |missed(p)| at each place.
+  [[nodiscard]] const std::vector<double>& missed() const { return missed_; }
+
+ private:
+  using Array = Eigen::ArrayXd;
+  void advance(const Array& before, const Array& from, const Array& to, const Array& after);
+  void observe(const Array& force);
+
+  const Model& full_;
+  double step_;
+  Eigen::MatrixXd places_, inputs_;                           // places x modes, modes x (contact forces)
+  Eigen::MatrixXd loads_;                                     // modes x loads
+  Array square_, decay_, to_z_z_, to_z_v_, to_v_z_, to_v_v_;  // free motion over a step
+  Array z_, v_;
+  std::vector<Array> forces_;  // modal forces of the last four samples
+  std::vector<double> missed_;
+};
 
 /// Errors: SceneError at reduction.tolerance if no modes satisfy it, or if a trial run stops. go_on: called
 /// periodically; false ends the search with the scene unchanged.

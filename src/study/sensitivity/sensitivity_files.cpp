@@ -1,13 +1,18 @@
 #include "study/sensitivity/sensitivity_files.hpp"
 
 #include <fmt/core.h>
-
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
+#include "base/files.hpp"
 #include "base/json.hpp"
+#include "result/csv.hpp"
+#include "result/summary_parts.hpp"
 #include "result/table.hpp"
-#include "result/units_json.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini {
 namespace {
@@ -201,6 +206,156 @@ void write_sensitivities(const fs::path& directory, const Sensitivities& s, cons
   for (std::size_t p = 0; p < s.parameters.size(); ++p)
     write_file(directory / fmt::format("columns-{}.csv", p + 1), column_text(s, p));
   if (!sigmas.empty()) write_file(directory / "spread.csv", spread_text(s, spread(s, sigmas)));
+}
+
+namespace {
+
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+}  // namespace
+
+std::string fit_json(const Fit& fit, const Measurements& measured) {
+  Json json = {{"converged", fit.converged},   {"reason", fit.reason},
+               {"iterations", fit.iterations}, {"runs", fit.runs},
+               {"rows", measured.rows.size()}, {"chi_squared", fit.chi_squared}};
+  json["sigma_given"] = measured.has_sigma;
+  json["freedom"] = fit.freedom;
+  json["probability"] = number_or_null(fit.probability);
+  json["doubts"] = fit.doubts;
+  json["keys"] = Json::array();
+  for (const FittedKey& key : fit.keys)
+    json["keys"].push_back({{"path", key.path},
+                            {"start", key.start},
+                            {"value", number_or_null(key.value)},
+                            {"sigma", number_or_null(key.sigma)}});
+  json["covariance"] = Json::array();
+  for (const std::vector<double>& row : fit.covariance) {
+    Json numbers = Json::array();
+    for (const double x : row) numbers.push_back(number_or_null(x));
+    json["covariance"].push_back(numbers);
+  }
+  return json_text(json);
+}
+
+void write_fit(const std::filesystem::path& directory, const Fit& fit, const Measurements& measured) {
+  const auto of_event = [&](std::size_t i) { return measured.rows[i].event > 0; };
+  const auto given = [&](std::size_t i, double value) {
+    return of_event(i) ? std::nullopt : std::optional(value);
+  };
+  const CsvTable<std::size_t> table = {
+      {"row", [](std::size_t i) { return std::to_string(i + 1); }},
+      {"event_index",
+       [&](std::size_t i) { return of_event(i) ? std::to_string(measured.rows[i].event) : std::string(); }},
+      {"column", [&](std::size_t i) { return of_event(i) ? std::string() : measured.rows[i].column; }},
+      {"t", [&](std::size_t i) { return given(i, measured.rows[i].t); }},
+      {"measured", [&](std::size_t i) { return measured.rows[i].value; }},
+      {"residual",
+       [&](std::size_t i) {
+         return std::isfinite(fit.residuals[i]) ? std::optional(fit.residuals[i]) : std::nullopt;
+       }},
+      {"sigma", [&](std::size_t i) {
+         return measured.has_sigma ? std::optional(measured.rows[i].sigma) : std::nullopt;
+       }}};
+  std::vector<std::size_t> rows(measured.rows.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  write_file(directory / "residuals.csv", table.text(rows));
+  write_file(directory / "fit.json", fit_json(fit, measured));
+}
+
+// read_sensitivities(): reads the data for pictures.
+
+namespace fs = std::filesystem;
+
+namespace {
+
+double rate_in(const CsvReader& reader, std::size_t column) {
+  return reader.cell(column).empty() ? EventRates::none : reader.number(column);
+}
+
+/// Index of the contact in s.contacts, to which a new name is added; -1 for the run itself.
+int contact_numbered(Sensitivities& s, const std::string& name) {
+  if (name.empty()) return -1;
+  const auto found = std::find(s.contacts.begin(), s.contacts.end(), name);
+  if (found == s.contacts.end()) s.contacts.push_back(name);
+  return static_cast<int>(std::find(s.contacts.begin(), s.contacts.end(), name) - s.contacts.begin());
+}
+
+void read_parameters(const fs::path& file, Sensitivities& s, Sigmas& sigmas) {
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw FileError(file.string(), "cannot be read" + because(errno));
+  try {
+    const Json json = parse_json(stream);
+    s.title = json.at("title");
+    s.units = units_from(json.at("units"));
+    for (const Json& row : json.at("parameters")) {
+      Parameter& parameter = s.parameters.emplace_back();
+      parameter.path = row.at("path");
+      parameter.value = row.at("value");
+      if (row.contains("sigma")) sigmas.push_back(row.at("sigma"));
+    }
+  } catch (const Json::exception& error) {
+    throw FileError(file.string(), std::string("is not of sensitivities: ") + error.what());
+  }
+  if (s.parameters.empty() || (!sigmas.empty() && sigmas.size() != s.parameters.size()))
+    throw FileError(file.string(), "expected parameters, all of them with a sigma or none");
+}
+
+}  // namespace
+
+Sensitivities read_sensitivities(const fs::path& directory, Sigmas& sigmas) {
+  Sensitivities s;
+  sigmas.clear();
+  read_parameters(directory / "sensitivity.json", s, sigmas);
+  const std::size_t parameters = s.parameters.size();
+  CsvReader figures(directory / "figures.csv");
+  for (std::size_t row = 0; figures.next(); ++row) {
+    if (row % parameters == 0) {
+      Response& figure = s.responses.emplace_back();
+      figure.name = figures.cell(figures.column("figure"));
+      figure.contact = contact_numbered(s, figures.cell(figures.column("contact")));
+      figure.value = figures.number(figures.column("value"));
+      figure.rates.assign(parameters, EventRates::none);
+    }
+    s.responses.back().rates[row % parameters] = rate_in(figures, figures.column("dvalue_dp"));
+  }
+  CsvReader events(directory / "sensitivities.csv");
+  for (std::size_t row = 0; events.next(); ++row) {
+    if (row % parameters == 0) {
+      Event& event = s.events.emplace_back();
+      event.t = events.number(events.column("t"));
+      event.contact = contact_numbered(s, events.cell(events.column("contact")));
+      s.event_rates.emplace_back(parameters);
+    }
+    s.event_rates.back()[row % parameters].t = rate_in(events, events.column("dt_dp"));
+  }
+  return s;
+}
+
+namespace {
+
+template <class RateOf>
+double sigma_of(const Sigmas& sigmas, const RateOf& rate) {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < sigmas.size(); ++p)
+    if (sigmas[p] > 0.0) sum += rate(p) * sigmas[p] * rate(p) * sigmas[p];
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+Spread spread(const Sensitivities& s, const Sigmas& sigmas) {
+  Spread result;
+  for (const auto& rates : s.event_rates)
+    result.events.push_back(sigma_of(sigmas, [&](std::size_t p) { return rates[p].t; }));
+  for (const Response& r : s.responses)
+    result.responses.push_back(sigma_of(sigmas, [&](std::size_t p) { return r.rates[p]; }));
+  result.reach.assign(sigmas.size(), std::numeric_limits<double>::infinity());
+  for (const Swap& swap : least_swaps(s))
+    if (sigmas[swap.parameter] > 0.0)
+      result.reach[swap.parameter] =
+          std::min(result.reach[swap.parameter], std::abs(swap.change) / sigmas[swap.parameter]);
+  return result;
 }
 
 }  // namespace signorini

@@ -15,9 +15,27 @@
 
 #include <filesystem>
 
-#include "study/sensitivity/spread.hpp"
+#include "signorini/fit.hpp"
+#include "signorini/sensitivity.hpp"
 
 namespace signorini {
+
+// Standard deviations of event times and figures from those of keys, to first order.
+//
+//   sigma_x = sqrt( sum_p (dx/dp sigma_p)^2 )       for independent keys
+//
+// The result is valid while the sequence of events does not change: `reach` is the smallest change of a key at which
+// two neighbouring events meet, divided by its sigma. Below 2, one run in twenty has another sequence, and the result
+// is only indicative.
+
+/// One per parameter; 0: the parameter is known exactly.
+using Sigmas = std::vector<double>;
+
+struct Spread {
+  std::vector<double> events, responses;  ///< sigma of each time, of each figure; NaN: unknown
+  std::vector<double> reach;              ///< one per parameter; infinity: no events meet, or sigma is 0
+};
+[[nodiscard]] Spread spread(const Sensitivities& s, const Sigmas& sigmas);
 
 /// sigmas: empty, or one per parameter.
 [[nodiscard]] std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas);
@@ -39,5 +57,14 @@ void write_sensitivities(const std::filesystem::path& directory, const Sensitivi
 [[nodiscard]] std::string contact_of(const Sensitivities& s, const Event& event);
 /// The name of a figure's contact; "" for a figure of the whole run.
 [[nodiscard]] std::string contact_of(const Sensitivities& s, const Response& figure);
+
+// Files of `fit` (docs/command-line.md).
+//
+//   fit.json        keys with their sigmas, covariance, chi_squared, reason for the end
+//   residuals.csv   row,event_index,column,t,measured,residual,sigma
+
+[[nodiscard]] std::string fit_json(const Fit& fit, const Measurements& measured);
+/// Writes both files. Errors: FileError.
+void write_fit(const std::filesystem::path& directory, const Fit& fit, const Measurements& measured);
 
 }  // namespace signorini

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/number.hpp"
-#include "result/plot_folder.hpp"
+#include "base/text.hpp"
+#include "result/picture_files.hpp"
 #include "result/table.hpp"
-#include "study/key_unit.hpp"
+#include "study/figures.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 
 namespace signorini {

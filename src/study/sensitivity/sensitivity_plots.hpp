@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "result/picture_files.hpp"
-#include "study/sensitivity/spread.hpp"
+#include "study/sensitivity/sensitivity_files.hpp"
 
 namespace signorini {
 

@@ -7,9 +7,53 @@
 #include <vector>
 
 #include "signorini/simulate.hpp"
+#include "study/compare/comparison_files.hpp"
 #include "study/prepared_run.hpp"
+#include "study/speed/work_plan.hpp"
 
 namespace signorini {
+
+// Cost and error of one engine with one setting.
+//
+//   error = largest difference from the reference, up to the first difference of the sequences of events
+
+/// The largest error of one quantity (names and units of limits.hpp).
+struct WorkError {
+  std::string quantity, unit;
+  double value = 0.0, t = 0.0;  ///< up to the first difference of the sequences
+  std::string where;
+  double whole = 0.0;  ///< over the whole run
+};
+
+struct WorkRow {
+  WorkPoint point;
+  std::filesystem::path directory;                  ///< directory of the run; empty if refused
+  std::string outcome;                              ///< done, stopped, refused, "too slow"
+  bool reference = false;                           ///< true: the errors of all others are relative to this
+                                                    ///< run
+  std::string reason;                               ///< empty when done
+  std::optional<double> t;                          ///< time reached
+  bool whole = false;                               ///< true: reached the end of the reference
+  std::optional<long> events, events_of_reference;  ///< within the compared time
+  std::size_t alike = 0;                            ///< number of events with a partner in the reference
+  std::string split;                                ///< first difference of the sequences; empty if they are
+                                                    ///< equal
+  std::optional<double> t_split;                    ///< time of the first difference
+
+  std::vector<WorkError> errors;
+  std::vector<double> wall_times;  ///< s, of repeated runs without output
+  std::optional<long> steps, factorisations, solves, restarts;
+  std::optional<double> balance;  ///< relative error of the energy balance
+
+  /// True if the run reached the end with the reference's sequence of events.
+  [[nodiscard]] bool complete() const { return outcome == "done" && whole && split.empty(); }
+  [[nodiscard]] const WorkError* error(const std::string& quantity) const;
+  [[nodiscard]] std::optional<double> wall_time() const;  ///< the smallest
+};
+
+/// Enters the differences of a run from the reference into its row.
+void take_comparison(WorkRow& row, const ComparedRun& reference, const ComparedRun& run,
+                     const Comparison& comparison);
 
 struct WorkLimits {
   double seconds = 60.0;                              ///< wall time per run

@@ -7,17 +7,16 @@
 #include <limits>
 #include <numeric>
 
-#include "base/file_name.hpp"
-#include "base/fingerprint.hpp"
-#include "base/number.hpp"
+#include "base/files.hpp"
 #include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "engine/tolerance.hpp"
-#include "result/csv_read.hpp"
-#include "run/choose_flow.hpp"
+#include "result/csv.hpp"
+#include "run/choose_engine.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/engines.hpp"
-#include "run/expected.hpp"
 #include "scene/components.hpp"
-#include "study/speed/decades.hpp"
+#include "study/speed/work_plan.hpp"
 
 namespace signorini {
 

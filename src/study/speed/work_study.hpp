@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "base/machine.hpp"
-#include "study/speed/frontier.hpp"
+#include "study/speed/pareto_front.hpp"
 #include "study/speed/work_run.hpp"
 
 namespace signorini {

@@ -3,14 +3,15 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
-
 #include <cerrno>
 #include <fstream>
 #include <system_error>
 #include <utility>
 
-#include "base/input_file.hpp"
+#include "base/files.hpp"
 #include "base/json.hpp"
+#include "base/text.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini {
 
@@ -91,6 +92,89 @@ void RowFile::append(const std::string& lines) {
   // If truncation fails, too, the next sweep truncates.
   [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(good_));
   throw FileError(path_.string(), "cannot be written" + because(error));
+}
+
+namespace {
+
+constexpr long long most_shares = 1000000000;
+
+std::optional<long long> integer(const Environment& environment, const char* name) {
+  const std::optional<std::string> text = environment(name);
+  if (!text || text->empty()) return std::nullopt;
+  const std::optional<long long> value = parse_integer(*text);
+  if (!value || *value < 0 || *value > most_shares)
+    throw UsageError(fmt::format("--share auto: {} is \"{}\", expected a number >= 0", name, *text));
+  return value;
+}
+
+struct Place {
+  long long rank, size;
+};
+
+void check(const Place& place, const char* names) {
+  if (place.rank < place.size) return;
+  throw UsageError(
+      fmt::format("--share auto: {} say rank {} of {}, counted from 0", names, place.rank, place.size));
+}
+
+std::optional<Place> launcher(const Environment& environment) {
+  constexpr const char* names[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+                                      {"PMI_RANK", "PMI_SIZE"}};
+  for (const auto& [rank, size] : names) {
+    const auto r = integer(environment, rank), s = integer(environment, size);
+    if (!r || !s) continue;
+    const Place place{*r, *s};
+    check(place, fmt::format("{} and {}", rank, size).c_str());
+    return place;
+  }
+  return std::nullopt;
+}
+
+std::optional<Place> array(const Environment& environment) {
+  const auto id = integer(environment, "SLURM_ARRAY_TASK_ID");
+  if (!id) return std::nullopt;
+  const auto count = integer(environment, "SLURM_ARRAY_TASK_COUNT");
+  if (!count)
+    throw UsageError(
+        "--share auto: SLURM_ARRAY_TASK_ID is set and SLURM_ARRAY_TASK_COUNT is not; give --share K/N");
+  const long long first = integer(environment, "SLURM_ARRAY_TASK_MIN").value_or(0);
+  const long long last = integer(environment, "SLURM_ARRAY_TASK_MAX").value_or(first + *count - 1);
+  const long long step = *count > 1 ? (last - first) / (*count - 1) : 1;
+  // The tasks of an irregular list such as --array=1,5,6 cannot be numbered by a rule.
+  const bool even = *count >= 1 && step >= 1 && first + step * (*count - 1) == last && *id >= first &&
+                    *id <= last && (*id - first) % step == 0;
+  if (!even)
+    throw UsageError(fmt::format(
+        "--share auto: task {} of {} from {} to {} is no even array; give --share K/N, or --array=1-N", *id,
+        *count, first, last));
+  return Place{(*id - first) / step, *count};
+}
+
+}  // namespace
+
+Share parse_share(const std::string& text, const Environment& environment) {
+  if (text == "auto") {
+    const std::optional<Place> rank = launcher(environment), task = array(environment);
+    if (!rank && !task)
+      throw UsageError(
+          "--share auto: found none of OMPI_COMM_WORLD_RANK, PMI_RANK, SLURM_ARRAY_TASK_ID in the "
+          "environment; "
+          "give --share K/N");
+    const Place r = rank.value_or(Place{0, 1}), t = task.value_or(Place{0, 1});
+    return {static_cast<std::size_t>(t.rank * r.size + r.rank + 1),
+            static_cast<std::size_t>(t.size * r.size)};
+  }
+  const std::size_t slash = text.find('/');
+  const auto number = parse_integer(text.substr(0, slash));
+  const auto count = slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
+  if (!number || !count || *number < 1 || *count < *number || *count > most_shares)
+    throw UsageError("--share " + text + ": expected K/N with K from 1 to N, such as 3/16, or auto");
+  return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*count)};
+}
+
+std::size_t ranks(const Environment& environment) {
+  const std::optional<Place> place = launcher(environment);
+  return place ? static_cast<std::size_t>(place->size) : 1;
 }
 
 }  // namespace signorini

@@ -6,9 +6,12 @@
 // lines. If a row occurs twice, the later one is valid: a row that crashed is tried again.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "study/sweep/sweep_row.hpp"
@@ -41,5 +44,30 @@ class RowFile {
   int file_ = -1;
   std::uintmax_t good_ = 0;  // size of the complete lines
 };
+
+// The rows of a sweep that one of several processes computes.
+//
+//   3/16     every 16th row, starting with the third
+//   auto     from the environment of Open MPI, of other launchers with PMI, and of Slurm arrays
+//
+// A launcher inside an array multiplies: task 2 of 4, rank 1 of 8 is share 10/32.
+
+struct Share {
+  std::size_t number = 1, count = 1;  ///< number counts from 1
+
+  [[nodiscard]] bool holds(std::size_t row) const { return row % count == number - 1; }  ///< row from 0
+  [[nodiscard]] bool all() const { return count == 1; }
+  [[nodiscard]] std::string text() const { return std::to_string(number) + "/" + std::to_string(count); }
+  friend bool operator==(const Share&, const Share&) = default;
+};
+
+/// Value of an environment variable, if it is set.
+using Environment = std::function<std::optional<std::string>(const char* name)>;
+
+/// Errors: UsageError for anything but K/N with 1 <= K <= N or "auto", and for auto without such variables.
+[[nodiscard]] Share parse_share(const std::string& text, const Environment& environment);
+
+/// Number of processes of this sweep that a launcher (not an array) has started; 1 without a launcher.
+[[nodiscard]] std::size_t ranks(const Environment& environment);
 
 }  // namespace signorini

@@ -4,15 +4,14 @@
 
 #include <fstream>
 #include <system_error>
+#include "base/files.hpp"
 #include "base/json.hpp"
-#include "base/output_directory.hpp"
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "base/version.hpp"
 #include "result/csv.hpp"
 #include "result/run_directory.hpp"
-#include "result/units_json.hpp"
-#include "study/sweep/strobe_files.hpp"
+#include "result/summary_parts.hpp"
 #include "study/sweep/sweep_plots.hpp"
 #include "study/sweep/sweep_table.hpp"
 

@@ -4,7 +4,7 @@
 //   DIR/rows.jsonl        the finished rows in the order of completion (row_file.hpp)
 //   DIR/sweep.csv         the table of the finished rows, updated during the sweep
 //   DIR/results.json      the same as JSON, at the end
-//   DIR/strobe.csv        the points of a stroboscopic sweep, at the end (strobe_files.hpp)
+//   DIR/strobe.csv        the points of a stroboscopic sweep, at the end (sweep_table.hpp)
 //   DIR/runs/000001/      the runs, with --keep
 #pragma once
 
@@ -14,11 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "result/directory_lock.hpp"
+#include "result/run_directory.hpp"
+#include "study/sweep/parameter_range.hpp"
 #include "study/sweep/row_file.hpp"
-#include "study/sweep/share.hpp"
 #include "study/sweep/sweep_row.hpp"
-#include "study/sweep/vary.hpp"
 
 namespace signorini {
 

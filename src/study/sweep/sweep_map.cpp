@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/number.hpp"
-#include "study/key_unit.hpp"
+#include "base/text.hpp"
+#include "study/figures.hpp"
 
 namespace signorini {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/fingerprint.hpp"
 #include "base/json.hpp"
+#include "base/text.hpp"
 #include "scene/saved_state.hpp"
 #include "signorini/simulate.hpp"
 #include "study/prepared_run.hpp"

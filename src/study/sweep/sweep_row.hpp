@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "signorini/scene.hpp"
-#include "study/sweep/strobe.hpp"
+#include "study/sweep/stroboscopic_map.hpp"
 
 namespace signorini {
 

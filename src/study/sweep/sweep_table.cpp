@@ -1,15 +1,20 @@
 #include "study/sweep/sweep_table.hpp"
 
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
-#include "base/json.hpp"
+#include <utility>
 
+#include "base/json.hpp"
+#include "result/summary_parts.hpp"
 #include "result/table.hpp"
-#include "result/units_json.hpp"
 #include "signorini/event.hpp"
+#include "study/figures.hpp"
+#include "study/sweep/sweep_plots.hpp"
 
 namespace signorini {
-
 namespace {
 
 /// Columns of sweep.csv; figures of a row without a run are empty.
@@ -91,6 +96,113 @@ std::string sweep_json(const SweepSpec& spec, const SweepRows& rows) {
   json["rows"] = Json::array();
   for (const auto& [index, row] : rows) json["rows"].push_back(parse_json(row_json(row)));
   return json_text(json);
+}
+
+namespace {
+
+constexpr std::array<const char*, 6> point_colours = {"#1f77b4", "#d95f02", "#1b9e77",
+                                                      "#7b3294", "#e7298a", "#666666"};
+constexpr std::size_t most_values = 6;
+
+struct RowPoint {
+  const SweepRow* row;
+  const StrobePoint* point;
+};
+
+/// True if the row belongs to the repetition of the last range in the opposite order.
+bool goes_back(const SweepSpec& spec, const SweepRow& row) {
+  if (!spec.carry.back) return false;
+  const std::size_t count = spec.vary.back().values.size();
+  return row.index % count >= count / 2;
+}
+
+std::vector<RowPoint> points_of(const std::vector<const SweepRow*>& rows) {
+  std::vector<RowPoint> list;
+  for (const SweepRow* row : rows)
+    for (const StrobePoint& point : row->points) list.push_back({row, &point});
+  return list;
+}
+
+/// Indices of the drawn values.
+std::vector<std::size_t> drawn(const std::vector<StrobeColumn>& columns) {
+  std::vector<std::size_t> list;
+  const bool outputs = std::any_of(columns.begin(), columns.end(), [](const auto& c) { return c.output; });
+  for (std::size_t i = 0; i < columns.size() && list.size() < most_values; ++i)
+    if (columns[i].output == outputs) list.push_back(i);
+  return list;
+}
+
+void add_values(const SweepSpec& spec, CsvTable<RowPoint>& table) {
+  for (std::size_t i = 0; i < spec.strobe.columns.size(); ++i)
+    table.add(spec.strobe.columns[i].name, [i](const RowPoint& p) { return p.point->values[i]; });
+}
+
+CsvTable<RowPoint> point_table(const SweepSpec& spec, const SweptAxis& axis) {
+  CsvTable<RowPoint> table = {{"x", [axis](const RowPoint& p) { return axis.x(*p.row); }}};
+  add_values(spec, table);
+  return table;
+}
+
+}  // namespace
+
+std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows) {
+  CsvTable<RowPoint> table = {{"row", [](const RowPoint& p) { return p.row->index + 1; }}};
+  for (std::size_t i = 0; i < spec.vary.size(); ++i)
+    table.add(spec.vary[i].path, [i](const RowPoint& p) { return std::string_view(p.row->values[i]); });
+  table.add("way", [&spec](const RowPoint& p) {
+    return std::string_view(goes_back(spec, *p.row) ? "back" : "there");
+  });
+  table.add("t", [](const RowPoint& p) { return p.point->t; });
+  add_values(spec, table);
+  CsvBlock block;
+  table.put_header(block);
+  for (const auto& [index, row] : rows)
+    for (const StrobePoint& point : row.points) table.put_row(block, {&row, &point});
+  return block.str();
+}
+
+void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
+                        PictureFiles& files) {
+  const SweptAxis axis = axis_of(spec, true);
+  const CsvTable<RowPoint> table = point_table(spec, axis);
+  const std::vector<std::size_t> shown = drawn(spec.strobe.columns);
+  Picture picture{"strobe",
+                  "States " + (spec.strobe.period > 0.0 ? "every " : std::string("after every ")) +
+                      spec.strobe.text + (spec.strobe.period > 0.0 ? " " + spec.units.time : "") +
+                      other_keys(spec, axis),
+                  canvas_of(run.look, 148.0 + 320.0 * static_cast<double>(shown.size()), false), false};
+  picture.space = 26.0;
+  picture.setup = "set offsets 0,0,graph 0.05,graph 0.05\n" + x_range(axis);
+  std::vector<Curve> curves;  // without their column
+  for (const SweptCurve& curve : swept_curves(spec, rows, axis))
+    for (const bool back : {false, true}) {
+      if (curves.size() == point_colours.size()) break;
+      std::vector<const SweepRow*> part;
+      std::copy_if(curve.rows.begin(), curve.rows.end(), std::back_inserter(part),
+                   [&](const SweepRow* row) { return goes_back(spec, *row) == back; });
+      const std::vector<RowPoint> points = points_of(part);
+      if (points.empty()) continue;
+      const std::string name = fmt::format("strobe-{}", curves.size() + 1);
+      files.add_table(name, table.text(points));
+      std::string title = curve.name;
+      if (spec.carry.back) title += (title.empty() ? "" : ", ") + std::string(back ? "back" : "there");
+      curves.push_back({"'" + name + ".csv' skip 1", "",
+                        fmt::format("with points pointtype 7 pointsize {} linecolor '{}'", back ? 0.3 : 0.45,
+                                    point_colours[curves.size()]),
+                        title});
+    }
+  if (curves.empty()) return;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const StrobeColumn& column = spec.strobe.columns[shown[i]];
+    Panel panel{column.name + (column.unit.empty() ? "" : " [" + column.unit + "]"), curves,
+                "set yrange [*:*]\n"};
+    for (Curve& curve : panel.curves)
+      curve.columns = fmt::format("{}:{}", table.number("x"), table.number(column.name));
+    if (i + 1 == shown.size())
+      panel.axes += "set xlabel " + quoted(key_with_unit(axis.vary->path, spec.units)) + "\n";
+    picture.panels.push_back(panel);
+  }
+  files.add(run, picture);
 }
 
 }  // namespace signorini

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "result/picture_files.hpp"
 #include "study/sweep/sweep_directory.hpp"
 
 namespace signorini {
@@ -24,5 +25,15 @@ using SweepRows = std::map<std::size_t, SweepRow>;
 
 [[nodiscard]] std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows);
 [[nodiscard]] std::string sweep_json(const SweepSpec& spec, const SweepRows& rows);
+
+// The points of a stroboscopic sweep as a table, and as bifurcation diagrams.
+//
+//   strobe.csv       row,PATH,...,way,t,COLUMN,...     way: there, or back for rows in the opposite order
+//   plots/strobe.gp  one panel per value, points over the last swept key
+
+[[nodiscard]] std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows);
+/// Outputs, or displacements if the scene has no outputs; at most six panels.
+void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
+                        PictureFiles& files);
 
 }  // namespace signorini

@@ -9,9 +9,9 @@
 
 #include "certify/companion.hpp"
 #include "engine/tolerance.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/engines.hpp"
-#include "run/expected.hpp"
-#include "study/verify/observed.hpp"
+#include "study/verify/richardson.hpp"
 #include "study/verify/witnesses.hpp"
 
 namespace signorini {

@@ -7,9 +7,8 @@
 #include "base/json.hpp"
 #include "result/csv.hpp"
 #include "result/picture_files.hpp"
-#include "result/plot_folder.hpp"
+#include "result/summary_parts.hpp"
 #include "result/table.hpp"
-#include "result/units_json.hpp"
 #include "study/figures.hpp"
 
 namespace signorini {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "study/verify/observed.hpp"
 #include "study/verify/richardson.hpp"
 #include "study/verify/verify.hpp"
 

@@ -1,5 +1,5 @@
 // Extremes of polynomials whose turning points are known.
-#include "base/along.hpp"
+#include "base/curves.hpp"
 
 #include <doctest/doctest.h>
 

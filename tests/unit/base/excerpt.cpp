@@ -1,4 +1,4 @@
-#include "base/excerpt.hpp"
+#include "base/text.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "base/listed.hpp"
+#include "base/text.hpp"
 
 #include <doctest/doctest.h>
 

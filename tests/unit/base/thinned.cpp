@@ -1,4 +1,4 @@
-#include "base/thinned.hpp"
+#include "base/curves.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "certify/disturb.hpp"
+#include "certify/data_perturbation.hpp"
 #include "signorini/error.hpp"
 
 using namespace signorini;

@@ -1,4 +1,4 @@
-#include "certify/disturb.hpp"
+#include "certify/data_perturbation.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
-#include "certify/disturb.hpp"
+#include "certify/data_perturbation.hpp"
 #include "signorini/model.hpp"
 
 using namespace signorini;

@@ -1,5 +1,5 @@
 // Friction whose coefficient depends on N: its limit along a series, beside that of the function itself.
-#include "contact/friction_limit.hpp"
+#include "contact/friction.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "contact/transition.hpp"
-
 using namespace signorini;
 
 namespace {

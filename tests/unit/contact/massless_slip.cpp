@@ -1,10 +1,8 @@
-#include "contact/massless_slip.hpp"
+#include "contact/friction.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
-
-#include "contact/friction.hpp"
 
 using namespace signorini;
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contact/conditions.hpp"
+#include "contact/law.hpp"
 #include "contact/motion.hpp"
 
 using namespace signorini;

@@ -1,4 +1,4 @@
-#include "decide/circle.hpp"
+#include "decide/cycle_fallback.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
-#include "decide/decider.hpp"
+#include "decide/contact_state_solver.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "contact/slots.hpp"
+#include "contact/contact_states.hpp"
 #include "decide/driven_states.hpp"
 
 using namespace signorini;

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "behaviour/one_mass.hpp"
-#include "motion/mode_systems.hpp"
+#include "motion/state_systems.hpp"
 
 namespace signorini::tests::delassus_tests {
 namespace {

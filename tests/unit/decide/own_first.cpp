@@ -1,5 +1,5 @@
 // Who is asked first where several contacts change at one instant.
-#include "decide/own_first.hpp"
+#include "decide/cycle_fallback.hpp"
 
 #include <doctest/doctest.h>
 

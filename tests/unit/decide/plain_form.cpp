@@ -1,4 +1,4 @@
-#include "decide/plain_form.hpp"
+#include "decide/guard_signs.hpp"
 
 #include <doctest/doctest.h>
 

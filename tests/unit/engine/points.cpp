@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "motion/equilibrium.hpp"
+#include "motion/point.hpp"
 #include "unit/engine/six_masses.hpp"
 #include "unit/engine/stretch.hpp"
 

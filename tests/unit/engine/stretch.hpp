@@ -8,10 +8,10 @@
 #include <limits>
 #include <memory>
 
-#include "decide/decider.hpp"
+#include "decide/contact_state_solver.hpp"
 #include "decide/driven_states.hpp"
 #include "engine/tolerance.hpp"
-#include "motion/clock.hpp"
+#include "motion/point.hpp"
 #include "run/engines.hpp"
 
 namespace signorini::tests {

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include "model/rescale.hpp"
+#include "model/machine_units.hpp"
 #include "unit/engine/stretch.hpp"
 
 namespace signorini::tests::units {

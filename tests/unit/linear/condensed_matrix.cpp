@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "linear/band_order.hpp"
 #include "unit/linear/rubbing_row.hpp"
 
 using namespace signorini;

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "linear/klu.hpp"
-#include "linear/momentum.hpp"
+#include "linear/system_matrices.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "linear/system_matrix.hpp"
-#include "motion/mode_systems.hpp"
+#include "motion/state_systems.hpp"
 #include "unit/linear/rubbing_row.hpp"
 
 using namespace signorini;

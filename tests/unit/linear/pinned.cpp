@@ -1,4 +1,4 @@
-#include "linear/pinned.hpp"
+#include "linear/undamped_motion.hpp"
 
 #include <doctest/doctest.h>
 

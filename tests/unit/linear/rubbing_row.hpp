@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "contact/mode.hpp"
+#include "contact/contact_states.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

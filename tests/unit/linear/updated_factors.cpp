@@ -1,4 +1,4 @@
-#include "linear/updated_factors.hpp"
+#include "linear/mass_factors.hpp"
 
 #include <doctest/doctest.h>
 

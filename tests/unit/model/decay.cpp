@@ -1,4 +1,4 @@
-#include "model/decay.hpp"
+#include "model/slip_growth.hpp"
 
 #include <doctest/doctest.h>
 

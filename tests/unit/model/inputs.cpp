@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/history/history_internal.hpp"
+#include "base/history/pieces.hpp"
 #include "scene/history_from_spec.hpp"
 #include "signorini/simulate.hpp"
 #include "unit/model/scenes.hpp"

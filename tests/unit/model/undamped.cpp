@@ -1,4 +1,4 @@
-#include "model/undamped.hpp"
+#include "model/massless.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "motion/column_lanes.hpp"
+#include "motion/local_derivatives.hpp"
 
 #include <doctest/doctest.h>
 

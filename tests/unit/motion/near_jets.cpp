@@ -1,5 +1,5 @@
 // Jets near the contacts that ask beside those of the whole structure.
-#include "motion/near_jets.hpp"
+#include "motion/local_derivatives.hpp"
 
 #include <doctest/doctest.h>
 

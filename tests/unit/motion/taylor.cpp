@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "behaviour/one_mass.hpp"
-#include "motion/equilibrium.hpp"
+#include "motion/point.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini::tests::taylors {

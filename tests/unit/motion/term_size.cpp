@@ -1,4 +1,4 @@
-#include "motion/term_size.hpp"
+#include "motion/point.hpp"
 
 #include <doctest/doctest.h>
 

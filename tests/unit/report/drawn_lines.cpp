@@ -1,8 +1,8 @@
-#include "report/drawn_lines.hpp"
+#include "report/mesh_motion.hpp"
 
 #include <doctest/doctest.h>
 
-#include "result/frame_data.hpp"
+#include "result/frames.hpp"
 
 using namespace signorini;
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "report/drawn_lines.hpp"
+#include "report/mesh_motion.hpp"
 #include "unit/report/vtu_array.hpp"
 
 using namespace signorini;

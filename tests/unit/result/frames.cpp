@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include "result/frame_data.hpp"
+#include "result/frames.hpp"
 #include "result/plots.hpp"
 #include "result/run_directory.hpp"
 #include "unit/model/scenes.hpp"

@@ -9,7 +9,6 @@
 
 #include "base/json.hpp"
 #include "result/csv.hpp"
-#include "result/csv_read.hpp"
 #include "result/run_tables.hpp"
 #include "signorini/error.hpp"
 #include "unit/result/made_up.hpp"

@@ -1,5 +1,5 @@
 // Resultants of a seam against sums by hand.
-#include "result/seam_table.hpp"
+#include "result/run_tables.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "run/breakpoints.hpp"
+#include "run/steering.hpp"
 
 #include <doctest/doctest.h>
 

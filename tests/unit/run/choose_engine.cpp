@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include "engine/ida/order.hpp"
-#include "model/decay.hpp"
+#include "engine/ida/restart_order.hpp"
+#include "model/slip_growth.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;

@@ -1,5 +1,5 @@
 // Where a run leaves the range of small motions.
-#include "run/large_motions.hpp"
+#include "run/run_limits.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "run/output_value.hpp"
+#include "run/response.hpp"
 
 #include <doctest/doctest.h>
 

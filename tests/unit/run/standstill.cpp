@@ -1,4 +1,4 @@
-#include "run/standstill.hpp"
+#include "run/run_limits.hpp"
 
 #include <doctest/doctest.h>
 

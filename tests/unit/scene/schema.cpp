@@ -12,7 +12,7 @@
 
 #include "base/json.hpp"
 #include "scene/keys.hpp"
-#include "scene/toml_json.hpp"
+#include "scene/toml_node.hpp"
 
 using namespace signorini;
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scene/quantities.hpp"
-#include "scene/unit_of_text.hpp"
+#include "scene/units.hpp"
 #include "signorini/error.hpp"
 #include "unit/scene/equal.hpp"
 

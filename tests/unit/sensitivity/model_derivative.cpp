@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/rescale.hpp"
+#include "model/machine_units.hpp"
 #include "sensitivity/parameter.hpp"
 #include "signorini/error.hpp"
 

@@ -1,6 +1,9 @@
 #include "engine/exact/modal/damped_flow.hpp"
 
-#include "engine/exact/modal/passage_turns.hpp"
+#include <algorithm>
+
+#include "base/eigen_dense.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
 
 namespace signorini {
 
@@ -26,6 +29,54 @@ void DampedFlow::forces(const ModalPoint& at, Point& point) const {
     forces[layout.normal(c)] = motion_.value(motion_.contact(c).N, at);
     forces[layout.tangent(c)] = motion_.value(motion_.contact(c).T, at);
   }
+}
+
+namespace {
+
+constexpr double worst_loss_of_trip = 1e-12, worst_dependence = 1e4;  // as for real modes, spectrum.cpp
+
+}  // namespace
+
+void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
+  const Eigen::Index n = pencil.size();
+  const std::vector<ModalTerm>& terms = pencil.terms();
+  Eigen::VectorXd size = pencil.square().cwiseMax(pencil.square().cwiseAbs().maxCoeff() * 1e-12);
+  for (std::size_t a = 0; a < terms.size(); ++a)
+    if (!terms[a].rigid) size += pencil.stiffness(a) * terms[a].u.cwiseProduct(terms[a].v).cwiseAbs();
+  size = size.cwiseSqrt().eval();
+  if (!(size.maxCoeff() > 0.0)) size.setOnes();
+  Eigen::VectorXd q(n), rate(n);
+  double entry = 0.5;
+  for (Eigen::VectorXd* x : {&q, &rate})
+    for (Eigen::Index i = 0; i < n; ++i) {  // a logistic map: all modes, the same in every run
+      entry = 3.99 * entry * (1.0 - entry) + 1e-3;
+      (*x)[i] = 2.0 * entry - 1.0;
+    }
+  Eigen::MatrixXd forces(n, static_cast<Eigen::Index>(terms.size())), forms = forces;
+  Eigen::Index rigid = 0;
+  for (const ModalTerm& term : terms)
+    if (term.rigid) {
+      forces.col(rigid) = term.u;
+      forms.col(rigid++) = term.v;
+    }
+  const auto within = [&](Eigen::VectorXd x) {
+    if (rigid == 0) return x;
+    const auto u = forces.leftCols(rigid), v = forms.leftCols(rigid);
+    for (int twice = 0; twice < 2; ++twice) x -= u * solve_dense(v.transpose() * u, v.transpose() * x);
+    return x;
+  };
+  const Eigen::VectorXd place = within(q.cwiseQuotient(size));
+  rate = within(rate);
+  const Eigen::VectorXcd y = out.from_q * place + out.from_rate * rate;
+  const Eigen::VectorXd back = within((out.shape * y).real() - place),
+                        rate_back = within((out.shape * out.root.cwiseProduct(y)).real() - rate);
+  const double scale =
+      std::max({1.0, place.cwiseProduct(size).cwiseAbs().maxCoeff(), rate.cwiseAbs().maxCoeff()});
+  out.round_trip = std::sqrt(back.cwiseProduct(size).squaredNorm() + rate_back.squaredNorm()) / scale;
+  if (!(out.round_trip < worst_loss_of_trip))
+    out.failure = "the modes of the state do not give back what they are made of";
+  else if (!(out.condition < worst_dependence))
+    out.failure = "the modes of the state are nearly dependent";
 }
 
 }  // namespace signorini

@@ -3,6 +3,7 @@
 //   motion: damped_motion.hpp, proof: damped_proof.hpp, works: damped_works.hpp
 #pragma once
 
+#include "engine/exact/modal/damped_pencil.hpp"
 #include "engine/exact/modal/damped_proof.hpp"
 #include "engine/exact/modal/damped_works.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
@@ -57,5 +58,14 @@ class DampedFlow final : public ModalFlow {
   DampedWorks works_;
   long made_before_;
 };
+
+// Test that modes reproduce motions converted to them.
+//
+//   | Re X y - q |,  | Re X L y - q' |   for   y = Y_q q + Y_r q',   relative to a motion of size 1
+
+/// Converts a motion within the constraints, each mode of which has an energy of about 1, to modes and back: sets
+/// round_trip, and failure if the loss is too large or the modes are nearly dependent. Modes and pencil are both
+/// rotated.
+void test_round_trip(const DampedPencil& pencil, DampedModes& modes);
 
 }  // namespace signorini

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/exact/modal/damped_flow.hpp"
 #include "engine/exact/modal/damped_pencil.hpp"
-#include "engine/exact/modal/damped_round_trip.hpp"
 
 namespace signorini {
 namespace {

@@ -35,7 +35,7 @@ struct ModalQuantity {
 
 class DampedMotion {
  public:
-  /// kept: system of a structure with the same matrices (modal_memory.hpp), or null.
+  /// kept: system of a structure with the same matrices (modal_flow.hpp), or null.
   DampedMotion(const Model& model, const OpenBasis& basis, double t_end, DampedSystem* kept = nullptr)
       : model_(model),
         basis_(basis),

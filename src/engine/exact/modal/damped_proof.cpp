@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "engine/exact/modal/settle_guard.hpp"
+#include "engine/exact/modal/modal_proof.hpp"
 
 namespace signorini {
 namespace {

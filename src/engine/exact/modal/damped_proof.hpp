@@ -4,9 +4,9 @@
 //   |ripple| <= sum |row_k y_k| e^max(0, Re l_k h)  over the other modes
 #pragma once
 
+#include "engine/events/active_guards.hpp"
 #include "engine/exact/modal/damped_motion.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
-#include "engine/falls/arming.hpp"
 #include "motion/contact_series.hpp"
 
 namespace signorini {
@@ -22,7 +22,7 @@ class DampedProof {
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at) const;
 
-  // Interface required by passage_turns.hpp.
+  // Interface required by modal_flow.hpp.
   [[nodiscard]] double unit() const { return h_; }
   [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
   double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);

@@ -7,8 +7,8 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "engine/exact/modal/open_modes.hpp"
-#include "linear/shared_rows.hpp"
+#include "engine/exact/modal/unconstrained_modes.hpp"
+#include "linear/redundant_rows.hpp"
 
 namespace signorini {
 namespace {
@@ -99,7 +99,7 @@ std::optional<Damping> damping_of(const Model& model) {
 
 namespace {
 
-/// True if there are rigid terms whose forces are not unique (linear/shared_rows.hpp).
+/// True if there are rigid terms whose forces are not unique (linear/redundant_rows.hpp).
 bool holds_twice(const std::vector<ModalTerm>& terms) {
   std::vector<Index> rigid;
   for (std::size_t a = 0; a < terms.size(); ++a)

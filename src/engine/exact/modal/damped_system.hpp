@@ -12,11 +12,11 @@
 
 #include <memory>
 
-#include "base/bounded_cache.hpp"
+#include "base/containers.hpp"
+#include "contact/contact_states.hpp"
 #include "contact/law.hpp"
-#include "contact/mode.hpp"
 #include "engine/exact/modal/damped_modes.hpp"
-#include "engine/exact/modal/open_basis.hpp"
+#include "engine/exact/modal/unconstrained_modes.hpp"
 
 namespace signorini {
 

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "engine/exact/modal/damped_motion.hpp"
-#include "motion/powers.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 

@@ -9,16 +9,15 @@
 #include "contact/friction.hpp"
 #include "engine/exact/modal/damped_flow.hpp"
 #include "engine/exact/modal/proportional_flow.hpp"
-#include "model/said.hpp"
-#include "motion/clock.hpp"
-#include "motion/equilibrium.hpp"
+#include "model/machine_units.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr std::size_t most_parts = 256;  // limit for parts of a step: each holds the amplitudes of all modes
 constexpr int most_touches = 5;          // warnings of the same kind
-constexpr double lost_in_modes = 1e-12;  // limit for the loss in modes: spectrum.cpp, damped_round_trip.cpp
+constexpr double lost_in_modes = 1e-12;  // limit for the loss in modes: spectrum.cpp, damped_flow.cpp
 constexpr int most_corrections = 4;      // corrections of an event time; one suffices unless two guards graze
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include "engine/exact/exact_engine.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
-#include "engine/exact/modal/modal_memory.hpp"
 
 namespace signorini {
 

@@ -6,13 +6,16 @@
 // modes for all other linear laws (damped_flow.hpp).
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/rounding.hpp"
+#include "engine/events/turning_points.hpp"
+#include "engine/exact/modal/damped_system.hpp"
 #include "engine/exact/modal/oscillators.hpp"
-#include "engine/falls/turning_points.hpp"
 #include "engine/stepper.hpp"
 
 namespace signorini {
@@ -73,5 +76,104 @@ class ModalFlow {
   /// Number of contact states whose modes were computed.
   [[nodiscard]] virtual long states_made() const = 0;
 };
+
+// Open modes, and complex modes of contact states, kept for all runs of one structure.
+//
+//   ModalMemory memory;      ListenerNeeds::modal->memory = &memory: successive runs, e.g. of orbits and their branches
+//
+// Computing a state's complex modes costs as much as simulating many periods with them. They depend on the structure
+// alone, except for the sums of roots whose pairs are slow relative to the run: kept modes belong to a run at least as
+// long, and at most 1e4 times as long. In the shortest runs this costs digits of the works of such pairs, none of the
+// motion.
+
+class ModalSystem;
+
+class ModalMemory {
+ public:
+  struct Kept {
+    Kept(const Model& of, double longest) : model(of), basis(model), t_end(longest) {}
+    Kept(const Kept&) = delete;
+    Kept& operator=(const Kept&) = delete;
+    const Model model;  ///< load histories and start are unused; directions of loads count
+    const OpenBasis basis;
+    const double t_end;
+    std::unique_ptr<DampedSystem> damped;  ///< created on request
+  };
+
+  /// Kept data for this structure, whose runs end at t_end.
+  [[nodiscard]] std::shared_ptr<Kept> of(const Model& model, double t_end);
+
+ private:
+  std::shared_ptr<Kept> kept_;
+};
+
+/// Data shared by the engine and a listener of its run.
+struct ModalShare {
+  ModalMemory* memory = nullptr;  ///< from earlier runs; null: none
+  ModalSystem* modes = nullptr;   ///< set by the engine: its modes; null: none, or complex ones
+};
+
+// Extreme values of N, T, g and ut within a passage, in modes.
+//
+//   places where a peak may exceed the earlier range: first by slow modes, then with ripples of the size of rounding
+//
+// A proof (modal_proof.hpp, damped_proof.hpp) is a step of length unit() that was expanded from a point, and offers
+//   within(at, known, x_end)                     the part of [0, x_end] without a turn beyond the known ranges
+//   expand_beside(at, known, share, remaining)   a new step, with ripples up to that share of the ranges; its length
+//   see_begin(at, time, turning, turns)          turning points at a point itself
+//   series(at)                                   the contacts' slow parts on the step
+
+/// Bounds on the contribution of fast modes, relative to the range of the quantity. Localising a peak needs ripples of
+/// the size of rounding. Excluding a peak needs only ripples that leave the answer decidable: larger ones allow longer
+/// steps, but do not separate a value near the greatest one so far from a greater one. Chosen values.
+inline constexpr double fine_ripple = rounding::of_elimination, greatest_ripple = 1e-4, least_ripple = 1e-10,
+                        ripple_step = 10.0;
+
+/// advance(from, step, to): the closed form. begin: the time of `from`; observed: the passage begins with a segment,
+/// whose beginning was already examined.
+template <class Proof, class Advance>
+void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& from, double begin,
+                        double length, bool observed, TurningPoints& turning, LastTurns& turns) {
+  if (!observed) proof.see_begin(from, begin, turning, turns);
+  const double x_end = length / proof.unit(), x = proof.within(from, turning, x_end);
+  if (x >= x_end) return;
+  double done = x * proof.unit();
+  ModalPoint point, next;
+  advance(from, done, point);
+  const auto go = [&](double step) {
+    advance(point, step, next);
+    std::swap(point, next);
+    done += step;
+  };
+  double share = greatest_ripple;
+  for (bool moved = true; done < length;) {
+    // A quantity that was monotone up to here may turn at this very point.
+    if (moved) proof.see_begin(point, begin + done, turning, turns);
+    const double look = proof.expand_beside(point, turning, share, length - done);
+    const double safe = look > 0.0 ? proof.within(point, turning, look / proof.unit()) * proof.unit() : 0.0;
+    moved = safe > 0.0;
+    if (moved) go(safe);
+    if (moved && safe >= look) {
+      share = std::min(greatest_ripple, share * ripple_step);
+      continue;
+    }
+    if (!moved && share > least_ripple) {
+      share = std::max(least_ripple, share / ripple_step);
+      continue;
+    }
+    // At the end of the passage a slope may be only rounding and then has no direction.
+    if (!(done < length)) return;
+    const double step = proof.expand_beside(point, turning, fine_ripple, length - done);
+    if (!(step > 0.0)) return;
+    Series clock;
+    clock.t = begin + done;
+    clock.scale = proof.unit();
+    const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
+    turning.find(proof.series(point), clock, 0.0, step / proof.unit(), ends);
+    for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
+    go(step);
+    moved = true;
+  }
+}
 
 }  // namespace signorini

@@ -8,11 +8,11 @@
 
 #include <memory>
 
-#include "base/bounded_cache.hpp"
-#include "contact/mode.hpp"
+#include "base/containers.hpp"
+#include "contact/contact_states.hpp"
 #include "engine/exact/modal/mode_pairs.hpp"
-#include "engine/exact/modal/open_basis.hpp"
 #include "engine/exact/modal/spectrum.hpp"
+#include "engine/exact/modal/unconstrained_modes.hpp"
 #include "motion/forcing.hpp"
 
 namespace signorini {

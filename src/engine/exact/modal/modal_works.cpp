@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact/law.hpp"
-#include "engine/exact/modal/pair_lanes.hpp"
+#include "engine/exact/modal/mode_pairs.hpp"
 
 namespace signorini {
 namespace {

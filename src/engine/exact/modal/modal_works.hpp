@@ -10,7 +10,7 @@
 #pragma once
 
 #include "engine/exact/modal/modal_proof.hpp"
-#include "motion/powers.hpp"
+#include "motion/point.hpp"
 
 namespace signorini {
 

@@ -5,6 +5,7 @@
 // Real modes k != l; 0 for two without frequency. Symmetric, and known for l < k.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "engine/exact/modal/spectrum.hpp"
@@ -27,5 +28,28 @@ class ModePairs {
 
 /// Computes shared_kl for all l < k.
 void pairs_of_mode(const Spectrum& spectrum, double alpha, Eigen::Index k, double* shared);
+
+// Sums over pairs of one mode with each mode before it.
+//
+//   y = oscillating part of a mode, y0, r0 = y, y' at the beginning of a stretch, y1, r1 at its end, l = omega^2
+//   e = 1/( d^2 + 2 alpha^2 (l_k + l_i) ),  d = l_i - l_k
+//   int y_k' y_i' = -e ( 2 alpha l_k l_i [yy] + alpha (l_k + l_i) [rr] + d (l_k [yr] - l_i [ry]) )
+//   int y_k y_i'  =  e ( l_i (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_i [ry]) )
+//
+// [yy] = y_k y_i at the end minus its value at the beginning, [yr] = y_k y_i', and so on. Sums are taken in four parts.
+
+/// Lists over all modes.
+struct ModeEnds {
+  const double *l, *y0, *r0, *y1, *r1;
+};
+
+/// For mode k and all i < k: writes [yy] and int y_k y_i', returns the sum of -x_k^T x_i int y_k' y_i'. shared: x_k^T
+/// x_i e (mode_pairs.hpp).
+[[nodiscard]] double meet_before(const ModeEnds& ends, double alpha, std::ptrdiff_t k, const double* shared,
+                                 double* yy, double* mixed);
+
+/// sum over i < k of n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ): contribution of both to int (sum n y)(sum t y').
+[[nodiscard]] double crossed_before(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
+                                    const double* mixed);
 
 }  // namespace signorini

@@ -1,7 +1,7 @@
 #include "engine/exact/modal/proportional_flow.hpp"
 
 #include "contact/motion.hpp"
-#include "engine/exact/modal/passage_turns.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
 
 namespace signorini {
 

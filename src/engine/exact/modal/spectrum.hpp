@@ -19,8 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/exact/modal/small_lu.hpp"
-#include "engine/exact/modal/thin_product.hpp"
+#include "engine/exact/modal/small_matrices.hpp"
 
 namespace signorini {
 

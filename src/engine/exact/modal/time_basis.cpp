@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/exact/gauss_rule.hpp"
+#include "engine/exact/series_works.hpp"
 
 namespace signorini {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "base/history/history_internal.hpp"
-#include "model/rescale.hpp"
+#include "base/history/pieces.hpp"
+#include "model/machine_units.hpp"
 #include "signorini/smooth.hpp"
 
 using namespace signorini;

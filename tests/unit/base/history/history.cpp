@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "base/history/history_internal.hpp"
-#include "base/history/resolved.hpp"
+#include "base/history/pieces.hpp"
 #include "scene/history_from_spec.hpp"
 
 using namespace signorini;

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "contact/conditions.hpp"
 #include "contact/constants.hpp"
 #include "contact/law.hpp"
 #include "contact/law/data_laws.hpp"

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "contact/law.hpp"
-#include "contact/transition.hpp"
 
 using namespace signorini;
 

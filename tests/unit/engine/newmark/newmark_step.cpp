@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "motion/consistent.hpp"
-#include "motion/equilibrium.hpp"
+#include "motion/point.hpp"
 #include "signorini/simulate.hpp"
 #include "unit/linear/rubbing_row.hpp"
 

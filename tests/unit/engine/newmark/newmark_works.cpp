@@ -1,4 +1,4 @@
-#include "engine/newmark/newmark_works.hpp"
+#include "engine/newmark/newmark_step.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Impulses that steps of average acceleration pass on.
-#include "engine/newmark/short_pulse.hpp"
+#include "engine/newmark/newmark_step.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/mode_systems.hpp"
+#include "motion/state_systems.hpp"
 #include "unit/linear/rubbing_row.hpp"
 
 using namespace signorini;

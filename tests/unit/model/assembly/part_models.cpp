@@ -1,4 +1,4 @@
-#include "model/assembly/part_models.hpp"
+#include "model/assembly/parts.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Bars, damping by ratios, and the new keys as the model sees them.
-#include "model/element/bar.hpp"
+#include "model/element/line_elements.hpp"
 
 #include <doctest/doctest.h>
 

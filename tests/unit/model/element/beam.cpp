@@ -1,4 +1,4 @@
-#include "model/element/beam.hpp"
+#include "model/element/line_elements.hpp"
 
 #include <doctest/doctest.h>
 

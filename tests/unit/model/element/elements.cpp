@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "model/assembly/dofs.hpp"
-#include "model/element/bar.hpp"
-#include "model/element/beam.hpp"
 #include "model/element/element_kinds.hpp"
+#include "model/element/line_elements.hpp"
 #include "model/outputs/structure_rows.hpp"
 #include "unit/model/scenes.hpp"
 

@@ -6,9 +6,9 @@
 
 #include "base/eigen_dense.hpp"
 #include "model/assembly/assembly.hpp"
-#include "model/assembly/drawing.hpp"
-#include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/member_pieces.hpp"
+#include "model/assembly/prestress.hpp"
 #include "model/outputs/structure_rows.hpp"
 #include "unit/model/element/triangle.hpp"
 #include "unit/model/scenes.hpp"

@@ -1,5 +1,5 @@
 // Damping matrices that are sums of mass and stiffness.
-#include "model/reduce/rayleigh.hpp"
+#include "model/reduce/kept_modes.hpp"
 
 #include <doctest/doctest.h>
 

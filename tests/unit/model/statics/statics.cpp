@@ -5,7 +5,7 @@
 #include "differential/generator.hpp"
 #include "differential/random.hpp"
 #include "differential/transform.hpp"
-#include "model/statics/null_motions.hpp"
+#include "model/statics/mechanisms.hpp"
 #include "unit/model/scenes.hpp"
 
 using namespace signorini;

@@ -1,4 +1,4 @@
-#include "study/compare/joined_tables.hpp"
+#include "study/compare/alignment.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/quake/response_spectrum.hpp"
-#include "study/quake/target_spectrum.hpp"
+#include "study/quake/spectra.hpp"
 
 using namespace signorini;
 

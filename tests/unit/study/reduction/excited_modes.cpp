@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "model/build.hpp"
-#include "model/statics/null_motions.hpp"
+#include "model/statics/mechanisms.hpp"
 #include "signorini/scene.hpp"
 #include "study/reduction/excited_modes.hpp"
 

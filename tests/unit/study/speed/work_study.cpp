@@ -1,8 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "signorini/error.hpp"
-#include "study/speed/decades.hpp"
-#include "study/speed/frontier.hpp"
+#include "study/speed/pareto_front.hpp"
 #include "study/speed/work_plan.hpp"
 
 using namespace signorini;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number.hpp"
+#include "base/text.hpp"
+#include "study/sweep/parameter_range.hpp"
 #include "study/sweep/quantiles.hpp"
-#include "study/sweep/sample.hpp"
 
 using namespace signorini;
 

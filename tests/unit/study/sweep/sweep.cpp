@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "study/sweep/share.hpp"
-#include "study/sweep/vary.hpp"
+#include "study/sweep/parameter_range.hpp"
+#include "study/sweep/row_file.hpp"
 
 using namespace signorini;
 

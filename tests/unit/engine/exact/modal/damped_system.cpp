@@ -8,7 +8,7 @@
 #include <string>
 
 #include "behaviour/scene_parts.hpp"
-#include "certify/disturb.hpp"
+#include "certify/data_perturbation.hpp"
 #include "signorini/scene.hpp"
 
 using namespace signorini;

@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "engine/exact/modal/pair_lanes.hpp"
-#include "engine/exact/modal/pole_lanes.hpp"
-#include "engine/exact/modal/thin_product.hpp"
+#include "engine/exact/modal/complex_lanes.hpp"
+#include "engine/exact/modal/mode_pairs.hpp"
+#include "engine/exact/modal/small_matrices.hpp"
 
 using namespace signorini;
 using Eigen::VectorXd;

@@ -1,4 +1,4 @@
-#include "engine/exact/modal/open_basis.hpp"
+#include "engine/exact/modal/unconstrained_modes.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/core.h>

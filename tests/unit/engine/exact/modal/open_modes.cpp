@@ -1,5 +1,5 @@
 // All modes of structures whose contacts are open.
-#include "engine/exact/modal/open_modes.hpp"
+#include "engine/exact/modal/unconstrained_modes.hpp"
 
 #include <doctest/doctest.h>
 

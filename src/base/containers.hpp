@@ -1,0 +1,144 @@
+// containers.hpp: least-recently-used cache with bounded count and size.
+//
+//   if (Value* known = cache.find(key)) use(*known); else use(cache.insert(key, make(key), bytes));
+//
+// Bounded by number of entries and by bytes: the least recently used entry is removed first. The last inserted entry
+// always stays, whatever its size. References are valid until the next insert.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <list>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace signorini {
+
+struct CacheBounds {
+  std::size_t count = 0, bytes = 0;
+};
+
+template <class Key, class Value>
+class BoundedCache {
+ public:
+  explicit BoundedCache(CacheBounds most) : most_(most) {}
+  // The index refers to the list.
+  BoundedCache(const BoundedCache&) = delete;
+  BoundedCache& operator=(const BoundedCache&) = delete;
+
+  /// nullptr if the key is absent.
+  [[nodiscard]] Value* find(const Key& key) {
+    const auto known = index_.find(key);
+    if (known == index_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, known->second);
+    return &known->second->value;
+  }
+  /// key: must be absent. bytes: memory of key and value in addition to their own sizes.
+  Value& insert(const Key& key, Value value, std::size_t bytes) {
+    entries_.push_front({std::move(value), bytes + each, {}});
+    entries_.front().place = index_.emplace(key, entries_.begin()).first;
+    bytes_ += bytes + each;
+    while (entries_.size() > 1 && (entries_.size() > most_.count || bytes_ > most_.bytes)) {
+      bytes_ -= entries_.back().bytes;
+      index_.erase(entries_.back().place);
+      entries_.pop_back();
+    }
+    return entries_.front().value;
+  }
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  struct Entry;
+  using Entries = std::list<Entry>;
+  using Index = std::map<Key, typename Entries::iterator>;
+  struct Entry {
+    Value value;
+    std::size_t bytes;
+    typename Index::iterator place;
+  };
+  /// Size of the nodes of list and index: their contents, and about four words each of links.
+  static constexpr std::size_t each = sizeof(Entry) + sizeof(typename Index::value_type) + 8 * sizeof(void*);
+  CacheBounds most_;
+  Entries entries_;  // most recently used first
+  Index index_;
+  std::size_t bytes_ = 0;
+};
+
+// Connected components of 0 .. n-1, from connected pairs (union-find).
+//
+//   DisjointSets sets(n);
+//   sets.join(i, j);
+//   sets.find(i) == sets.find(j)
+//
+// Nearly linear in the number of pairs (Tarjan 1975).
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  /// The smallest member of i's set.
+  [[nodiscard]] std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t i, std::size_t j) {
+    i = find(i);
+    j = find(j);
+    (i < j ? parent_[j] : parent_[i]) = i < j ? i : j;
+  }
+  /// The sets in the order of their smallest members, members ascending.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> sets() {
+    std::vector<std::vector<std::size_t>> result;
+    std::vector<std::size_t> number(parent_.size());
+    for (std::size_t i = 0; i < parent_.size(); ++i) {
+      const std::size_t root = find(i);
+      if (root == i) {
+        number[i] = result.size();
+        result.emplace_back();
+      }
+      result[number[root]].push_back(i);
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// A copy-on-write vector whose copies share unchanged pieces.
+//
+//   a, b = a copy of a;  b.set(i, x)        only the piece that contains i is copied
+//
+// Pieces are never written after their creation, so copies may be read by several threads.
+
+/// piece: number of elements that are copied together with a changed one; the last piece may be smaller.
+template <class T, std::size_t piece = 16>
+class SharedVector {
+ public:
+  SharedVector() = default;
+  explicit SharedVector(std::size_t size, const T& value = T()) : size_(size) {
+    if (size >= piece) pieces_.assign(size / piece, std::make_shared<T[]>(piece, value));
+    if (size % piece > 0) pieces_.push_back(std::make_shared<T[]>(size % piece, value));
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return pieces_[i / piece][i % piece]; }
+  void set(std::size_t i, T value) {
+    std::shared_ptr<const T[]>& mine = pieces_[i / piece];
+    const std::size_t length = std::min(piece, size_ - i / piece * piece);
+    auto other = std::make_shared<T[]>(length);
+    std::copy_n(mine.get(), length, other.get());
+    other[i % piece] = std::move(value);
+    mine = std::move(other);
+  }
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<std::shared_ptr<const T[]>> pieces_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,225 @@
+// curves.hpp: reduces many rows to few, with straight lines between them.
+//
+//   lines:   a row is dropped if the straight line between the neighbouring kept rows passes each of its quantities q
+//            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-10
+//   bins:    if that is not enough, each bin [i w, (i + 1) w) of time keeps the first and the last row, and those with
+// the
+//            smallest and the largest value of each quantity, in order (M4: Jugel, Jerzak, Hackenbroich, Markl 2014;
+// lines
+//            between bins are those of all rows);   w = duration / 10000, doubled as often as needed up to duration /
+// 1250
+//
+// Rows are processed once for each c, and once more at the end: a dropped row is at most 3 c, 0.3 % of the range, off
+// the lines, or within a bin whose extremes are drawn. 0.3 % is half a pixel of a panel of 170 pixels; the widest
+// picture has a panel of 1234 pixels.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace signorini {
+
+// Low-degree polynomial through values at points along a line.
+//
+//   p(x) = sum_i L_i(x) f_i,   x_i = (1 - cos(pi i/(n - 1)))/2 in [0, 1],  degree n - 1;   n = 1: a constant
+//
+//   |p - the line through both ends| <= 2 max_i |f_i - the line at x_i|       (Lebesgue's constant, n <= 6)
+//
+// Extremes: both ends, and where p' is zero; its zeros lie between those of p'', and so on.
+
+struct Along {
+  static constexpr std::size_t most = 6;  ///< limit for the number of points
+  static constexpr double lebesgue = 2.0;
+  using Values = std::array<double, most>;
+
+  /// Position of the i-th of n points.
+  [[nodiscard]] static double point(std::size_t n, std::size_t i);
+  [[nodiscard]] static double through(const Values& f, std::size_t n, double x);
+
+  /// The first position is given if several values are equal up to rounding.
+  struct Extremes {
+    double least = 0.0, greatest = 0.0, at_least = 0.0, at_greatest = 0.0;
+  };
+  [[nodiscard]] static Extremes extremes(const Values& f, std::size_t n);
+};
+
+/// Values{}(row): an array of `count` quantities; bins keep the extremes of the first `drawn`. Rows have an ascending
+/// time t; it may repeat.
+template <class Row, std::size_t count, class Values, std::size_t drawn = count>
+class Thinned {
+ public:
+  using Quantities = std::array<double, count>;
+
+  struct Wanted {
+    /// Target number of rows at the end; bins have more if a picture needs them.
+    std::size_t most = 8000;
+    /// Never more than `most`, with bins as wide as necessary.
+    bool crowded = false;
+    /// Lines keep both of two rows with the same time.
+    bool both_sides = false;
+    /// Lines leave no gap of more than this.
+    double widest = std::numeric_limits<double>::infinity();
+  };
+  Thinned(double duration, const Wanted& wanted)
+      : duration_(duration), wanted_(wanted), limit_(room(wanted.most)) {
+    least_.fill(std::numeric_limits<double>::infinity());
+    greatest_.fill(-std::numeric_limits<double>::infinity());
+  }
+
+  void add(const Row& row) {
+    const Quantities q = Values{}(row);
+    for (std::size_t i = 0; i < count; ++i) {
+      least_[i] = std::min(least_[i], q[i]);
+      greatest_[i] = std::max(greatest_[i], q[i]);
+    }
+    // Reserved at once: unused pages cost nothing, whereas growing vectors fragment memory.
+    if (rows_.capacity() == 0)
+      rows_.reserve(room(std::max(wanted_.most, wanted_.crowded ? 0 : most_of_bins)) + 1);
+    rows_.push_back(row);
+    if (rows_.size() > limit_) thin();
+  }
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  /// Moves the rows out.
+  [[nodiscard]] std::vector<Row> take() { return std::move(rows_); }
+  /// Width of a bin; 0 if there are none.
+  [[nodiscard]] double width() const { return width_; }
+  /// Largest minus smallest value of the i-th quantity so far.
+  [[nodiscard]] double range(std::size_t i = 0) const {
+    return rows_.empty() ? 0.0 : greatest_[i] - least_[i];
+  }
+  /// The largest magnitude of the i-th quantity.
+  [[nodiscard]] double size(std::size_t i) const {
+    return rows_.empty() ? 0.0 : std::max(std::abs(least_[i]), std::abs(greatest_[i]));
+  }
+
+  /// To be called at the end. Differences up to `floors` count as none.
+  void close(const Quantities& floors) {
+    floors_ = floors;
+    share_ = std::max(share_, finest);
+    settled_ = 0;
+    leave_out_lines();
+    if (width_ > 0.0) keep_extremes();
+    if (rows_.size() > wanted_.most) thin();
+  }
+
+ private:
+  static constexpr double finest = 1.0 / 4096.0, coarsest = 1.0 / 1024.0;
+  static constexpr double first_bins = 10000.0, pixels = 1250.0;
+  static constexpr std::size_t most_of_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
+
+  /// Number of rows held before they are thinned: each row is processed about nine times, and the memory is an eighth
+  /// more than that of the kept rows.
+  static std::size_t room(std::size_t kept) { return kept + kept / 8; }
+
+  void thin() {
+    const std::size_t enough = wanted_.most;
+    if (share_ > 0.0) leave_out_lines();
+    while (rows_.size() > enough && share_ < coarsest) {
+      share_ = std::max(2.0 * share_, finest);
+      settled_ = 0;
+      leave_out_lines();
+    }
+    if (width_ > 0.0) keep_extremes();
+    while (rows_.size() > enough && width_ < (wanted_.crowded ? duration_ : duration_ / pixels)) {
+      width_ = std::max(2.0 * width_, duration_ / first_bins);
+      keep_extremes();
+    }
+    limit_ = room(std::max(enough, rows_.size()));
+  }
+
+  /// Lines from the last kept row that pass all rows since then have slopes between low and high.
+  void leave_out_lines() {
+    if (rows_.size() < settled_ + 3) return;
+    Quantities d, low, high, from;
+    for (std::size_t i = 0; i < count; ++i) d[i] = std::max(share_ * (greatest_[i] - least_[i]), floors_[i]);
+    std::size_t kept = settled_;  // its index; the row itself is at `anchor` until then
+    double t = 0.0;
+    const auto begin_at = [&](const Row& row) {
+      from = Values{}(row);
+      t = row.t;
+      low.fill(-std::numeric_limits<double>::infinity());
+      high.fill(std::numeric_limits<double>::infinity());
+    };
+    begin_at(rows_[kept]);
+    std::size_t anchor = kept;
+    for (std::size_t j = kept + 1; j < rows_.size(); ++j) {
+      const Quantities to = Values{}(rows_[j]);
+      const auto all = [&](const auto& holds) {
+        for (std::size_t i = 0; i < count; ++i)
+          if (!holds(i)) return false;
+        return true;
+      };
+      double h = rows_[j].t - t;
+      const bool side = wanted_.both_sides && rows_[j].t == rows_[j - 1].t;
+      const bool needed = side || h > wanted_.widest || !all([&](std::size_t i) {
+                            return to[i] - from[i] >= low[i] * h && to[i] - from[i] <= high[i] * h;
+                          });
+      if (needed && j - 1 > anchor) {
+        anchor = j - 1;
+        begin_at(rows_[anchor]);
+        rows_[++kept] = rows_[anchor];
+        h = rows_[j].t - t;
+      }
+      if (h > 0.0) {
+        for (std::size_t i = 0; i < count; ++i) {
+          low[i] = std::max(low[i], (to[i] - d[i] - from[i]) / h);
+          high[i] = std::min(high[i], (to[i] + d[i] - from[i]) / h);
+        }
+      } else if (wanted_.both_sides ||
+                 !all([&](std::size_t i) { return std::abs(to[i] - from[i]) <= d[i]; })) {
+        anchor = j;  // the other side of a jump
+        begin_at(rows_[j]);
+        rows_[++kept] = rows_[j];
+      }
+    }
+    if (anchor + 1 < rows_.size()) rows_[++kept] = rows_.back();
+    rows_.resize(kept + 1);
+    settled_ = kept;
+  }
+
+  void keep_extremes() {
+    std::size_t kept = 0;
+    std::array<std::size_t, 2 * drawn + 2> chosen;
+    for (std::size_t begin = 0; begin < rows_.size();) {
+      const double bin = std::floor(rows_[begin].t / width_);
+      std::size_t end = begin + 1;
+      std::ptrdiff_t n = 0;
+      while (end < rows_.size() && std::floor(rows_[end].t / width_) == bin) ++end;
+      const auto choose = [&](std::size_t j) { chosen[static_cast<std::size_t>(n++)] = j; };
+      choose(begin);
+      choose(end - 1);
+      for (std::size_t i = 0; i < drawn; ++i) {
+        std::size_t least = begin, greatest = begin;
+        for (std::size_t j = begin + 1; j < end; ++j) {
+          const double q = Values{}(rows_[j])[i];
+          if (q < Values{}(rows_[least])[i]) least = j;
+          if (q > Values{}(rows_[greatest])[i]) greatest = j;
+        }
+        choose(least);
+        choose(greatest);
+      }
+      std::sort(chosen.begin(), chosen.begin() + n);
+      const auto last = std::unique(chosen.begin(), chosen.begin() + n);
+      for (auto j = chosen.begin(); j != last; ++j) rows_[kept++] = rows_[*j];
+      begin = end;
+    }
+    rows_.resize(kept);
+    settled_ = kept - 1;
+  }
+
+  double duration_;
+  Wanted wanted_;
+  std::size_t limit_;
+  std::vector<Row> rows_;
+  Quantities least_, greatest_, floors_{};
+  double share_ = 0.0, width_ = 0.0;
+  std::size_t settled_ = 0;  // last row processed with the current c
+};
+
+}  // namespace signorini

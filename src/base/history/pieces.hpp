@@ -1,0 +1,43 @@
+// pieces.hpp: rounding error and magnitude of a history.
+//
+//   |computed f(t) - f(t)| <= 64 eps ( sum_j |c_j s^j| + |a| (1 + |w s + phi|) + (|t| + |t0|) |f'|~ )
+//   s = t - t0
+//
+// |f'|~ is the derivative with all terms taken positive: times themselves are rounded, so f has at least the error |f'|
+// eps |t|.
+#pragma once
+
+#include "signorini/history.hpp"
+
+namespace signorini {
+
+/// Bound of the rounding error of evaluating the piece at t; units of f.
+[[nodiscard]] double roundoff(const Piece& piece, double t);
+/// Same for its first derivative.
+[[nodiscard]] double roundoff_of_rate(const Piece& piece, double t);
+
+/// Upper estimate of max |f| on [0, t_end]: exact for constants, lines, steps and pulses, sampled otherwise. Units of
+/// f.
+[[nodiscard]] double magnitude(const History& f, double t_end);
+
+/// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]; each piece
+/// counts with its largest |f|. Units of f times time.
+[[nodiscard]] double greatest_impulse(const History& f, double t_end, double width);
+
+/// A time in [0, t_end] at which f is negative beyond rounding, or -1 if there is none: proved with the minima of sines
+/// and with bounds of polynomials, not sampled (except user-defined functions). A piece counts up to and including the
+/// start of the next one.
+[[nodiscard]] double negative_at(const History& f, double t_end);
+
+// Merges starts of pieces that the time resolution of a run cannot separate.
+//
+//   starts s_i, s_j of pieces with 0 <= s_j - s_i <= 100 eps (s_i + t_end)  ->  one at the last of them
+//   starts in [0, 100 eps t_end]                                            ->  one at 0
+//
+// Shorter pieces are skipped, because each engine would treat their unresolved steps differently.
+
+/// End of the group of starts, beginning with `from`, that are one instant: indices [from, result).
+[[nodiscard]] std::size_t end_of_instant(const History& f, std::size_t from, double t_end);
+[[nodiscard]] History resolved(const History& f, double t_end);
+
+}  // namespace signorini

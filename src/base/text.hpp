@@ -1,0 +1,103 @@
+// text.hpp: converts numbers to text and back, independent of the locale.
+//
+//   shortest(0.1) == "0.1";  parse_number(shortest(x)) == x for every finite x
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace signorini {
+
+/// The shortest digits that read back exactly (std::to_chars): "1e-08", "0.3", "100", "inf", "nan".
+[[nodiscard]] std::string shortest(double value);
+
+/// The whole text as a number (a leading + is allowed); nullopt if any character is left over.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+/// The whole text as an integer; nullopt if any character is left over or it overflows.
+[[nodiscard]] std::optional<long long> parse_integer(std::string_view text);
+
+/// "1 value", "3 values".
+[[nodiscard]] std::string count_of(std::size_t number, std::string_view thing);
+
+// Lists names in a sentence.
+//
+//   listed({"A", "B", "C"}, 3)        "'A', 'B' and 'C'"
+//   listed({"A", "B", "C", "D"}, 2)   "'A', 'B' and 2 more"
+
+/// The first `most` names, then the number of the others.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names, std::size_t most = 10);
+
+/// Same for texts without additional quotes.
+[[nodiscard]] std::string listed_plainly(const std::vector<std::string>& texts, std::size_t most = 10);
+
+// A duration as text.
+//
+//   duration_text(0.4) == "1 s", (75) == "1.3 min", (5400) == "1.5 h"
+
+/// seconds >= 0; two digits from a minute on, whole seconds below.
+[[nodiscard]] std::string duration_text(double seconds);
+
+// Shortens foreign text for messages.
+
+/// At most 80 characters, with "..." if it was longer; characters other than printable ASCII become '?'.
+[[nodiscard]] std::string excerpt(std::string_view text);
+
+/// True for valid UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
+[[nodiscard]] bool is_utf8(std::string_view text);
+
+/// True for UTF-8 without control characters other than tabs and line breaks.
+[[nodiscard]] bool is_plain_text(std::string_view text);
+
+// Short text that differs if texts differ, the same on every machine.
+//
+//   FNV-1a of 64 bits:   h = 14695981039346656037,  for each byte  h = (h xor byte) 1099511628211 mod 2^64
+//   sixteen hexadecimal digits of h
+//
+// A single changed byte always changes the fingerprint; any other change does so except with the probability 2^-64.
+
+/// The text may be passed in parts.
+class Fingerprint {
+ public:
+  void add(std::string_view part);
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037ULL;
+};
+
+[[nodiscard]] std::string fingerprint_of(const std::string& text);
+
+// Suggests known names for a misspelt one.
+//
+//   suggestion("frictoin", {"friction", "gap"}) == "; did you mean \"friction\"?"
+
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn a into b.
+[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The known name nearest to the given one, if it is near enough to be a typing error; else empty.
+[[nodiscard]] std::string nearest(std::string_view given, const std::vector<std::string>& known);
+
+/// "; did you mean \"friction\"?", or "".
+[[nodiscard]] std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
+
+/// End of a message: the nearest name, or else some of the known ones.
+[[nodiscard]] std::string suggestion(std::string_view given, const std::vector<std::string>& known);
+
+// Reads one row of a CSV table.
+//
+//   t,"a, quoted",1.5      cells separated by commas; quoted ones may contain commas, line breaks and "" for "
+//
+// A last line without its line break (a run in progress, or killed) is not a row: its cells are returned, so that the
+// caller can report or use it.
+
+/// Returns false at the end, with the cells of a last line without line break in `cells`, and for a row of more than
+/// 100 MB (a million degrees of freedom need 40), which is invalid.
+[[nodiscard]] bool read_csv_row(std::istream& in, std::vector<std::string>& cells);
+
+}  // namespace signorini

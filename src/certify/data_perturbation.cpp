@@ -1,0 +1,312 @@
+#include "certify/data_perturbation.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "base/rounding.hpp"
+#include "contact/constants.hpp"
+#include "contact/friction.hpp"
+#include "model/assembly/loads.hpp"
+#include "model/statics/static_system.hpp"
+
+namespace signorini {
+namespace {
+
+/// Relative change of each datum: some units in the last place, less than the accuracy of any structural data.
+constexpr double rounding_of_data = 1e-15;
+
+/// SplitMix64 (Steele, Lea, Flood 2014): a good bit mixer, which is sufficient here.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31U);
+}
+
+/// True if the contact has a gap at the start, beyond rounding.
+bool is_apart(const Contact& c, const Vector& u0) {
+  return !c.normal_force_given() &&
+         c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0));
+}
+
+class Disturber {
+ public:
+  explicit Disturber(std::uint64_t seed) : seed_(mixed(seed)) {}
+
+  /// 1 + delta r, for the datum with this number.
+  [[nodiscard]] double factor(std::uint64_t number) const {
+    const std::uint64_t bits = mixed(seed_ ^ mixed(number));
+    const double size = 0.5 + 0.5 * static_cast<double>(bits >> 12U) * 0x1p-52;
+    return 1.0 + ((bits & 1U) != 0U ? size : -size) * rounding_of_data;
+  }
+  /// Factor of the next datum.
+  double next() { return factor(++number_); }
+
+  void matrix(SparseMatrix& a) {
+    const std::uint64_t own = mixed(++number_);
+    for (int column = 0; column < a.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry) {
+        const auto low = static_cast<std::uint64_t>(std::min(entry.row(), entry.col()));
+        const auto high = static_cast<std::uint64_t>(std::max(entry.row(), entry.col()));
+        entry.valueRef() *= factor(own ^ mixed((high << 32U) | low));
+      }
+  }
+
+  /// For reduced models: perturbs entries of K by the terms that cancel in them.
+  void shapes(const Reduction& reduction, SparseMatrix& k) {
+    for (Eigen::Index j = 0; j < reduction.stiffness_terms.rows(); ++j) {
+      const double terms = reduction.stiffness_terms(j, j), own = k.coeff(j, j);
+      if (own > 0.0 && terms > own) k.coeffRef(j, j) += (next() - 1.0) * terms;
+    }
+  }
+  /// Perturbs products with other shapes as well.
+  void products(Model& near) {
+    const std::uint64_t own = mixed(++number_);
+    mix_shapes(
+        [&](Eigen::Index i, Eigen::Index j) {
+          const auto low = static_cast<std::uint64_t>(std::min(i, j));
+          const auto high = static_cast<std::uint64_t>(std::max(i, j));
+          return factor(own ^ mixed((high << 32U) | low)) - 1.0;
+        },
+        near);
+  }
+
+  void history(History& h) {
+    if (h.is_constant() && h.value(0.0) == 0.0) return;
+    h = h.scaled(next());
+  }
+
+  void contact(Contact& c, const Vector& u0) {
+    if (is_apart(c, u0)) c.gap *= next();
+    visit_stiffnesses(c, [this](double& x, const Unit&) { x *= next(); });
+    // Numbers of a law made of data: equal ones stay equal, such as a stiffness in a row and in a memory.
+    if (auto law = c.law->with_constants([this](double& x, const Unit&) {
+          x *= factor(mixed(number_) ^ std::bit_cast<std::uint64_t>(std::abs(x)));
+        }))
+      c.law = std::move(law);
+    const double friction = next();  // static and kinetic friction that are equal stay so
+    c.friction.static_ *= friction;
+    c.friction.kinetic *= friction;
+    if (c.restitution < 1.0) c.restitution = std::min(1.0, c.restitution * next());
+    history(c.normal_force);
+    history(c.surface_motion);
+  }
+
+ private:
+  std::uint64_t seed_, number_ = 0;
+};
+
+/// Degrees of freedom of contacts that touch at the start.
+std::vector<bool> touched(const Model& model) {
+  std::vector<bool> list(static_cast<std::size_t>(model.size()), false);
+  for (const Contact& c : model.contacts)
+    if (!is_apart(c, model.u0))
+      for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
+        for (const auto& [dof, factor] : form->terms) list[static_cast<std::size_t>(dof)] = true;
+  return list;
+}
+
+}  // namespace
+
+double sign_by_chance(std::uint64_t seed, std::uint64_t number) {
+  return (mixed(mixed(seed) ^ mixed(number)) & 1U) != 0U ? 1.0 : -1.0;
+}
+
+Model disturbed(const Model& model, std::uint64_t seed) {
+  Model near = model;
+  Disturber disturb(seed);
+  disturb.matrix(near.mass);
+  disturb.matrix(near.damping);
+  disturb.matrix(near.stiffness);
+  if (model.reduction) disturb.shapes(*model.reduction, near.stiffness);
+  for (Load& load : near.loads) disturb.history(load.history);
+  for (Contact& contact : near.contacts) disturb.contact(contact, model.u0);
+  const std::vector<bool> touches = touched(model);
+  for (int i = 0; i < near.size(); ++i) {
+    if (touches[static_cast<std::size_t>(i)]) continue;
+    near.v0[i] *= disturb.next();
+    if (!model.static_start) near.u0[i] *= disturb.next();
+  }
+  if (model.reduction) disturb.products(near);
+  if (const auto moved = moved_start(model, near)) {  // it follows from the other data
+    near.u0 += moved->w;
+    for (std::size_t k = 0; k < near.contacts.size(); ++k) near.contacts[k].initial_shear = moved->shears[k];
+  }
+  return near;
+}
+
+namespace {
+
+// Half of the digits: beyond this the first-order approximation C is invalid.
+constexpr double most_mixed = 1e-8;
+
+/// C; rows of shapes without mass are zero, as for infinite frequency.
+Eigen::MatrixXd mixing(const std::function<double(Eigen::Index, Eigen::Index)>& coupling,
+                       const Model& model) {
+  const Eigen::MatrixXd& terms = model.reduction->stiffness_terms;
+  const Eigen::Index size = terms.rows();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double mass = model.mass.coeff(i, i);
+    if (!(mass > 0.0)) continue;
+    const double square = model.stiffness.coeff(i, i) / mass;
+    for (Eigen::Index j = 0; j < size; ++j) {
+      if (j == i || terms(i, j) == 0.0) continue;
+      const double coupled = coupling(i, j) * terms(i, j);
+      const double apart = square * model.mass.coeff(j, j) - model.stiffness.coeff(j, j);
+      if (std::abs(coupled) < most_mixed * std::abs(apart)) result(i, j) = coupled / apart;
+    }
+  }
+  return result;
+}
+
+/// f_i' = f_i + sum_j C_ij f_j. Degrees of freedom beyond the shapes are unchanged.
+void mix(const Eigen::MatrixXd& c, Combination& form) {
+  Vector f = Vector::Zero(c.rows());
+  Combination mixed, beside;
+  for (const auto& [dof, factor] : form.terms)
+    if (dof < c.rows())
+      f[dof] += factor;
+    else
+      beside.terms.emplace_back(dof, factor);
+  f += c * f;
+  for (Eigen::Index i = 0; i < f.size(); ++i)
+    if (f[i] != 0.0) mixed.terms.emplace_back(static_cast<int>(i), f[i]);
+  mixed.terms.insert(mixed.terms.end(), beside.terms.begin(), beside.terms.end());
+  form = std::move(mixed);
+}
+
+}  // namespace
+
+void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model) {
+  const Eigen::MatrixXd c = mixing(coupling, model);
+  // u = X q = X' q':  q' = q - C^T q. Gaps keep their exact values.
+  const Vector u0 = model.u0;
+  for (Vector* q : {&model.u0, &model.v0}) q->head(c.rows()) -= c.transpose() * q->head(c.rows()).eval();
+  for (Contact& contact : model.contacts) {
+    const double before = contact.normal.dot(u0);
+    visit_forms(contact, [&](Combination& form) { mix(c, form); });
+    if (!contact.normal_force_given()) contact.gap += before - contact.normal.dot(model.u0);
+  }
+  for (Load& load : model.loads) mix(c, load.direction);
+  model.reduction->shapes += model.reduction->shapes * c.transpose();
+}
+
+namespace {
+
+// Relative distance to the friction limit below which a contact may slide. Chosen as for starts of reduced models.
+constexpr double at_limit = 1e-9;
+
+bool rubs(const Model& model, const Contact& c) { return model.statics.frictional && c.has_friction(); }
+
+/// True if friction holds the contact below its limit, by a spring.
+bool sticks(const Model& model, std::size_t k) {
+  const Contact& c = model.contacts[k];
+  const double limit = sticking_limit(c, -model.statics.reactions[k]);
+  return c.tangential_stiffness && c.initial_slip == 0 &&
+         std::abs(c.initial_shear) < (1.0 - at_limit) * limit;
+}
+
+/// Shears in `near`, with unchanged sliding points.
+std::vector<double> shears(const Model& model, const Model& near) {
+  std::vector<double> list;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact &c = model.contacts[k], &other = near.contacts[k];
+    const bool springs = c.tangential_stiffness && *c.tangential_stiffness > 0.0;
+    list.push_back(springs ? c.initial_shear * (*other.tangential_stiffness / *c.tangential_stiffness)
+                           : c.initial_shear);
+  }
+  return list;
+}
+
+/// Unbalanced forces at u0, with contact forces from the gaps, for rigid contacts from the start.
+Vector left_over(const Model& model, const std::vector<double>& reactions,
+                 const std::vector<double>& shears) {
+  Vector force = static_load(model.loads, model.size()) - model.stiffness * model.u0;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (model.statics.frictional && reactions[k] > 0.0 && c.has_friction())
+      c.tangent.add_to(force, -shears[k]);
+    if (c.normal_force_given() || !(reactions[k] > 0.0)) continue;
+    c.normal.add_to(force, c.normal_spring() ? -c.normal_stiffness * c.gap_at(model.u0) : reactions[k]);
+  }
+  return force;
+}
+
+double rounding_of_gap(const Contact& contact, const Vector& u) {
+  return rounding::of_elimination * (std::abs(contact.gap) + contact.normal.magnitude(u));
+}
+
+bool bears(const Model& model, std::size_t k) {
+  return !model.contacts[k].normal_force_given() && model.statics.reactions[k] > 0.0;
+}
+
+/// True if no loaded contact has opened, and no open one has closed.
+bool keeps_states(const Model& model, const Model& near, const Vector& u) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (!c.normal_spring()) continue;
+    const double before = c.gap_at(model.u0);
+    if (std::abs(before) > rounding_of_gap(c, model.u0) && before * near.contacts[k].gap_at(u) <= 0.0)
+      return false;
+  }
+  return true;
+}
+
+/// True for a static start in which all friction is below its limits, by springs.
+bool is_known(const Model& model) {
+  if (!model.static_start || model.statics.reactions.size() != model.contacts.size()) return false;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (!c.obeys_coulomb()) return false;
+    if (!rubs(model, c)) continue;
+    if (c.sliding_point() || c.curved_surface()) return false;
+    if (model.statics.reactions[k] > 0.0 && !sticks(model, k)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
+  if (!is_known(model)) return std::nullopt;
+  MovedStart moved{{}, shears(model, near)};
+  const std::vector<double>& reactions = model.statics.reactions;
+  const Vector p =
+      left_over(near, reactions, moved.shears) - left_over(model, reactions, shears(model, model));
+  std::vector<HeldRow> rows;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = near.contacts[k];
+    if (rubs(model, c) && reactions[k] > 0.0) rows.push_back({c.tangent, *c.tangential_stiffness, false});
+    if (c.normal_force_given()) continue;
+    if (c.normal_spring() && bears(model, k))
+      rows.push_back({c.normal, c.normal_stiffness, false});
+    else if (bears(model, k) || std::abs(c.gap_at(near.u0)) <= rounding_of_gap(c, near.u0))
+      rows.push_back({c.normal, own_stiffness(near.stiffness, c.normal), true});
+  }
+  const auto solve = [&]() -> std::optional<Vector> {
+    const HeldRows held(near.stiffness, rows);
+    if (!held.regular()) return std::nullopt;
+    return held.solve(p, Vector::Zero(static_cast<Eigen::Index>(rows.size()))).first;
+  };
+  std::optional<Vector> w = solve();
+  // Free motions are fixed by ut = 0.
+  for (std::size_t k = 0; !w && k < model.contacts.size(); ++k) {
+    const Combination& tangent = near.contacts[k].tangent;
+    if (tangent.terms.empty() ||
+        std::abs(tangent.dot(near.u0)) > rounding::of_elimination * near.u0.cwiseAbs().maxCoeff())
+      continue;
+    rows.push_back({tangent, own_stiffness(near.stiffness, tangent), true});
+    w = solve();
+  }
+  if (!w || !(w->allFinite() && keeps_states(model, near, near.u0 + *w))) return std::nullopt;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (rubs(model, model.contacts[k]) && reactions[k] > 0.0)
+      moved.shears[k] += *near.contacts[k].tangential_stiffness * near.contacts[k].tangent.dot(*w);
+  moved.w = std::move(*w);
+  return moved;
+}
+
+}  // namespace signorini

@@ -1,0 +1,284 @@
+#include "certify/error_bounds.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Error of a column from one step; columns beyond the model's are forces, then outputs, which have no tolerances of
+/// their own.
+double tolerance_of(const Model& model, std::size_t index, double greatest, const Tolerance& t) {
+  if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
+  if (index >= model.columns.size() + forces_a_row * model.contacts.size()) return t.rtol * greatest;
+  if (index >= model.columns.size()) return t.rtol * greatest + t.force;
+  const Column& column = model.columns[index];
+  const bool rotation = model.turns(column);
+  const double atol = column.velocity ? (rotation ? t.angular_velocity : t.velocity)
+                                      : (rotation ? t.rotation : t.displacement);
+  return t.rtol * greatest + atol;
+}
+
+/// True for columns that may jump at an event.
+bool jumps(const Model& model, std::size_t index) {
+  return index >= model.columns.size() || model.columns[index].velocity;
+}
+
+/// Rows of one column.
+class ColumnOf {
+ public:
+  ColumnOf(const KeptRows& rows, std::size_t column) : rows_(rows), column_(column) {}
+  double operator[](std::size_t row) const { return rows_.values[row * rows_.width + column_]; }
+
+ private:
+  const KeptRows& rows_;
+  std::size_t column_;
+};
+
+/// Rows within the error of an event: there a velocity may be the one on the event's other side.
+std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector<TimedEvent>& events,
+                                 const std::vector<double>& errors) {
+  std::vector<bool> at(t.size(), false);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const double off = errors[i];
+    if (std::isnan(off)) continue;
+    for (auto row =
+             static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), events[i].t - off) - t.begin());
+         row < t.size() && t[row] <= events[i].t + off; ++row)
+      at[row] = true;
+  }
+  return at;
+}
+
+std::size_t common_rows(const Kept& run, const std::vector<Kept>& companions) {
+  std::size_t rows = run.rows->t.size();
+  for (const Kept& companion : companions) rows = std::min(rows, companion.rows->t.size());
+  return rows;
+}
+
+class HistoryBounds {
+ public:
+  HistoryBounds(const Model& model, const Kept& run, const std::vector<Kept>& companions,
+                const BoundSettings& settings)
+      : model_(model), run_(run), companions_(companions), settings_(settings) {
+    errors_.t.assign(run.rows->t.begin(),
+                     run.rows->t.begin() + static_cast<std::ptrdiff_t>(common_rows(run, companions)));
+    errors_.width = run.rows->width;
+    errors_.bounds.assign(errors_.t.size() * errors_.width, infinite);
+  }
+
+  HistoryErrors bounds(const std::vector<TimedEvent>& events, const Verdict& verdict) {
+    const std::vector<bool> at_event = rows_at_events(errors_.t, events, verdict.t_errors);
+    std::size_t certain = errors_.t.size();
+    if (!verdict.reason.empty())
+      certain = static_cast<std::size_t>(std::lower_bound(errors_.t.begin(), errors_.t.end(), verdict.until) -
+                                         errors_.t.begin());
+    for (std::size_t j = 0; j < errors_.width; ++j) column(j, certain, at_event);
+    return std::move(errors_);
+  }
+
+ private:
+  void column(std::size_t j, std::size_t certain, const std::vector<bool>& at_event) {
+    const ColumnOf own(*run_.rows, j);
+    double greatest = 0.0;
+    for (std::size_t row = 0; row < certain; ++row) greatest = std::max(greatest, std::abs(own[row]));
+    const double floor = tolerance_of(model_, j, greatest, settings_.tolerance);
+    std::vector<double> last(remembered, 0.0);
+    for (std::size_t row = 0; row < certain; ++row) {
+      double& off = last[row % remembered];
+      off = 0.0;
+      for (const Kept& companion : companions_)
+        off = std::max(off, std::abs(own[row] - ColumnOf(*companion.rows, j)[row]));
+      double bound = settings_.factor * *std::max_element(last.begin(), last.end()) + floor;
+      if (at_event[row] && jumps(model_, j)) {
+        if (row > 0) bound += std::abs(own[row] - own[row - 1]);
+        if (row + 1 < certain) bound += std::abs(own[row + 1] - own[row]);
+      }
+      errors_.bounds[row * errors_.width + j] = bound;
+    }
+  }
+
+  const Model& model_;
+  const Kept& run_;
+  const std::vector<Kept>& companions_;
+  const BoundSettings& settings_;
+  HistoryErrors errors_;
+};
+
+/// c times the largest difference of one figure, plus the error of its own last step.
+class FigureBound {
+ public:
+  FigureBound(const BoundSettings& settings, std::size_t companions)
+      : settings_(settings), companions_(companions) {}
+  template <class Figure>
+  double operator()(double own, double atol, const Figure& other) const {
+    double off = 0.0;
+    for (std::size_t i = 0; i < companions_; ++i) off = std::max(off, std::abs(own - other(i)));
+    const double rtol = std::max(settings_.tolerance.rtol, rounding::of_few);
+    return settings_.factor * off + rtol * std::abs(own) + atol;
+  }
+
+ private:
+  const BoundSettings& settings_;
+  std::size_t companions_;
+};
+
+}  // namespace
+
+HistoryErrors bound_history(const Model& model, const Kept& run, const std::vector<Kept>& companions,
+                            const BoundSettings& settings, const std::vector<TimedEvent>& events,
+                            const Verdict& verdict) {
+  return HistoryBounds(model, run, companions, settings).bounds(events, verdict);
+}
+
+void bound_extremes(Certificate& certificate, const Kept& run, const std::vector<Kept>& companions,
+                    const BoundSettings& settings) {
+  const Report& own = *run.report;
+  const bool some = settings.tolerance.rtol > 0.0;
+  const double length = some ? settings.tolerance.displacement : 0.0;
+  const double force = some ? settings.tolerance.force : 0.0;
+  const FigureBound bound(settings, companions.size());
+  certificate.peaks.assign(own.peaks.size(), std::nullopt);
+  for (std::size_t k = 0; k < own.peaks.size() && certificate.complete; ++k) {
+    const auto of = [&](double Peak::*figure, double atol) {
+      return bound(own.peaks[k].*figure, atol,
+                   [&](std::size_t i) { return companions[i].report->peaks[k].*figure; });
+    };
+    certificate.peaks[k] = Peak{of(&Peak::tangential, length), of(&Peak::normal, length), of(&Peak::N, force),
+                                of(&Peak::T, force)};
+  }
+  certificate.landings.resize(own.landings.size());
+  for (std::size_t k = 0; k < own.landings.size(); ++k) {
+    certificate.landings[k].assign(own.landings[k].size(), std::nullopt);
+    for (std::size_t l = 0; l < own.landings[k].size(); ++l) {
+      const bool known = std::all_of(companions.begin(), companions.end(), [&](const Kept& companion) {
+        return k < companion.report->landings.size() && l < companion.report->landings[k].size();
+      });
+      if (!known || !(certificate.complete || own.landings[k][l].end < certificate.until)) continue;
+      const auto of = [&](double Landing::*figure, double atol) {
+        return bound(own.landings[k][l].*figure, atol,
+                     [&](std::size_t i) { return companions[i].report->landings[k][l].*figure; });
+      };
+      certificate.landings[k][l] = Landing{of(&Landing::start, 0.0), of(&Landing::end, 0.0),
+                                           of(&Landing::impulse, 0.0), of(&Landing::peak_force, force)};
+    }
+  }
+}
+
+namespace {
+
+/// Contact force per error of its displacement; 0: unknown.
+double stiffness_of(const Contact& contact, const ComplianceShare& share) {
+  const double own = (share.normal ? contact.normal_spring() : contact.tangent_spring()).value_or(0.0);
+  if (own > 0.0) return own;
+  return share.compliance > 0.0 ? 1.0 / share.compliance : 0.0;
+}
+
+}  // namespace
+
+Truncation truncation_of(const Model& model, const Reduction& reduction, const std::vector<Peak>& peaks) {
+  if (peaks.size() < model.contacts.size()) return {};  // not computed
+  std::vector<double> off(peaks.size(), reduction.ringing);
+  for (const ComplianceShare& share : reduction.shares) {
+    if (share.contact < 0) continue;
+    const auto k = static_cast<std::size_t>(share.contact);
+    const double force = share.normal ? peaks[k].N : peaks[k].T;
+    off[k] = std::max(off[k], reduction.ringing + share.residual * force);
+  }
+  Truncation result;
+  result.displacement = reduction.ringing;
+  for (const ComplianceShare& share : reduction.shares) {
+    if (share.contact < 0) continue;
+    const auto k = static_cast<std::size_t>(share.contact);
+    result.displacement = std::max(result.displacement, off[k]);
+    result.force = std::max(result.force, off[k] * stiffness_of(model.contacts[k], share));
+  }
+  return result;
+}
+
+namespace {
+
+constexpr std::size_t rows_beside = 3;  // before and after each near hit
+
+/// Difference of a contact's gap between two runs, from the columns of their rows.
+class GapDifference {
+ public:
+  GapDifference(const Model& model, const Kept& run, const Kept& companion)
+      : model_(model), run_(*run.rows), other_(*companion.rows) {
+    if (model.is_physical()) {
+      column_of_.assign(model.dofs.size(), -1);
+      for (std::size_t j = 0; j < model.columns.size(); ++j)
+        if (const Column& column = model.columns[j]; !column.velocity && column.dof >= 0)
+          column_of_[static_cast<std::size_t>(column.dof)] = static_cast<int>(j);
+    }
+  }
+
+  /// The largest difference around t; if a contact's displacements have no columns, the largest possible effect of all
+  /// differences on its gap.
+  [[nodiscard]] double around(double t, const Contact& contact) const {
+    const std::size_t rows = std::min(run_.t.size(), other_.t.size());
+    const auto at = static_cast<std::size_t>(
+        std::lower_bound(run_.t.begin(), run_.t.begin() + static_cast<std::ptrdiff_t>(rows), t) -
+        run_.t.begin());
+    double greatest = 0.0;
+    for (std::size_t row = at - std::min(at, rows_beside); row < std::min(rows, at + rows_beside); ++row)
+      greatest = std::max(greatest, at_row(row, contact));
+    return greatest;
+  }
+
+ private:
+  [[nodiscard]] double off(std::size_t row, std::size_t column) const {
+    return run_.values[row * run_.width + column] - other_.values[row * other_.width + column];
+  }
+  [[nodiscard]] double at_row(std::size_t row, const Contact& contact) const {
+    double sum = 0.0, sizes = 0.0;
+    bool known = !column_of_.empty();
+    for (const auto& [dof, factor] : contact.normal.terms) {
+      sizes += std::abs(factor);
+      const int column = known ? column_of_[static_cast<std::size_t>(dof)] : -1;
+      known = known && column >= 0;
+      if (known) sum += factor * off(row, static_cast<std::size_t>(column));
+    }
+    if (known) return std::abs(sum);
+    double greatest = 0.0;
+    for (std::size_t j = 0; j < model_.columns.size(); ++j)
+      if (!model_.columns[j].velocity) greatest = std::max(greatest, std::abs(off(row, j)));
+    return sizes * greatest;
+  }
+
+  const Model& model_;
+  const KeptRows &run_, &other_;
+  std::vector<int>
+      column_of_;  // column of each displacement; -1: none; empty: columns do not match the degrees of
+                   // freedom
+};
+
+}  // namespace
+
+std::optional<Track::Objection> first_open_hit(const Model& model, const Kept& run, const Kept& companion,
+                                               const std::vector<NearHit>& near, double factor) {
+  const GapDifference difference(model, run, companion);
+  std::optional<Track::Objection> first;
+  for (const NearHit& hit : near) {
+    const Contact& contact = model.contacts[static_cast<std::size_t>(hit.contact)];
+    const double off = difference.around(hit.t, contact);
+    if (!(hit.gap <= factor * off)) continue;
+    const double since = hit.t - std::sqrt(factor * off / hit.bend);
+    if (first && first->t <= since) continue;
+    first = Track::Objection{
+        std::max(0.0, since),
+        fmt::format(
+            "the gap of '{}' is {:.2g} {} at t = {:.9g} in the companion, and {:.2g} {} off in the run: both "
+            "may have missed a hit",
+            contact.name, hit.gap, model.units.length, hit.t, off, model.units.length)};
+  }
+  return first;
+}
+
+}  // namespace signorini

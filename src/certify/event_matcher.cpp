@@ -1,0 +1,263 @@
+#include "certify/event_matcher.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// Rounding of an event's own time: that of a sum, twice.
+constexpr double of_clock = 2.0 * rounding::eps;
+
+/// End of the certain sequence, and its reason; the earliest one counts.
+struct Horizon {
+  double t = never;
+  std::string reason;
+  void at(double time, const std::string& why) {
+    if (time < t) *this = {time, why};
+  }
+};
+
+using Rows = std::vector<std::size_t>;
+
+/// Data of a contact from its previous events.
+struct Past {
+  double off = 0.0;                                                   // difference at the previous event
+  std::vector<double> speeds = std::vector<double>(remembered, 0.0);  // differences R of the last events
+  std::size_t next = 0;
+};
+
+/// Rows of the changes of each contact.
+std::vector<Rows> by_contact(const std::vector<TimedEvent>& events, std::size_t contacts) {
+  std::vector<Rows> rows(contacts);
+  for (std::size_t i = 0; i < events.size(); ++i)
+    if (events[i].is_change()) rows[static_cast<std::size_t>(events[i].contact)].push_back(i);
+  return rows;
+}
+
+bool same(const TimedEvent& a, const TimedEvent& b) {
+  return a.type == b.type && a.from == b.from && a.to == b.to;
+}
+
+class Judge {
+ public:
+  Judge(const Track& run, const std::vector<Track>& companions, double factor,
+        const std::vector<std::string>& names, bool rounded)
+      : run_(run), companions_(companions), factor_(factor), names_(names), rounded_(rounded) {}
+
+  Verdict verdict() {
+    deviation_.assign(run_.events.size(), 0.0);
+    uncertainty_.clear();
+    for (const TimedEvent& event : run_.events) uncertainty_.push_back(event.uncertainty);
+    const std::vector<Rows> own = by_contact(run_.events, names_.size());
+    for (const Track& companion : companions_) pair(own, companion);
+    share();
+    grow();
+    Verdict result;
+    settle(result);
+    count_unordered(result);
+    return result;
+  }
+
+ private:
+  /// Computes differences of partners, and the first event of each contact without a partner.
+  void pair(const std::vector<Rows>& own, const Track& companion) {
+    const std::vector<Rows> other = by_contact(companion.events, names_.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const std::size_t longest = std::max(own[k].size(), other[k].size());
+      Past past;
+      for (std::size_t i = 0; i < longest && pair(own[k], other[k], i, companion, past); ++i) {
+      }
+    }
+    for (const Track* track : {&run_, &companion})
+      if (track->forgiven_at)
+        horizon_.at(
+            *track->forgiven_at,
+            fmt::format("at t = {:.9g} rounding left several contact states possible", *track->forgiven_at));
+    for (const Track* track : {&run_, &companion})
+      if (track->objection) horizon_.at(track->objection->t, track->objection->sentence);
+    if (const auto& graze = companion.graze)
+      horizon_.at(
+          graze->t,
+          fmt::format("the {} of '{}' comes back into the companion's tolerance at t = {:.9g} and leaves it "
+                      "without an event; a smaller rtol, or engine exact, decides whether it fell there",
+                      graze->guard, names_[static_cast<std::size_t>(graze->contact)], graze->t));
+    if (companion.reached < run_.reached)
+      horizon_.at(companion.reached, companion.stop.empty() ? "the companion has ended" : companion.stop);
+  }
+
+  bool pair(const Rows& own, const Rows& other, std::size_t i, const Track& companion, Past& past) {
+    const TimedEvent* a = i < own.size() ? &run_.events[own[i]] : nullptr;
+    const TimedEvent* b = i < other.size() ? &companion.events[other[i]] : nullptr;
+    if (a == nullptr || b == nullptr) {
+      const TimedEvent& alone = a != nullptr ? *a : *b;
+      if (alone.t <= std::min(run_.reached, companion.reached))
+        // It may be earlier by its own uncertainty, which is large where a guard grazes.
+        horizon_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
+                    a != nullptr ? describe(*a) + " has no partner in the companion"
+                                 : "the companion has an event more, " + describe(*b));
+      return false;
+    }
+    const double off = b->t - a->t, change = std::abs(off - past.off);
+    past.off = off;
+    // Time since the contact's previous event: a common error shifts no event past another.
+    const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
+    // Each event has its own rounding in addition; changes at one instant share it.
+    const double apart = i > 0 && since > 0.0 ? own_rounding(own, other, i, companion) : 0.0;
+    const double shift = factor_ * change + apart;
+    if (same(*a, *b) && shift <= 0.5 * since) {
+      if (!flies_or_rests(*a, *b, past)) return false;
+      deviation_[own[i]] = std::max(deviation_[own[i]], std::abs(off));
+      uncertainty_[own[i]] = std::max(uncertainty_[own[i]], b->uncertainty);
+      return true;
+    }
+    if (same(*a, *b)) {
+      horizon_.at(
+          std::min(a->t, b->t),
+          fmt::format("{} follows the contact's event before by {:.2g}, and this time has an error of {:.2g}",
+                      describe(*a), since, shift));
+      return false;
+    }
+    horizon_.at(std::min(a->t, b->t),
+                fmt::format("{} has the partner {} in the companion", describe(*a), describe(*b)));
+    return false;
+  }
+
+  /// Rounding of two neighbours together. A companion that computes to rounding cannot certify more than it resolves
+  /// itself.
+  [[nodiscard]] double own_rounding(const Rows& own, const Rows& other, std::size_t i,
+                                    const Track& companion) const {
+    if (!rounded_ && !companion.rounded) return 0.0;
+    const std::vector<TimedEvent>& events = rounded_ ? run_.events : companion.events;
+    const Rows& rows = rounded_ ? own : other;
+    return static_cast<double>(events[rows[i]].uncertainty) +
+           static_cast<double>(events[rows[i - 1]].uncertainty);
+  }
+
+  /// Returns false if the decision depends on less than the error of its speed.
+  bool flies_or_rests(const TimedEvent& a, const TimedEvent& b, Past& past) {
+    const double r = a.departure, other = b.departure;
+    if (std::isnan(r) || std::isnan(other)) return true;
+    past.speeds[past.next++ % remembered] = std::abs(r - other) / std::max({r, other, 1.0});
+    const double off = factor_ * *std::max_element(past.speeds.begin(), past.speeds.end()) * std::max(r, 1.0);
+    if (off < std::abs(r - 1.0)) return true;
+    horizon_.at(
+        std::min(a.t, b.t),
+        fmt::format(
+            "{} ends with {:.6g} of the slowest speed that flies, and this part has an error of {:.2g}",
+            describe(a), r, off));
+    return false;
+  }
+
+  [[nodiscard]] std::string describe(const TimedEvent& event) const {
+    return fmt::format("{} of '{}' at t = {:.9g}, {} -> {}", to_string(event.type),
+                       names_[static_cast<std::size_t>(event.contact)], event.t, to_string(event.from),
+                       to_string(event.to));
+  }
+
+  /// Changes at the same instant as a guard's event have the time of that guard, and are as uncertain.
+  void share() {
+    const std::vector<TimedEvent>& events = run_.events;
+    for (std::size_t begin = 0, end = 0; begin < events.size(); begin = end) {
+      float greatest = 0.0F;
+      for (end = begin; end < events.size() && events[end].t == events[begin].t; ++end)
+        if (events[end].is_change()) greatest = std::max(greatest, uncertainty_[end]);
+      for (std::size_t i = begin; i < end; ++i)
+        if (events[i].is_change()) uncertainty_[i] = greatest;
+    }
+  }
+
+  /// Converts differences to errors, in the order of time.
+  void grow() {
+    errors_.assign(run_.events.size(), none);
+    std::vector<double> last(remembered, 0.0);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < run_.events.size(); ++i) {
+      const TimedEvent& event = run_.events[i];
+      if (event.t >= horizon_.t) break;
+      errors_[i] = of_clock * event.t;
+      if (!event.is_change() || (!event.fell && deviation_[i] == 0.0)) continue;
+      last[next++ % remembered] = deviation_[i];
+      const double error = factor_ * *std::max_element(last.begin(), last.end());
+      spread_ = error;
+      errors_[i] += error + static_cast<double>(uncertainty_[i]);
+    }
+  }
+
+  /// An event within its error of the end may be beyond it. The certain part ends at its earliest possible time, so
+  /// that it contains no such event, and no row that may be after one.
+  void settle(Verdict& result) {
+    result.until = run_.reached;
+    if (horizon_.t < never) {
+      const double end = std::max(0.0, horizon_.t - spread_);
+      result.until = end;
+      result.reason = horizon_.reason;
+      for (std::size_t i = 0; i < errors_.size(); ++i) {
+        const double t = run_.events[i].t;
+        if (t + errors_[i] < end) continue;
+        if (t < end) result.until = std::min(result.until, std::max(0.0, t - errors_[i]));
+        errors_[i] = none;
+      }
+    }
+    const auto first = std::find_if(errors_.begin(), errors_.end(), [](double e) { return std::isnan(e); });
+    if (first != errors_.end()) result.first_uncertain = static_cast<std::size_t>(first - errors_.begin());
+    result.t_errors = std::move(errors_);
+    result.spread = spread_;
+  }
+
+  void count_unordered(Verdict& result) const {
+    std::size_t before = run_.events.size();
+    for (std::size_t i = 0; i < run_.events.size() && !std::isnan(result.t_errors[i]); ++i) {
+      const TimedEvent& event = run_.events[i];
+      if (!event.is_change()) continue;
+      if (before < i && run_.events[before].contact != event.contact) {
+        const double apart = event.t - run_.events[before].t;
+        if (apart > of_clock * event.t && apart < result.t_errors[before] + result.t_errors[i])
+          ++result.unordered;
+      }
+      before = i;
+    }
+  }
+
+  const Track& run_;
+  const std::vector<Track>& companions_;
+  double factor_;
+  const std::vector<std::string>& names_;
+  bool rounded_;
+  Horizon horizon_;
+  std::vector<double> deviation_, errors_;
+  std::vector<float> uncertainty_;  // for an event of the run, or its partner's if larger
+  double spread_ = 0.0;             // c D at the end of the certain sequence
+};
+
+/// Rounds up, so that the result is not below x.
+float rounded_up(double x) {
+  const auto near = static_cast<float>(x);
+  return static_cast<double>(near) < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
+}
+
+}  // namespace
+
+TimedEvent timed(const Event& event) {
+  return {event.t,
+          rounded_up(event.t_uncertainty.value_or(0.0)),
+          event.contact,
+          event.type,
+          event.from,
+          event.to,
+          event.guard_rate.has_value(),
+          event.departure.value_or(none)};
+}
+
+Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,
+              const std::vector<std::string>& names, bool rounded) {
+  return Judge(run, companions, factor, names, rounded).verdict();
+}
+
+}  // namespace signorini

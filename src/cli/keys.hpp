@@ -1,0 +1,19 @@
+// keys.hpp: the key table as text: for a terminal, and as docs/scene.md.
+//
+// Keys, types, units, defaults and meanings come from scene/keys.hpp; the surrounding text is texts/scene.md, in which
+// a line "@keys TABLE@" stands for the keys of that table. Tables that it does not name are appended.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace signorini::cli {
+
+/// One line per key: path, type, unit, default, meaning. Only lines that contain all of the words, ignoring case.
+/// Errors: UsageError if no line does.
+[[nodiscard]] std::string key_list(const std::vector<std::string>& words = {});
+
+/// The complete text of docs/scene.md.
+[[nodiscard]] std::string scene_reference();
+
+}  // namespace signorini::cli

@@ -1,0 +1,40 @@
+// man_completion.hpp: the program's options as lists, from CLI11: for man pages and completion.
+//
+//   commands_of(app)   run, check, ...
+//   options_of(run)    SCENE (positional), -h --help, -o --output DIR, ...
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace signorini::cli {
+
+struct OptionText {
+  std::vector<std::string> names;  ///< "-o", "--output"; empty for a positional argument
+  std::string value;               ///< "DIR"; for a positional argument its name; empty for a flag
+  std::string description;
+  bool required = false;
+  [[nodiscard]] bool positional() const { return names.empty(); }
+};
+
+[[nodiscard]] std::vector<const CLI::App*> commands_of(const CLI::App& app);
+/// Options of a command, positional arguments first.
+[[nodiscard]] std::vector<OptionText> options_of(const CLI::App& command);
+
+/// Completion of a value.
+struct Completion {
+  enum class Kind { nothing, words, settings, scenes, files, directories };
+  Kind kind = Kind::nothing;
+  std::vector<std::string> words;  ///< allowed words; for settings "run.rtol="
+};
+[[nodiscard]] Completion completion_of(const std::string& command, const OptionText& option);
+
+/// The completion scripts for bash and zsh.
+[[nodiscard]] std::string bash_completion(const CLI::App& app);
+[[nodiscard]] std::string zsh_completion(const CLI::App& app);
+
+/// Page for man(1), section 1, of the program or of one of its commands.
+[[nodiscard]] std::string man_page(const CLI::App& app, const CLI::App* command);
+
+}  // namespace signorini::cli

@@ -1,0 +1,42 @@
+// plot.hpp: draws pictures by running gnuplot on scripts, if it is on PATH.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "result/plots.hpp"
+
+namespace signorini::cli {
+
+struct Drawing {
+  enum class Kind { drawn, no_gnuplot, failed } kind = Kind::drawn;
+  std::string message;  ///< gnuplot's output if it failed
+};
+
+/// Omits pictures of single contacts after the first 24, which would take minutes; their scripts exist.
+[[nodiscard]] std::vector<std::filesystem::path> first_ones(
+    const std::vector<std::filesystem::path>& scripts);
+
+/// Runs each script in its own folder; a failed one does not stop the others, and the message is that of the first
+/// failure.
+[[nodiscard]] Drawing draw(const std::vector<std::filesystem::path>& scripts);
+
+/// Draws DIR/plots and returns the line that names the pictures, or `later` if there is no gnuplot; empty if there is
+/// nothing to report. gnuplot's complaints go to stderr.
+[[nodiscard]] std::string draw_pictures(const std::filesystem::path& directory,
+                                        const std::vector<std::filesystem::path>& scripts,
+                                        const std::string& later = "");
+
+// Redraws the pictures of any directory of results from its tables.
+
+/// Checks the files of a run (base/run_files.hpp). One that was made with --no-plots is computed once more, as far as
+/// pictures ask; a note says so. Results of another kind are left alone. False: interrupted. Errors: FileError where there are
+/// no results; those of add_picture_rows.
+[[nodiscard]] bool ready_to_draw(const std::filesystem::path& directory);
+
+/// Writes the scripts and returns them. Errors: FileError; UsageError for a time window on results without time.
+std::vector<std::filesystem::path> write_any_plots(const std::filesystem::path& directory,
+                                                   const PlotWindow& window, const PictureLook& look);
+
+}  // namespace signorini::cli

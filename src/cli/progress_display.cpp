@@ -1,0 +1,103 @@
+#include "cli/progress_display.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+#include <csignal>
+
+#include "base/text.hpp"
+#include "cli/terminal.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini::cli {
+
+Live::Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events)
+    : ForwardingRecorder(&next),
+      model_(model),
+      t_end_(t_end),
+      show_progress_(show_progress && stderr_is_terminal()),
+      keep_all_(keep_all_events),
+      next_line_(std::chrono::steady_clock::now() + std::chrono::milliseconds(300)) {}
+
+Live::~Live() {
+  if (line_shown_) progress_line("");
+}
+
+void Live::event(const Event& event) {
+  ForwardingRecorder::event(event);
+  ++count_;
+  if (keep_all_ || first_.size() < most_shown) first_.push_back(event);
+  last_.push_back(event);
+  if (last_.size() > shown_last) last_.pop_front();
+}
+
+void Live::advise(double t) {
+  constexpr double quiet_time = 2.0;  // s
+  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (s < quiet_time) return;
+  const auto ask = std::exchange(advice_, nullptr);
+  const std::string note = ask(s * t_end_ / t);
+  if (note.empty()) return;
+  if (line_shown_) progress_line("");
+  print_note(note);
+}
+
+std::string Live::time_left(double t) {
+  constexpr double settled = 1.0, window = 5.0;  // s
+  const auto now = std::chrono::steady_clock::now();
+  const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
+  if (seconds(pace_from_) > window) {  // speed averaged over the last one or two windows
+    pace_from_ = std::exchange(next_pace_from_, now);
+    pace_t_ = std::exchange(next_pace_t_, t);
+  }
+  if (seconds(start_) < settled || !(t > pace_t_)) return "";
+  return ", about " + duration_text(seconds(pace_from_) * (t_end_ - t) / (t - pace_t_)) + " left";
+}
+
+bool Live::progress(double t) {
+  const bool go_on = ForwardingRecorder::progress(t) && !Interrupt::asked();
+  if (advice_ && go_on && t > 0.0) advise(t);
+  if (!show_progress_) return go_on;
+  if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {
+    next_line_ = now + std::chrono::milliseconds(100);
+    progress_line(fmt::format("t = {:.6g} of {:.6g} {}, {:.0f} %, {} events{}", t, t_end_, model_.units.time,
+                              t_end_ > 0.0 ? 100.0 * t / t_end_ : 0.0, count_, time_left(t)));
+    line_shown_ = true;
+  }
+  return go_on;
+}
+
+namespace {
+
+volatile std::sig_atomic_t noting = 0, noted = 0;
+
+// A signal handler may only make POSIX's async-signal-safe calls.
+void end_or_note(int signal) {
+  if (signal != SIGALRM && noting != 0 && noted == 0) {
+    noted = 1;
+    alarm(Interrupt::patience);
+    return;
+  }
+  constexpr char text[] = "error: interrupted\n";
+  [[maybe_unused]] const ssize_t told = write(STDERR_FILENO, text, sizeof text - 1);
+  _exit(static_cast<int>(ExitCode::interrupted));
+}
+
+}  // namespace
+
+void end_on_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = end_or_note;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaction(signal, &action, nullptr);
+}
+
+Interrupt::Interrupt() { noting = 1; }
+
+Interrupt::~Interrupt() {
+  noting = 0;
+  alarm(0);
+}
+
+bool Interrupt::asked() { return noted != 0; }
+
+}  // namespace signorini::cli

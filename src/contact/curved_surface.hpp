@@ -1,0 +1,28 @@
+// curved_surface.hpp: the restoring force of a curved surface.
+//
+//   F = ( |N| - N_K ) ut / R      against ut, in addition to N_K ut / R, which is part of K       (R: Bowl::radius)
+//
+// Small slopes: the normal, and with it the force on the body, turns by ut / R. N_K is the normal force of the bearing
+// at rest; F is zero while |N| = N_K.
+#pragma once
+
+#include "signorini/contact.hpp"
+
+namespace signorini {
+
+/// Restoring force F along the tangent; the force on the body is -F. Zero if the surface is not curved. Unit: force.
+[[nodiscard]] inline double bowl_force(const Contact& contact, double N, double ut) {
+  return contact.bowl ? (-N - contact.bowl->carried) / contact.bowl->radius * ut : 0.0;
+}
+/// Later term of the series of F, -N_i ut_j / R: the constant N_K occurs in the first term only, which is bowl_force.
+[[nodiscard]] inline double bowl_product(const Contact& contact, double N, double ut) {
+  return -N / contact.bowl->radius * ut;
+}
+
+/// ( N_K - N_0 ) / R: stiffness in K beyond the spring N_0 / R of the scene's contact, which gives N_0; 0 if the
+/// surface is not curved.
+[[nodiscard]] inline double beyond_spring(const ContactSpec& said, const Contact& contact) {
+  return contact.bowl ? (contact.bowl->carried - said.bowl->carried) / contact.bowl->radius : 0.0;
+}
+
+}  // namespace signorini

@@ -1,0 +1,86 @@
+// contact_state_solver.hpp: the states of all contacts just after an instant.
+//
+//   every guard g of the new states:  g, g', g'', ...  is lexicographically not negative
+//
+// States are never simply switched: the next states are those whose guards hold on the solution after the instant. A
+// contact whose guard fails takes its next state (contact/law.hpp), and the jet is expanded again in the new
+// mode, until all guards hold. Rigid contacts are decided together (decide/rigid_contact_solver.hpp): velocities first if one
+// closes with g' < 0, then accelerations and their derivatives. Sliders without tangential stiffness join them if their
+// own states repeat, or if several of them may hold one motion. If modes repeat, decide/cycle_fallback.hpp continues. If no
+// mode is consistent, the decision is refused. If a flight was taken as rest because of its height only, the decision
+// is made once more with that flight, then with slip rates as small as such flights at rest, too.
+#pragma once
+
+#include "decide/cycle_fallback.hpp"
+#include "motion/local_derivatives.hpp"
+
+namespace signorini {
+
+/// Friction limits that are zero with all their derivatives, from now until they are found to fail.
+[[nodiscard]] std::vector<Fired> resting(const Decision& decision);
+
+class Decider {
+ public:
+  /// capture_velocity: for rigid contacts without a value of their own. whole_jets: Decision::jet is used beyond
+  /// accelerations and the rates of forces.
+  Decider(ModeSystems& systems, int max_rounds, double capture_velocity, bool whole_jets = true);
+
+  /// Decides the states just after an instant. `before`, `after`: the forcing on both sides of it.
+  [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after);
+  /// Adopts the states of `mode` from an engine that finds states and no instants: computes their forces and
+  /// accelerations, which are the same before and after.
+  [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing);
+
+  /// Reason for ending a run whose events take no time, after the decision `last`.
+  [[nodiscard]] Refusal standstill(const Decision& last, std::vector<std::size_t> contacts,
+                                   std::string reason);
+
+  /// Sets a listener that is called with every mode tried.
+  void trace(RoundListener listener) { listener_ = std::move(listener); }
+
+ private:
+  struct Attempt {
+    Decision decision;
+    bool grounded = false;  // Findings::grounded
+    double slowest = 0.0;
+  };
+  [[nodiscard]] Attempt attempt(const Instant& instant, const Forcing& before, const Forcing& after);
+  [[nodiscard]] bool evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& course);
+  [[nodiscard]] Refusal begin(const Forcing& before, DecisionCourse& course);
+  void look(DecisionCourse& course, bool before);
+  void stop_there(const Failure& f, DecisionCourse& course) const;
+  [[nodiscard]] std::vector<Block> react(DecisionCourse& course) const;
+  void stop(const std::vector<std::size_t>& turning, DecisionCourse& course) const;
+  void note_hits(DecisionCourse& course) const;
+  [[nodiscard]] Refusal propose(DecisionCourse& course);
+  [[nodiscard]] Refusal try_next(DecisionCourse& course);
+  [[nodiscard]] bool held_by_others(std::size_t c, const DecisionCourse& course) const;
+  [[nodiscard]] Refusal go(const Forcing& before, DecisionCourse& course);
+  [[nodiscard]] static bool rests_at_limit(const DecisionCourse& course, std::size_t c,
+                                           const GuardStart& guard);
+  [[nodiscard]] bool meets_static_limit(const DecisionCourse& course, std::size_t c,
+                                        const GuardStart& guard) const;
+  [[nodiscard]] static bool clearly_holds(const DecisionCourse& course, std::size_t c);
+  void look_at_start(DecisionCourse& course, std::size_t contact, const GuardForm& guard,
+                     GuardStart& start) const;
+  void finish(DecisionCourse& course);
+  void note_left(const DecisionCourse& course, Decision& decision) const;
+  [[nodiscard]] Refusal held_at_rest(const DecisionCourse& course) const;
+  [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
+
+  const Model& model_;
+  ModeSystems& systems_;
+  JetMaker jets_;
+  std::optional<NearJets> near_;          // nullopt: jets use the whole structure
+  const std::vector<std::size_t> every_;  // all contacts
+  int max_rounds_;
+  Touching touching_;
+  GuardsInForce guards_;
+  ContactBlocks blocks_;
+  CircleExit circles_;
+  bool each_alone_ = false;      // contacts are decided separately, except if modes repeat
+  std::vector<MotionJet> room_;  // memory of the last decision, reused by the next one
+  RoundListener listener_;
+};
+
+}  // namespace signorini

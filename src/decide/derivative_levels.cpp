@@ -1,0 +1,312 @@
+#include "decide/derivative_levels.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/friction.hpp"
+#include "decide/coulomb_problem.hpp"
+#include "decide/delassus.hpp"
+#include "model/machine_units.hpp"
+
+namespace signorini {
+namespace {
+
+using Kind = CoulombItem::Kind;
+
+constexpr std::size_t most_compared = 5;  // largest number of contacts for which all solutions are compared
+
+int sign_of(double x) { return x > 0.0 ? 1 : -1; }
+
+/// Removes the normal of an item at its limit: it is a constraint row already, and an elimination leaves only rounding.
+void hold_normals(CoulombProblem& p) {
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    if (p.items[i].kind != Kind::limit) continue;
+    const Eigen::Index n = normal_place(i);
+    p.W.row(n).setZero();
+    p.W.col(n).setZero();
+    p.b[n] = 0.0;
+  }
+}
+
+enum class Verdict : unsigned char { open, limit, decided };  // open: not decided yet
+
+void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
+  state.state = slip_along(sign);
+  guards.sliding = {order + 1, true};
+}
+
+/// Decides a contact whose friction is at its limit: back into the cone, slip, or still undecided.
+Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, ContactState& state,
+                    KnownGuards& guards) {
+  const int sign = r.item(i).sign;
+  const Eigen::Index t = tangent_place(i);
+  if (sign * r.force(t) > r.zero_force(t)) {
+    state.state = State::stick;
+    (sign > 0 ? guards.slip_plus : guards.slip_minus) = {order, true};
+    return Verdict::decided;
+  }
+  if (r.is_zero_response(t)) return Verdict::open;
+  start_slip(sign, order, state, guards);
+  return Verdict::decided;
+}
+
+/// Decides the friction of a contact that presses and has not slipped before.
+Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
+                        ContactState& state, KnownGuards& guards) {
+  const CoulombItem& item = r.item(i);
+  const Eigen::Index t = tangent_place(i);
+  state.state = State::stick;
+  if (r.is_inside_cone(i)) return Verdict::decided;
+  if (!r.is_zero_response(t)) {
+    start_slip(sign_of(r.response(t)), order, state, guards);
+    return Verdict::decided;
+  }
+  const bool two = item.static_friction != item.kinetic_friction;
+  if ((two && !who.bears_limit) || std::abs(r.force(t)) <= r.zero_force(t)) return Verdict::decided;
+  // At its limit: with one coefficient the next derivative decides. With two the contact sticks until the guard of the
+  // static limit fails; from then on it bears that limit if other contacts hold it.
+  who.sign = -sign_of(r.force(t));
+  state.state = slip_along(who.sign);
+  return Verdict::limit;
+}
+
+/// Decides a contact. If its force is not zero, its response is zero, whatever rounding is left in it.
+Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
+                       ContactState& state, KnownGuards& guards) {
+  const CoulombItem& item = r.item(i);
+  const Eigen::Index n = normal_place(i), t = tangent_place(i);
+  if (item.kind != Kind::pressed && !(r.force(n) > r.zero_force(n))) {
+    if (!(r.force(n) > 0.0) && !r.is_zero_response(n)) {
+      guards.closing = {order + 2, true};
+      return Verdict::decided;
+    }
+    if (item.kind == Kind::frictional && !r.is_zero_response(t)) {
+      who.slipping = true;
+      who.sign = sign_of(r.response(t));
+    }
+    return Verdict::open;
+  }
+  if (item.kind != Kind::pressed) guards.separation = {order, true};
+  if (item.kind == Kind::normal) {
+    state.state = State::closed;
+    return Verdict::decided;
+  }
+  if (item.kind == Kind::sliding) {
+    state.state = slip_along(item.sign);
+    return Verdict::decided;
+  }
+  return settle_friction(r, order, i, who, state, guards);
+}
+
+/// Contacts whose rows are constraints.
+std::vector<std::size_t> in_force(const std::vector<Participant>& participants, const Mode& mode) {
+  std::vector<std::size_t> result;
+  for (const Participant& who : participants)
+    if (!mode[who.contact].is_open()) result.push_back(who.contact);
+  return result;
+}
+
+}  // namespace
+
+Refusal dependent_rows(std::vector<std::size_t> contacts) {
+  return {Refusal::Kind::dependent,
+          "the constraints of the contacts that stick are linearly dependent, so their forces are not unique",
+          std::move(contacts), std::numeric_limits<double>::infinity()};
+}
+
+std::string holds_no_mass(const Model& model, const Contact& contact) {
+  if (!contact.holds_tangent_only()) return {};
+  const auto moves_mass = [&](const auto& term) {
+    return term.second != 0.0 && !model.dofs[static_cast<std::size_t>(term.first)].massless;
+  };
+  if (std::any_of(contact.tangent.terms.begin(), contact.tangent.terms.end(), moves_mass)) return {};
+  return "contact '" + contact.name +
+         "' sticks rigidly to a point without mass; give it a tangential_stiffness, or the point a mass";
+}
+
+CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t) const {
+  const std::size_t c = entry.who.contact;
+  const Contact& contact = model_.contacts[c];
+  CoulombItem item;
+  item.sign = entry.who.sign;
+  item.kinetic_friction = entry.who.sliding_friction;
+  item.static_friction = entry.who.kinetic ? item.kinetic_friction : static_friction(contact);
+  if (entry.standing == Standing::limit) {
+    item.kind = Kind::limit;
+  } else if (contact.normal_force_given()) {
+    item.kind = Kind::pressed;
+    item.pressing = forcing.pressing(c, t, 0);
+  } else if (!contact.has_friction()) {
+    item.kind = Kind::normal;
+  } else {
+    item.kind = entry.who.slipping ? Kind::sliding : Kind::frictional;
+  }
+  return item;
+}
+
+Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
+  const CoulombProblem& problem = level.problem;
+  const bool several = all.solutions.size() > 1;
+  Refusal result{several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
+                 several
+                     ? "several motions continue this one (Painleve's paradox: friction is so strong that "
+                       "a contact may either press or open)"
+                     : "no motion continues this one (Painleve's paradox: friction is so strong that "
+                       "pressing a sliding contact pushes it into its surface)",
+                 level.contacts, condition_of(problem), all.least_miss};
+  const double acceleration = said(model_, 1.0, unit::acceleration);
+  const double per_force = acceleration / said(model_, 1.0, unit::force);
+  for (std::size_t i = 0; i < level.contacts.size(); ++i) {
+    const CoulombItem& item = problem.items[i];
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    result.reason +=
+        fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
+                    model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
+                    problem.b[t] * acceleration, problem.W(n, n) * per_force);
+    const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);
+    if (item.kind == Kind::sliding)
+      result.reason += fmt::format(", with friction {:.6g} while it slips ({})", sliding * per_force,
+                                   to_string(slip_along(item.sign)));
+    else if (item.kind == Kind::frictional)
+      result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}",
+                                   problem.W(n, t) * per_force, item.static_friction);
+  }
+  return result;
+}
+
+/// Fills in items, right-hand side and its noise, from the motion under the forces decided so far.
+void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
+                  const std::vector<MotionJet>& jets, Level& level) const {
+  const auto size = place_count(level.entries.size());
+  level.problem.b = Eigen::VectorXd::Zero(size);
+  level.noise.resize(size);
+  for (std::size_t i = 0; i < level.entries.size(); ++i) {
+    const MotionJet& jet = jets[level.contacts[i]];
+    const ContactMotion &now = jet.motion[level.order], &zero = jet.noise[level.order];
+    const bool last = level.order + 1 == MotionJet::orders;
+    const double an = last ? 0.0 : jet.motion[level.order + 1].an,
+                 at = last ? 0.0 : jet.motion[level.order + 1].at;
+    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    level.noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
+    level.noise[t] = instant.blur * zero.at + instant.resolution * std::abs(at);
+    if (std::abs(now.an) > level.noise[n]) level.problem.b[n] = now.an;
+    if (std::abs(now.at) > level.noise[t]) level.problem.b[t] = now.at;
+    level.problem.items.push_back(item_of(entries[level.entries[i]], forcing, instant.t));
+  }
+}
+
+/// Sets up the problems of the given levels (order, block) for all undecided contacts. False: constraint rows are
+/// dependent.
+bool Levels::pose(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
+                  const Mode& mode, std::vector<Level>& levels) {
+  for (Level& level : levels) level = {level.order, level.block, {}, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].standing == Standing::decided) continue;
+    const auto of = std::find_if(levels.begin(), levels.end(),
+                                 [&](const Level& level) { return level.block == entries[i].who.block; });
+    if (of == levels.end()) continue;
+    of->entries.push_back(i);
+    of->contacts.push_back(entries[i].who.contact);
+  }
+  std::erase_if(levels, [](const Level& level) { return level.entries.empty(); });
+  if (levels.empty()) return true;
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system) return false;
+  std::vector<MotionJet> jets;
+  const ModeSystemPtr at_slip = jets_.make(system, forcing, instant.t, instant.u, instant.v, jets).system;
+  for (Level& level : levels) {
+    level.system = at_slip;
+    fill(instant, forcing, entries, jets, level);
+  }
+  return true;
+}
+
+/// No solution and no refusal: all right-hand sides are zero at this order.
+Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
+  CoulombProblem& problem = level.problem;
+  const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
+                                   [](const CoulombItem& item) { return item.kind == Kind::pressed; });
+  if (problem.b.isZero(0.0) && !pressed) return {};
+  problem.W = delassus(model_, *level.system, level.contacts).W;
+  hold_normals(problem);
+  solution = solve(problem);
+  if (!solution) return refusal(level, all_solutions(problem));
+  std::vector<bool> may_share;
+  for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
+  share_fairly(problem, may_share, *solution);
+  if (level.entries.size() > most_compared || !may_have_many(problem)) return {};
+  // A contact between static and kinetic friction that sticks may also slip; by the law it sticks, so this is not a
+  // paradox.
+  CoulombProblem settled = problem;
+  for (std::size_t i = 0; i < settled.items.size(); ++i) {
+    CoulombItem& item = settled.items[i];
+    item.static_friction = item.kinetic_friction = item.friction(solution->kinetic[i]);
+  }
+  const Enumerated all = all_solutions(settled);
+  return all.solutions.size() > 1 ? refusal(level, all) : Refusal{};
+}
+
+/// Takes over the decisions of the solution. True: at least one contact was decided.
+bool Levels::settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
+                    Mode& mode, std::vector<KnownGuards>& known) const {
+  const CoulombReading reading(level.problem, solution, level.noise);
+  bool decides = false;
+  for (std::size_t i = 0; i < level.entries.size(); ++i) {
+    Entry& entry = entries[level.entries[i]];
+    ContactState& state = mode[entry.who.contact];
+    KnownGuards& guards = known[entry.who.contact];
+    const Verdict verdict = level.problem.items[i].kind == Kind::limit
+                                ? leave_limit(reading, level.order, i, state, guards)
+                                : settle_contact(reading, level.order, i, entry.who, state, guards);
+    if (verdict == Verdict::open) continue;
+    entry.standing = verdict == Verdict::limit ? Standing::limit : Standing::decided;
+    decides = true;
+  }
+  return decides;
+}
+
+Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
+                       const std::vector<Participant>& participants, const Mode& old, Mode& mode,
+                       std::vector<KnownGuards>& known) {
+  std::vector<Entry> entries;
+  for (const Participant& who : participants) {
+    entries.push_back({who});
+    mode[who.contact] = {State::open, 0.0};
+  }
+  for (std::size_t order = 0; order < MotionJet::orders; ++order) {
+    std::vector<Level> levels;
+    for (const Participant& who : participants)
+      if (levels.empty() || levels.back().block != who.block)
+        levels.push_back({order, who.block, {}, {}, {}, {}, {}});
+    // An order of a block is solved again as long as it decides a contact: with the large forces as constraints the
+    // small ones stand out from the rounding.
+    while (!levels.empty()) {
+      if (!pose(instant, forcing, entries, mode, levels)) return dependent_rows(in_force(participants, mode));
+      std::vector<Level> again;
+      for (Level& level : levels) {
+        std::optional<CoulombSolution> solution;
+        if (Refusal why = solve_level(level, solution)) return why;
+        if (solution && settle(level, *solution, entries, mode, known)) again.push_back(std::move(level));
+        systems_.tell_held(mode, forcing, instant.t);
+      }
+      levels = std::move(again);
+    }
+  }
+  // No derivative decides the rest: touching contacts keep their states, contacts at their limit stick.
+  for (const Entry& entry : entries) {
+    if (entry.standing == Standing::limit &&
+        systems_.held_by_others(entry.who.contact, mode, forcing, instant.t)) {
+      known[entry.who.contact].sliding = Known::at_limit();  // bears its limit at rest
+    } else if (entry.standing == Standing::limit) {
+      mode[entry.who.contact].state = State::stick;
+      KnownGuards& guards = known[entry.who.contact];
+      (entry.who.sign > 0 ? guards.slip_plus : guards.slip_minus) = Known::at_limit();
+    }
+    if (entry.standing == Standing::apex) mode[entry.who.contact] = old[entry.who.contact];
+  }
+  return {};
+}
+
+}  // namespace signorini

@@ -1,0 +1,538 @@
+#include "decide/rigid_contact_solver.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "base/rounding.hpp"
+#include "contact/friction.hpp"
+#include "contact/motion.hpp"
+#include "decide/coulomb_problem.hpp"
+
+namespace signorini {
+namespace {
+
+/// Fraction of the scale of velocities: motions that differ by more were not separated by rounding alone. sqrt(eps): no
+/// flow of an engine loses half of its digits.
+constexpr double half_of_digits = 0x1p-26;
+/// Limit for successive hits at one instant; capture_velocity ends a sequence of rebounds long before, unless e is
+/// almost one.
+constexpr int most_turns = 1000;
+
+double norm_of(const Combination& form) {
+  double squared = 0.0;
+  for (const auto& [dof, factor] : form.terms) squared += factor * factor;
+  return std::sqrt(squared);
+}
+
+/// Rounding of a form of the velocities, |form| |v| for any angle between them. If all of these velocities are held at
+/// zero, they contain the rounding of corrections, which is relative to the whole motion.
+double rounding_of(const Combination& form, const Vector& v) {
+  const double rest = rounding::eps * v.norm();
+  double v_squared = 0.0;
+  for (const auto& [dof, factor] : form.terms) v_squared += v[dof] * v[dof];
+  return rounding::of_many * norm_of(form) * (std::sqrt(v_squared) + rest);
+}
+
+/// Norm of all velocities; rotations have another unit and are omitted.
+double speed_of(const Model& model, const Vector& v) {
+  double squared = 0.0;
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (!model.dofs[static_cast<std::size_t>(i)].rotation) squared += v[i] * v[i];
+  return std::sqrt(squared);
+}
+
+/// Energy loss: -sum of impulse times mean velocity, for captures since `before`. twice: velocities before plus
+/// velocities after.
+double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd& before,
+               const Eigen::VectorXd& now, const Vector& twice) {
+  double loss = 0.0;
+  if (now.size() == 0) return loss;
+  for (const std::size_t c : touching)
+    for (const auto& [place, form] : {std::pair{model.layout.normal(c), &model.contacts[c].normal},
+                                      std::pair{model.layout.tangent(c), &model.contacts[c].tangent}}) {
+      const double impulse = now.data()[place] - (before.size() > 0 ? before.data()[place] : 0.0);
+      if (impulse != 0.0) loss -= 0.5 * impulse * form->dot(twice);
+    }
+  return loss;
+}
+
+}  // namespace
+
+void Findings::capture(const Model& model, const std::vector<std::size_t>& contacts,
+                       const Eigen::VectorXd& impulses) {
+  if (impulses.size() == 0) return;
+  if (captures.size() == 0) captures.setZero(model.force_count());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    captures.data()[model.layout.normal(contacts[i])] += impulses[normal_place(i)];
+    captures.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(i)];
+  }
+}
+
+void Findings::capture(const Eigen::VectorXd& impulses) {
+  if (impulses.size() == 0) return;
+  if (captures.size() == 0) captures.setZero(impulses.size());
+  captures += impulses;
+}
+
+Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity)
+    : model_(systems.model()),
+      systems_(systems),
+      jets_(jets),
+      capture_velocity_(capture_velocity),
+      impacts_(systems, capture_velocity),
+      levels_(systems, jets) {}
+
+/// Rounding of t.v minus the velocity of the surface, plus slip rates that count as rest; at the start at least the
+/// rounding of the scene's velocities.
+double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
+  const double given = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
+  return given + rounding_of(model_.contacts[c].tangent, instant.v) +
+         rounding::of_many * std::abs(forcing.surface(c, instant.t, 1)) +
+         forcing.surface_rounding(c, instant.t) + instant.slow;
+}
+
+double Touching::slowest_flight(std::size_t c) const {
+  return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
+}
+
+/// Decides whether a contact with g = 0 leaves. It stays if its flight would be shorter than the resolution of the
+/// clock. It is low if its speed is below capture_velocity, or if the flight is lower than the rounding of its gap and
+/// the engine does not know such flights. Its acceleration towards the ground just before also counts as a pull: if all
+/// touching bodies fall freely together, no force seems to pull it back.
+Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, double fell,
+                                        const Instant& instant) const {
+  const Contact& contact = model_.contacts[c];
+  const ContactMotion &m = free.motion[0], &noise = free.noise[0];
+  const double pull = std::max(-m.an, fell);
+  // A body at rest moves by the rounding of its equilibrium, not of its velocity.
+  const double rounding =
+      instant.blur * noise.vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
+  if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::How::stays : Departure::How::leaves};
+  double low = slowest_flight(c);
+  if (!instant.knows_low_flights)
+    low = std::max(low, std::sqrt(2.0 * pull * std::max(noise.gap, std::abs(m.gap))));
+  const double ratio = m.vn / (rounding + low);
+  if (m.vn <= rounding) return {Departure::How::stays, ratio};
+  return {m.vn <= rounding + low ? Departure::How::low : Departure::How::leaves, ratio};
+}
+
+/// True if a dashpot makes the compression of a contact jump up, by n . (v+ - v-). For velocities that no impulse
+/// reaches, the solve leaves rounding relative to all jumps.
+bool Touching::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
+  const Contact& contact = model_.contacts[c];
+  if (!(contact.normal_damping > 0.0)) return false;
+  // Rounding of an elimination: the effect of a hit decays by a factor of 0.3 per node of a beam, and is no jump once
+  // it is that small.
+  const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
+                          4.0 * rounding::of_elimination * norm_of(contact.normal) *
+                              (speed_of(model_, before) + speed_of(model_, after));
+  return gap_rate(contact, after) - gap_rate(contact, before) < -rounding;
+}
+
+/// Adapts states to the velocities after an impact: sliders that stick rigidly slip as soon as their slip rate is not
+/// zero. If a dashpot makes |N| jump up, T is continuous and below its new limit: the element sticks. If |N| jumps
+/// down, T follows its limit; if N does not jump, the slip continues as long as its own guard holds.
+void Touching::follow_velocity(const Instant& instant, const Vector& before, const Forcing& after,
+                               const Block& block, const std::vector<ContactMotion>& motion,
+                               Mode& mode) const {
+  for (const std::size_t c : block) {
+    const Contact& contact = model_.contacts[c];
+    if (contact.tangential_stiffness && slip_sign(mode[c].state) != 0 && presses_harder(c, before, instant.v))
+      mode[c] = {State::stick, slip_of(contact, motion[c])};
+    if (!contact.holds_tangent_only() || mode[c].is_open()) continue;
+    const double vt = along_surface(contact, instant.v, after.surface(c, instant.t, 1));
+    // Same rounding as in presses_harder: a contact that stuck is at rest up to the rounding of all jumps.
+    const double of_jump =
+        slip_sign(mode[c].state) == 0
+            ? rounding::of_elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
+            : 0.0;
+    if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
+  }
+}
+
+/// Sets velocities that count as zero to zero, for all contacts at once: setting one to zero moves the others. False:
+/// they were zero already.
+bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
+                              const Met& met, Findings& found) const {
+  std::vector<Fixed> fixed;
+  for (std::size_t i = 0; i < met.contacts.size(); ++i) {
+    const std::size_t c = met.contacts[i];
+    const Contact& contact = model_.contacts[c];
+    const auto who = std::find_if(found.participants.begin(), found.participants.end(),
+                                  [&](const Participant& p) { return p.contact == c; });
+    if (who == found.participants.end()) continue;
+    const Eigen::Index row = normal_place(i);
+    fixed.push_back({row, &contact.normal, 0.0});
+    found.known[c].closing.zeros = 2;
+    if (!contact.has_friction() || who->slipping) continue;
+    fixed.push_back({row + 1, &contact.tangent, forcing.surface(c, instant.t, 1)});
+    found.known[c].sliding.zeros = 1;
+  }
+  if (settled(fixed, instant.v)) return false;
+  const Eigen::VectorXd impulses = settle(delassus(model_, free, met.contacts), fixed, instant.v);
+  found.capture(with_reactions(model_, free, met.contacts, impulses));
+  return true;
+}
+
+/// Updates the direction of slip after other velocities were set to zero. True: one more contact rests.
+bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,
+                          Findings& found) const {
+  bool rests = false;
+  for (Participant& who : found.participants) {
+    const std::size_t c = who.contact;
+    if (!who.slipping || !std::binary_search(met.contacts.begin(), met.contacts.end(), c)) continue;
+    const Contact& contact = model_.contacts[c];
+    const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
+    who.sign = vt > 0.0 ? 1 : -1;
+    who.sliding_friction = sliding_friction(contact, std::abs(vt));
+    if (std::abs(vt) > rounding_of_slide(c, forcing, instant)) continue;
+    who.slipping = false;
+    rests = true;
+  }
+  return rests;
+}
+
+/// Rounding accumulated in g and g'. The error da of g'' gives dv = t da in all velocities since the beginning, and
+/// du = t^2/2 da in displacements. At the last touch g and g' were known exactly. In the time s since then, dv has
+/// changed g, da has changed g', and du has changed both through the stiffness of the structure:
+/// by du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency. This is an upper bound, useless for stiff
+/// structures after long times: velocities that differ by half_of_digits of their scale therefore count as different in
+/// any case.
+Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& instant) const {
+  if (instant.touched.empty()) return {};
+  const double t = instant.t, s = t - instant.touched[c], w = model_.omega_max, du = 0.5 * t * t * da;
+  const double angle = std::min(1.0, w * s);
+  const double most = half_of_digits * model_.scales.velocity;
+  return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
+}
+
+/// Rounding of a gap. A flight begins with g = 0, so its gap is accurate to the rounding of the sum that g is. For a
+/// contact that never touched, the data of the sum have errors of a few roundings.
+double Touching::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
+  const bool flew = !instant.touched.empty() && instant.touched[c] > 0.0;
+  const Contact& contact = model_.contacts[c];
+  return flew ? rounding::of_few * (contact.normal.magnitude(instant.u) + std::abs(contact.gap)) : of_data;
+}
+
+Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet>& jets,
+                             const std::vector<Failure>& failed, const Block& block, const Mode& mode) const {
+  const auto is_zero = [&](double value, double noise, double rate) {
+    return std::abs(value) <= noise + instant.resolution * std::abs(rate);
+  };
+  // Given motions of rounding size determine a gap no better than motions of the scene's size.
+  const double given = instant.start ? rounding::of_few * model_.scales.displacement : 0.0;
+  const double given_rate = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
+  Met met;
+  int together = 0;
+  bool doubtful = false;
+  for (const std::size_t c : block) {
+    if (!model_.contacts[c].takes_impulses()) continue;
+    const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
+    const bool open = mode[c].is_open();
+    const Carried carried = carried_by(c, noise.an, instant);
+    const double known = rounding_of_gap(c, noise.gap, instant) + given;
+    // Whatever has accumulated, closing faster than a rebound that would not rest is a hit.
+    const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
+    Approach a{c, 0.0, m.vn, noise.vn + given_rate + slowest_flight(c), noise.vn + unsure + given_rate, open};
+    // A contact whose gap has become negative touches, too: it closed with others, within the resolution of the clock.
+    const bool fell =
+        std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
+    const bool touches = !open || instant.has_fired(c, Guard::closing) || std::abs(m.gap) <= known;
+    const bool split = !touches && (fell || std::abs(m.gap) <= known + carried.gap) &&
+                       lands_alike(a, instant, jets, failed, block);
+    const bool comes = is_zero(m.gap, known, m.vn);
+    const bool above = !touches && !split && !comes;
+    if (above && !fell) continue;
+    if (!touches && !split) a.gap = std::max(m.gap, 0.0);
+    met.unresolved = met.unresolved || (above && m.gap > 0.0) || (split && !comes);
+    met.contacts.push_back(c);
+    met.approaches.push_back(a);
+    met.apart = met.apart || m.gap != 0.0;
+    met.hit = met.hit || a.closes();
+    // These contacts are hit together within the accuracy of their data, which do not determine the order.
+    const double own = rounding::of_few * (model_.contacts[c].normal.magnitude(instant.u) +
+                                           std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
+    if (!a.closes() || a.gap > 0.0) continue;
+    ++together;
+    doubtful = doubtful || (!instant.has_fired(c, Guard::closing) && std::abs(m.gap) > own + given);
+  }
+  met.unresolved = met.unresolved || (together > 1 && doubtful);
+  return met;
+}
+
+/// True if the contact moves like one that closes now, up to the rounding of both, or does not move.
+bool Touching::lands_alike(const Approach& a, const Instant& instant, const std::vector<MotionJet>& jets,
+                           const std::vector<Failure>& failed, const Block& block) const {
+  if (std::abs(a.rate) <= a.rest) return true;
+  const double alike = a.hit + half_of_digits * model_.scales.velocity;
+  return std::any_of(block.begin(), block.end(), [&](std::size_t c) {
+    const bool falls =
+        instant.has_fired(c, Guard::closing) ||
+        std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
+    const double apart = std::abs(jets[c].motion[0].vn - a.rate);
+    return c != a.contact && falls && model_.contacts[c].takes_impulses() && apart <= alike;
+  });
+}
+
+/// Computes hits turn by turn, until no contact closes.
+Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                         Findings& found, Decision& decision, Mode& mode) {
+  std::vector<Approach> all = met.approaches;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const Block struck = next_turn(all);
+    if (struck.empty()) return {};
+    if (Refusal why = strike_once(instant, forcing, struck, block, found, decision, mode)) return why;
+    for (Approach& a : all) {
+      a.rate = gap_rate(model_.contacts[a.contact], instant.v);
+      a.rest = std::max(
+          a.rest, slowest_flight(a.contact) + rounding_of(model_.contacts[a.contact].normal, instant.v));
+      a.hit = a.rest;
+      if (!(a.rate > a.rest)) continue;
+      mode[a.contact] = {State::open, 0.0};
+      a.open = true;
+      // A contact that had stopped is thrown off; the record of a contact's own rebound is kept.
+      if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
+    }
+  }
+  return {
+      Refusal::Kind::endless,
+      fmt::format("{} hits one after the other at one instant do not end; a greater capture_velocity ends "
+                  "rebounds sooner",
+                  most_turns),
+      met.contacts};
+}
+
+/// Computes one turn.
+Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
+                              const Block& block, Findings& found, Decision& decision, Mode& mode) {
+  const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.v);
+  if (result.refusal) return result.refusal;
+  const Vector before = std::exchange(instant.v, result.v);
+  found.capture(model_, struck, result.settled);
+  for (const std::size_t c : block) {
+    found.stays[c] = found.rests[c] = false;
+    found.known[c].sliding = {};
+  }
+  decision.impact_loss += result.loss;
+  decision.impact_surface_work += result.surface_work;
+  decision.impact_gains = decision.impact_gains || result.gains;
+  if (decision.impulses.empty()) decision.impulses.resize(mode.size());
+  const int turn = decision.blows.empty() ? 1 : decision.blows.back().turn + 1;
+  for (const std::size_t c : struck) {
+    Impulse& sum = decision.impulses[c];
+    decision.blows.push_back({c, turn, result.impulses[c].normal, result.impulses[c].tangent});
+    sum.hit = sum.hit || result.impulses[c].hit;
+    sum.normal += result.impulses[c].normal;
+    sum.tangent += result.impulses[c].tangent;
+    sum.rests = result.impulses[c].rests;
+    sum.sticks = result.impulses[c].sticks;
+    sum.rebound = result.impulses[c].rebound;
+  }
+  follow_velocity(instant, before, forcing, block, decision.before, mode);
+  return {};
+}
+
+/// Adds contacts that do not leave. free: the motion without forces at all touching contacts.
+void Touching::add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
+                           const std::vector<MotionJet>& free, const Decision& decision,
+                           Findings& found) const {
+  for (const std::size_t c : met.contacts) {
+    const Contact& contact = model_.contacts[c];
+    const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
+    const Impulse struck = met.hit ? decision.impulses[c] : Impulse{};
+    if (!struck.rests && !found.stays[c]) {
+      using How = Departure::How;
+      const bool open = instant.mode[c].is_open();
+      const double fell = open ? -decision.before[c].an : 0.0;
+      const auto [how, ratio] = departure(c, free[c], fell, instant);
+      found.departures[c] = ratio;
+      if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
+      found.grounded = found.grounded || how == How::low;
+      found.unresolved = found.unresolved || (slowest_flight(c) > 0.0 && m.vn > slowest_flight(c));
+      found.slowest = std::max(found.slowest, m.vn);
+    }
+    found.stays[c] = true;
+    const double zero =
+        noise.vt + rounding_of_slide(c, forcing, instant) + instant.resolution * std::abs(m.at);
+    const bool rests = struck.sticks || found.rests[c] ||
+                       (!met.hit && instant.has_fired(c, Guard::sliding)) || std::abs(m.vt) <= zero;
+    Participant who{c};
+    who.slipping = contact.has_friction() && !rests;
+    who.sign = m.vt > 0.0 ? 1 : -1;
+    who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
+    who.kinetic = found.kinetic[c];
+    who.bears_limit = found.bears_limit[c];
+    found.participants.push_back(who);
+  }
+}
+
+/// Sets contacts to rest that resting contacts hold, whatever rounding is left in their slip: feet of one body.
+void Touching::rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode,
+                             Findings& found) const {
+  Mode held = mode;
+  for (const Participant& who : found.participants)
+    held[who.contact].state = !model_.contacts[who.contact].has_friction() ? State::closed
+                              : who.slipping                               ? slip_along(who.sign)
+                                                                           : State::stick;
+  for (Participant& who : found.participants) {
+    const std::size_t c = who.contact;
+    if (!who.slipping || !systems_.held_by_others(c, held, forcing, instant.t)) continue;
+    const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
+    if (std::abs(vt) > slowest_flight(c) + rounding::of_many * model_.scales.velocity) continue;
+    who.slipping = false;
+    who.sliding_friction = sliding_friction(model_.contacts[c], 0.0);
+    held[c].state = State::stick;
+  }
+}
+
+/// Contacts at rest among those that share one motion, if one of these has let go or stopped.
+std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing& forcing, const Mode& mode,
+                                           const Decision& decision) const {
+  std::vector<std::size_t> at_rest;
+  for (const std::vector<std::size_t>& group : systems_.sharing()) {
+    if (std::none_of(group.begin(), group.end(), [&](std::size_t c) { return decision.visited[c]; }))
+      continue;
+    Mode held = mode;
+    const auto stops = [&](std::size_t c) {
+      if (mode[c].state == State::stick || instant.has_fired(c, Guard::sliding)) return true;
+      const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
+      const double held_too = systems_.held_by_others(c, held, forcing, instant.t)
+                                  ? slowest_flight(c) + rounding::of_many * model_.scales.velocity
+                                  : 0.0;
+      return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);
+    };
+    for (int round = 0; round < 2; ++round)  // a stopped contact holds others
+      for (const std::size_t c : group)
+        if (model_.contacts[c].normal_force_given() && !mode[c].is_open() && stops(c))
+          held[c].state = State::stick;
+    std::copy_if(group.begin(), group.end(), std::back_inserter(at_rest), [&](std::size_t c) {
+      return model_.contacts[c].normal_force_given() && held[c].state == State::stick;
+    });
+  }
+  return at_rest;
+}
+
+/// Adds sliders whose friction has let go or has stopped them, if sliders take part, and sliders that a hit has
+/// stopped.
+void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                           const Mode& mode, const Decision& decision, Findings& found) const {
+  const std::vector<std::size_t> together = sharing(instant, forcing, mode, decision);
+  for (const std::size_t c : block) {
+    const Contact& contact = model_.contacts[c];
+    if (!contact.holds_tangent_only()) continue;
+    const bool shares = std::find(together.begin(), together.end(), c) != together.end();
+    const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
+    const bool stopped =
+        met.hit && slip_sign(mode[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
+    if (!stopped && !shares && !(found.sliders && decision.visited[c])) continue;
+    Participant who{c};
+    who.sliding_friction = sliding_friction(contact, 0.0);
+    who.kinetic = found.kinetic[c];
+    who.bears_limit = found.bears_limit[c];
+    if (shares) found.known[c].sliding.zeros = 1;
+    found.known[c] = found.known[c].of_motion();
+    found.participants.push_back(who);
+  }
+}
+
+/// Adds sliders that stick rigidly and would otherwise be kept: a consistent state may need them to let go. False:
+/// there are none.
+bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, Findings& found) const {
+  std::vector<Participant> all;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    std::copy_if(found.participants.begin(), found.participants.end(), std::back_inserter(all),
+                 [&](const Participant& who) { return who.block == b; });
+    for (const std::size_t c : blocks[b]) {
+      const Contact& contact = model_.contacts[c];
+      const bool takes_part =
+          std::any_of(all.begin(), all.end(), [&](const Participant& who) { return who.contact == c; });
+      if (!contact.holds_tangent_only() || mode[c].state != State::stick || takes_part) continue;
+      Participant who{c};
+      who.sliding_friction = sliding_friction(contact, 0.0);
+      who.kinetic = found.kinetic[c];
+      who.bears_limit = found.bears_limit[c];
+      who.block = b;
+      all.push_back(who);
+    }
+  }
+  const bool some = all.size() > found.participants.size();
+  if (some) found.participants = std::move(all);
+  return some;
+}
+
+/// Decides the levels. If keeping sliders in stick gives no motion, several motions or dependent rows, these sliders
+/// are decided with the rest.
+Refusal Touching::solve_levels(const Instant& instant, const Forcing& forcing,
+                               const std::vector<Block>& blocks, const Mode& old, Findings& found,
+                               Mode& mode) {
+  const Mode held = mode;
+  const std::vector<KnownGuards> known = found.known;
+  Refusal refusal = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  const bool painleve = refusal.kind == Refusal::Kind::paradox || refusal.kind == Refusal::Kind::ambiguous;
+  const bool dependent = refusal ? refusal.kind == Refusal::Kind::dependent : systems_.of(mode) == nullptr;
+  if (!(painleve || dependent) || !add_sticking(blocks, held, found)) return refusal;
+  mode = held;
+  found.known = known;
+  for (const Participant& who : found.participants)
+    if (model_.contacts[who.contact].normal_force_given())
+      found.known[who.contact] = known[who.contact].of_motion();
+  const Refusal together = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  return together ? refusal : Refusal{};
+}
+
+Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
+                         const std::vector<Failure>& failed, const std::vector<Block>& blocks,
+                         Findings& found, Decision& decision, Mode& mode) {
+  const Mode old = mode;
+  std::vector<Met> all;
+  for (const Block& block : blocks) {
+    const Met& met = all.emplace_back(meet(instant, jets, failed, block, mode));
+    found.hit = found.hit || met.hit;
+    found.unresolved = found.unresolved || met.unresolved;
+    for (const std::size_t c : met.contacts) {
+      found.known[c] = {};
+      found.known[c].touches = true;
+      found.known[c].closing.zeros = 1;
+    }
+  }
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const Met& met = all[b];
+    if (met.hit)
+      if (Refusal why = strike(instant, forcing, met, blocks[b], found, decision, mode)) return why;
+    if (met.apart) instant.u = impacts_.close(mode, met.contacts, instant.u);
+  }
+  for (const Met& met : all)
+    for (const std::size_t c : met.contacts) mode[c] = {State::open, 0.0};
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system)
+    return {Refusal::Kind::singular, "the equations of motion without rigid contacts are singular", {}};
+  Block touching;
+  for (const Met& met : all) touching.insert(touching.end(), met.contacts.begin(), met.contacts.end());
+  std::vector<MotionJet> free;
+  const Jet free_jet = jets_.make(system, forcing, instant.t, instant.u, instant.v, free);
+  found.participants.clear();
+  const Vector moving = instant.v;
+  const Eigen::VectorXd captured = found.captures;
+  std::size_t placed = 0;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    add_staying(instant, forcing, all[b], free, decision, found);
+    rest_together(instant, forcing, mode, found);
+    while (settle_resting(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
+      if (!slide_anew(instant, forcing, all[b], found)) break;
+    add_sliders(instant, forcing, all[b], blocks[b], mode, decision, found);
+    for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
+  }
+  // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: its energy is lost.
+  decision.impact_loss += loss_of(model_, touching, captured, found.captures, moving + instant.v);
+  Refusal refusal = solve_levels(instant, forcing, blocks, old, found, mode);
+  for (const Participant& who : found.participants) {
+    found.decided[who.contact] = true;
+    if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;
+  }
+  return refusal;
+}
+
+}  // namespace signorini

@@ -1,0 +1,125 @@
+// rigid_contact_solver.hpp: states of touching rigid contacts, from velocities and accelerations.
+//
+//   hit:     g = 0, g' < 0        impact (decide/impact.hpp), then
+//   leaves:  g' > 0               open
+//   stays:   g' = 0               decided with all others that stay (decide/derivative_levels.hpp)
+//
+// A velocity counts as zero if an acceleration compensates it within the resolution of the clock. The acceleration is
+// known only after a state has been tried, so these zeros are found in the course of a decision.
+//
+// Uncoupled blocks of contacts are decided separately, with one common motion.
+#pragma once
+
+#include <limits>
+
+#include "decide/decision.hpp"
+#include "decide/derivative_levels.hpp"
+#include "decide/guard_signs.hpp"
+#include "decide/impact.hpp"
+
+namespace signorini {
+
+/// Contacts coupled through M, C, K and contacts, ascending.
+using Block = std::vector<std::size_t>;
+
+/// Data found at an instant about contacts whose forces may jump; lists: one entry per contact.
+struct Findings {
+  explicit Findings(std::size_t n)
+      : decided(n, false),
+        kinetic(n, false),
+        bears_limit(n, false),
+        stays(n, false),
+        rests(n, false),
+        departures(n, std::numeric_limits<double>::quiet_NaN()),
+        known(n) {}
+  bool hit = false;               ///< the last decision began with an impact
+  bool sliders = false;           ///< sliders that stick rigidly take part
+  bool grounded = false;          ///< a flight was taken as rest because of its height only
+  bool unresolved = false;        ///< Decision::unresolved
+  double slowest = 0.0;           ///< largest speed of leaving that was taken as rest
+  std::vector<bool> decided;      ///< the contact took part
+  std::vector<bool> kinetic;      ///< the contact has begun to slip: the static coefficient no longer applies
+  std::vector<bool> bears_limit;  ///< other contacts hold it: it stays at its static limit
+  std::vector<bool> stays, rests;  ///< vn, vt count as zero
+  /// Speed of leaving divided by the speed below which a contact stays; NaN: not computed.
+  std::vector<double> departures;
+  Eigen::VectorXd captures;  ///< Decision::captures; empty: none so far
+  /// Adds impulses of rows 2 i, 2 i + 1 for the i-th of these contacts; empty: none.
+  void capture(const Model& model, const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
+  /// Adds impulses of all contacts.
+  void capture(const Eigen::VectorXd& impulses);
+  std::vector<KnownGuards> known;         ///< one entry per contact; of touching ones
+  std::vector<Participant> participants;  ///< of the last decision
+};
+
+class Touching {
+ public:
+  /// capture_velocity: for contacts without a value of their own.
+  Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity);
+
+  /// Computes impacts if there are any, then the states of the given blocks. failed: the guards that led here.
+  [[nodiscard]] Refusal decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
+                               const std::vector<Failure>& failed, const std::vector<Block>& blocks,
+                               Findings& found, Decision& decision, Mode& mode);
+
+ private:
+  /// Rigid contacts of a block with g = 0.
+  struct Met {
+    Block contacts;
+    std::vector<Approach> approaches;  // one per contact
+    bool hit = false, apart = false;   // one closes; a gap is not exactly zero
+    bool unresolved = false;           // one flies, but lower than the rounding of its data
+  };
+  struct Carried {
+    double gap = 0.0, rate = 0.0;
+  };
+  /// Speed below which a rebound of the contact counts as rest.
+  [[nodiscard]] double slowest_flight(std::size_t contact) const;
+  [[nodiscard]] double rounding_of_gap(std::size_t contact, double of_data, const Instant& instant) const;
+  [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
+  [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
+                         const std::vector<Failure>& failed, const Block& block, const Mode& mode) const;
+  [[nodiscard]] bool lands_alike(const Approach& approach, const Instant& instant,
+                                 const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                                 const Block& block) const;
+  [[nodiscard]] Refusal strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
+                                    const Block& block, Findings& found, Decision& decision, Mode& mode);
+  [[nodiscard]] Refusal strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                               Findings& found, Decision& decision, Mode& mode);
+  void add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
+                   const std::vector<MotionJet>& free, const Decision& decision, Findings& found) const;
+  void rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode, Findings& found) const;
+  [[nodiscard]] std::vector<std::size_t> sharing(const Instant& instant, const Forcing& forcing,
+                                                 const Mode& mode, const Decision& decision) const;
+  void add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                   const Mode& mode, const Decision& decision, Findings& found) const;
+  [[nodiscard]] bool presses_harder(std::size_t contact, const Vector& before, const Vector& after) const;
+  void follow_velocity(const Instant& instant, const Vector& before, const Forcing& after, const Block& block,
+                       const std::vector<ContactMotion>& motion, Mode& mode) const;
+  [[nodiscard]] bool settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
+                                    const Met& met, Findings& found) const;
+  [[nodiscard]] bool slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,
+                                Findings& found) const;
+  [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
+                                         const Instant& instant) const;
+  [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const Mode& mode, Findings& found) const;
+  [[nodiscard]] Refusal solve_levels(const Instant& instant, const Forcing& forcing,
+                                     const std::vector<Block>& blocks, const Mode& old, Findings& found,
+                                     Mode& mode);
+  /// Fate of a contact with g = 0, and g' relative to the largest value with which it would stay.
+  struct Departure {
+    enum class How : unsigned char { stays, low, leaves } how;  // low: it leaves, but below its rounding
+    double ratio = std::numeric_limits<double>::quiet_NaN();    // NaN: no speed is too low
+  };
+  [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, double fell,
+                                    const Instant& instant) const;
+
+  const Model& model_;
+  ModeSystems& systems_;
+  JetMaker& jets_;
+  double capture_velocity_;
+  Impacts impacts_;
+  Levels levels_;
+};
+
+}  // namespace signorini

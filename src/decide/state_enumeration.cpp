@@ -1,0 +1,154 @@
+#include "decide/state_enumeration.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "contact/friction.hpp"
+#include "contact/motion.hpp"
+#include "decide/coulomb_problem.hpp"
+#include "decide/delassus.hpp"
+#include "motion/state_systems.hpp"
+
+namespace signorini {
+namespace {
+
+// Accelerations are equal if they differ by less than this fraction of the largest in any combination: half of the
+// digits, since this is the accuracy of forces in a block with the worst condition that can still be decided (1e8).
+// Relative to each other, two that are the rounding of rest would differ.
+constexpr double same_acceleration = 1e-8;
+
+/// Applies the combination with this number, one digit per choice.
+void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mode& mode) {
+  for (const Enumeration::Choice& choice : choices) {
+    mode[choice.contact] = choice.states[code % choice.states.size()];
+    code /= choice.states.size();
+  }
+}
+
+/// True if the modes differ by the gap between static and kinetic friction only: a sticking contact may then also slip,
+/// and by the law it sticks.
+bool differ_by_law(const Model& model, const Mode& one, const Mode& other) {
+  for (std::size_t c = 0; c < one.size(); ++c) {
+    if (one[c] == other[c]) continue;
+    const Contact& contact = model.contacts[c];
+    const bool lets_go = one[c].state == State::stick && slip_sign(other[c].state) != 0;
+    const Friction& f = contact.friction;
+    if (!lets_go || f.by_force() || !(f.static_ > f.kinetic)) return false;
+  }
+  return true;
+}
+
+/// States of the contacts in question, as text: "'first' stick, 'second' slip+".
+std::string named_states(const Model& model, const std::vector<Enumeration::Choice>& choices,
+                         const Mode& mode) {
+  std::string text;
+  for (const Enumeration::Choice& choice : choices)
+    text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", model.contacts[choice.contact].name,
+                        to_string(mode[choice.contact].state));
+  return text;
+}
+
+}  // namespace
+
+std::string several_motions(const Model& model, const std::vector<Enumeration::Choice>& choices,
+                            const Enumeration::Best& best) {
+  return fmt::format("several motions continue this one, as {} and as {}",
+                     named_states(model, choices, best.mode), named_states(model, choices, best.rival));
+}
+
+bool Enumeration::Best::acceptable() const {
+  return rival.empty() && forgiveness <= std::max(1.0, condition);
+}
+
+Enumeration::Choice Enumeration::choice(const Participant& who) const {
+  const Contact& contact = model_.contacts[who.contact];
+  const ContactState open{State::open, 0.0}, closed{State::closed, 0.0}, stick{State::stick, 0.0},
+      plus{State::slip_plus, 0.0}, minus{State::slip_minus, 0.0};
+  if (contact.normal_force_given()) return {who.contact, {stick, plus, minus}};
+  if (!contact.has_friction()) return {who.contact, {open, closed}};
+  if (who.slipping) return {who.contact, {open, who.sign > 0 ? plus : minus}};
+  return {who.contact, {open, stick, plus, minus}};
+}
+
+Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state,
+                                        const ContactMotion& before) const {
+  const Contact& contact = model_.contacts[c];
+  return {c, contact.law->candidates(contact, state, before)};
+}
+
+/// nullopt: the rows of the mode are dependent.
+std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, const Forcing& forcing,
+                                                       const Block& block,
+                                                       const std::vector<KnownGuards>& known,
+                                                       const Mode& mode) {
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system) return std::nullopt;
+  Vector u = instant.u, v = instant.v;
+  hold(model_, *system, forcing, instant.t, u, v);
+  std::vector<MotionJet> motions;
+  const Jet jet = jets_.make(system, forcing, instant.t, u, v, motions);
+  if (forces_are_noise(model_, motions) && !forces_are_unique(systems_, mode)) return std::nullopt;
+  Weighed result{0.0, jet.a()};
+  for (const std::size_t c : block)
+    for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
+      if (guard.kind != Guard::none)
+        result.forgiveness =
+            std::max(result.forgiveness,
+                     forgiveness(guard, motions[c], instant, known[c].of_motion().of(guard.kind).zeros));
+  return result;
+}
+
+double Enumeration::condition(const std::vector<std::size_t>& contacts, Mode mode) {
+  std::vector<Eigen::Index> rows;  // rows of existing forces
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = model_.contacts[contacts[i]];
+    if (contact.takes_impulses()) rows.push_back(normal_place(i));
+    if (contact.has_friction() && (contact.takes_impulses() || contact.sticks_rigidly()))
+      rows.push_back(tangent_place(i));
+    mode[contacts[i]] = {State::open, 0.0};
+  }
+  if (rows.empty()) return 1.0;
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system) return std::numeric_limits<double>::quiet_NaN();
+  CoulombProblem problem;
+  problem.W = delassus(model_, *system, contacts).W(rows, rows);
+  problem.b = Eigen::VectorXd::Zero(problem.W.rows());
+  return condition_of(problem);
+}
+
+std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& instant, const Forcing& forcing,
+                                                            const Block& block,
+                                                            const std::vector<Choice>& choices,
+                                                            const std::vector<KnownGuards>& known,
+                                                            const Mode& mode) {
+  if (choices.empty() || choices.size() > most_contacts) return std::nullopt;
+  std::size_t combinations = 1;
+  for (const Choice& choice : choices) combinations *= choice.states.size();
+  std::optional<Best> best;
+  std::vector<std::pair<Mode, Vector>> holding;  // modes without any violation
+  double greatest = 0.0;
+  for (std::size_t code = 0; code < combinations; ++code) {
+    Mode tried = mode;
+    apply(choices, code, tried);
+    const auto weighed = weigh(instant, forcing, block, known, tried);
+    if (!weighed) continue;
+    greatest = std::max(greatest, weighed->a.norm());
+    if (weighed->forgiveness == 0.0) holding.emplace_back(tried, weighed->a);
+    if (best && weighed->forgiveness >= best->forgiveness) continue;
+    best = Best{std::move(tried), weighed->forgiveness, 1.0, {}};
+  }
+  // Consistent modes must have the same accelerations; the first one is the best.
+  for (std::size_t i = 1; i < holding.size() && best->rival.empty(); ++i)
+    if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
+        !differ_by_law(model_, holding[0].first, holding[i].first))
+      best->rival = holding[i].first;
+  if (!best) return best;
+  std::vector<std::size_t> contacts;
+  for (const Choice& choice : choices) contacts.push_back(choice.contact);
+  best->condition = condition(contacts, mode);
+  return best;
+}
+
+}  // namespace signorini

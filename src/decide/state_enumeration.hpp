@@ -1,0 +1,71 @@
+// state_enumeration.hpp: tries all combinations of the states of a block, and rates their violations in units of rounding.
+//
+//   forgiveness of a mode = max over the block's guards of ( -g^(k) / zero^(k) )
+//                           where g^(k) is negative and no lower derivative is positive
+//
+// 0: every guard holds. A mode is acceptable if its forgiveness does not exceed the condition number of the block.
+// Used for blocks that rounding leaves undecided; it costs one jet per combination.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "decide/rigid_contact_solver.hpp"
+
+namespace signorini {
+
+class Enumeration {
+ public:
+  Enumeration(ModeSystems& systems, JetMaker& jets)
+      : model_(systems.model()), systems_(systems), jets_(jets) {}
+
+  /// Largest number of contacts for which all combinations are tried: 4^5 jets.
+  static constexpr std::size_t most_contacts = 5;
+
+  /// A contact in question, and the states that it may take.
+  struct Choice {
+    std::size_t contact = 0;
+    std::vector<ContactState> states;
+  };
+  /// Choice for a contact that touches and is decided with others.
+  [[nodiscard]] Choice choice(const Participant& who) const;
+  /// Choice for any other contact, from its state and its motion `before`, up to the instant.
+  [[nodiscard]] Choice choice(std::size_t contact, const ContactState& state,
+                              const ContactMotion& before) const;
+
+  struct Best {
+    Mode mode;
+    double forgiveness = 0.0;
+    double condition = 1.0;  ///< condition number of the chosen contacts' accelerations by their own forces
+    Mode rival;              ///< another consistent mode with other accelerations; empty: none
+    [[nodiscard]] bool acceptable() const;
+  };
+  /// Best combination; other contacts keep their states in `mode`. known: one entry per contact. nullopt: there are no
+  /// choices or too many, or no combination has unique forces.
+  [[nodiscard]] std::optional<Best> least_failing(const Instant& instant, const Forcing& forcing,
+                                                  const Block& block, const std::vector<Choice>& choices,
+                                                  const std::vector<KnownGuards>& known, const Mode& mode);
+
+  /// Condition number of W for the forces that these contacts can bear, all of them open; forces of contact elements
+  /// follow from displacements and are not included. NaN: unknown.
+  [[nodiscard]] double condition(const std::vector<std::size_t>& contacts, Mode mode);
+
+ private:
+  struct Weighed {
+    double forgiveness = 0.0;
+    Vector a;
+  };
+  [[nodiscard]] std::optional<Weighed> weigh(const Instant& instant, const Forcing& forcing,
+                                             const Block& block, const std::vector<KnownGuards>& known,
+                                             const Mode& mode);
+  const Model& model_;
+  ModeSystems& systems_;
+  JetMaker& jets_;
+};
+
+/// Sentence about a best mode that has a rival: "several motions continue this one, as 'first' stick, 'second' slip+
+/// and as ...".
+[[nodiscard]] std::string several_motions(const Model& model, const std::vector<Enumeration::Choice>& choices,
+                                          const Enumeration::Best& best);
+
+}  // namespace signorini

@@ -1,0 +1,86 @@
+// active_guards.hpp: the guards that are active between two restarts.
+//
+//   idle      not active: the state has no such guard
+//   armed     was clearly positive; its next zero crossing is an event
+//   waiting   starts at zero, or within its rounding; an event only once it is clearly negative. If
+//             leading > 0 it rises like x^leading: its lower derivatives are zero
+//
+// A waiting guard becomes armed once it exceeds a level: the rounding of the guard for the exact flow, the possible
+// error of the steps for an integrator.
+#pragma once
+
+#include "decide/decision.hpp"
+#include "engine/events/step_history.hpp"
+
+namespace signorini {
+
+class Arming {
+ public:
+  /// One entry for each slot (contact/contact_states.hpp).
+  void start(const std::vector<GuardStart>& guards);
+
+  [[nodiscard]] std::size_t size() const { return guards_.size(); }
+  [[nodiscard]] bool idle(std::size_t slot) const { return guards_[slot].standing == Standing::idle; }
+  [[nodiscard]] bool armed(std::size_t slot) const { return guards_[slot].standing == Standing::armed; }
+  /// The guard is x^leading times a polynomial that is positive at 0; 0: the guard is armed, or its derivatives are
+  /// unknown.
+  [[nodiscard]] std::size_t leading(std::size_t slot) const { return guards_[slot].leading; }
+
+  /// The prediction by the guard's derivatives at the start has been refuted.
+  void doubt(std::size_t slot) { guards_[slot].leading = 0; }
+  /// The guard is zero again, and its derivatives are unknown.
+  void wait(std::size_t slot) { guards_[slot] = {Standing::waiting, 0}; }
+  void arm(std::size_t slot) { guards_[slot] = {Standing::armed, 0}; }
+  /// Takes the guard's value at the end of a step without an event: a guard that started at zero is armed above the
+  /// level, and its derivatives at the start are no longer used.
+  void see(std::size_t slot, double value, double level);
+
+ private:
+  enum class Standing : unsigned char { idle, armed, waiting };
+  struct Guarded {
+    Standing standing = Standing::idle;
+    std::size_t leading = 0;
+  };
+  std::vector<Guarded> guards_;
+};
+
+// Guards between restarts: the armed guards, and the one that reaches zero first.
+//
+//   armed      g > 0 was clearly observed: its first downward zero crossing is an event
+//   not armed  g started at zero and rises; armed once g >= level, an event once g <= -level
+//   level      re_arm_tolerances times the local error tolerance of g
+//
+// IDA reports only changes of sign between the ends of a step. On a step the solution is a polynomial of degree q <= 5,
+// so is every guard, and its Bernstein coefficients prove that it stays positive or show where it does not: two
+// crossings inside one step are not missed.
+
+/// A guard that starts at zero is armed again once it exceeds this many local error tolerances: below, its sign is that
+/// of the integration error.
+inline constexpr double re_arm_tolerances = 10.0;
+
+/// Place inside the last step at which a guard reaches zero.
+struct Fall {
+  std::size_t slot = 0;  ///< contact/contact_states.hpp
+  double x = 0.0;        ///< 0..1 on the step
+};
+
+class Watch {
+ public:
+  /// levels: re-arming levels, one for each slot.
+  void start(const std::vector<GuardStart>& guards, GuardForms forms, std::vector<double> levels);
+  [[nodiscard]] bool armed(std::size_t slot) const { return arming_.armed(slot); }
+  /// The guard reached zero without an event: it waits again, and is an event only once it is below -`level`.
+  void wait(std::size_t slot, double level);
+  /// Depth below zero that this guard of the contact may reach before it is an event: 0 once it is armed.
+  [[nodiscard]] double leeway(std::size_t contact, const GuardForm& guard) const;
+  /// All downward zero crossings in the part [0, limit] of the last step; scalars 0.. of the history are the guards.
+  /// Arms guards that have risen enough.
+  [[nodiscard]] std::vector<Fall> check(const StepHistory& history, double limit);
+
+ private:
+  Arming arming_;
+  GuardForms forms_;
+  std::vector<double> levels_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,219 @@
+#include "engine/events/turning_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+#include "engine/events/first_root.hpp"
+
+namespace signorini {
+namespace {
+
+/// The slope of a polynomial, and the slope's slope.
+class Slope {
+ public:
+  Slope(const double* a, std::size_t degree) : degree_(degree) {
+    for (std::size_t k = 1; k <= degree; ++k) b_[k] = static_cast<double>(k) * a[k];
+  }
+  [[nodiscard]] double at(double x) const {
+    double slope = 0.0;
+    for (std::size_t k = degree_; k >= 1; --k) slope = slope * x + b_[k];
+    return slope;
+  }
+  /// Zero of the slope, by Newton steps from a given place; stays between low and high.
+  [[nodiscard]] double zero_from(double at, double low, double high) const {
+    for (int newton = 0; newton < 4; ++newton) {
+      double slope = 0.0, bend = 0.0;
+      for (std::size_t k = degree_; k >= 1; --k) {
+        bend = bend * at + slope;
+        slope = slope * at + b_[k];
+      }
+      if (bend != 0.0) at = std::clamp(at - slope / bend, low, high);
+    }
+    return at;
+  }
+
+ private:
+  std::size_t degree_;
+  std::array<double, most_fall_degree + 1> b_;  // 1 .. degree
+};
+
+/// Approximate place, by bisection, at which a polynomial that is monotone from `end` turns before `next`. Newton steps
+/// from the end itself would stay there if the end is a turning point of the other kind, as after a hit that stops a
+/// slip.
+double turned_beside(const double* a, std::size_t degree, double end, double next, double inward) {
+  const Slope slope(a, degree);
+  const double forth = next > end ? inward : -inward;  // sign of the slope at `next`
+  double near = end, far = next;
+  for (int halved = 0; halved < 12; ++halved) {
+    const double middle = 0.5 * (near + far);
+    (slope.at(middle) * forth < 0.0 ? near : far) = middle;
+  }
+  return slope.zero_from(0.5 * (near + far), std::min(near, far), std::max(near, far));
+}
+
+}  // namespace
+
+void TurningPoints::start(const Decision& decision) {
+  values_.resize(ranges_.size());
+  for (std::size_t c = 0; c < decision.after.size(); ++c) {
+    const ContactMotion& m = decision.after[c];
+    const std::array<double, 4> now{m.N, m.T, m.gap, decision.slides_after[c].ut};
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      Range& range = ranges_[watched.size() * c + i];
+      values_[watched.size() * c + i] = now[i];
+      // Each landing has a separate peak.
+      const bool lands = watched[i] == ContactSeries::N && began_ && decision.before[c].N == 0.0;
+      if (lands) range = {now[i], now[i]};
+      range.least = began_ ? std::min(range.least, now[i]) : now[i];
+      range.greatest = began_ ? std::max(range.greatest, now[i]) : now[i];
+    }
+  }
+  began_ = true;
+}
+
+void TurningPoints::Range::see(double value) {
+  least = std::min(least, value);
+  greatest = std::max(greatest, value);
+}
+
+void TurningPoints::open() {
+  turns_.clear();
+  times_.clear();
+}
+
+void TurningPoints::close() {
+  if (turns_.empty()) return;
+  for (const Turn& turn : turns_) times_.push_back(turn.time);
+  std::sort(times_.begin(), times_.end());
+}
+
+void TurningPoints::find(const std::vector<ContactSeries>& contacts, const Series& series, double x_begin,
+                         double x_end, Ends ends) {
+  open();
+  double origin = 0.0;
+  Samples x = samples_of(x_begin, x_end);
+  const auto stays_by_rate = [&](std::size_t place, double rate) {
+    if (values_.empty()) return false;
+    const double value = values_[place], change = (1.0 + rounding::of_many) * rate * (x_end - x_begin);
+    return ranges_[place].holds(value, change, rounding::of_many * (std::abs(value) + change));
+  };
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].origin() != origin) {
+      origin = contacts[c].origin();
+      x = samples_of(x_begin - origin, x_end - origin);
+    }
+    const double begin = series.t + origin * series.scale;
+    for (std::size_t f = 0; f < watched.size(); ++f) {
+      const std::size_t place = watched.size() * c + f;
+      if (stays_by_rate(place, contacts[c].rate(watched[f]))) continue;
+      find_of({contacts[c].of(watched[f]), contacts[c].degree(), begin, series.scale}, place, x, ends);
+    }
+  }
+  values_.clear();
+  close();
+}
+
+void TurningPoints::find(std::size_t contact, ContactSeries::Field field, const double* a, std::size_t degree,
+                         double x_end, double begin, double scale) {
+  find_of({a, degree, begin, scale}, place_of(contact, field), samples_of(0.0, x_end), Ends::observed);
+}
+
+std::optional<TurningPoints::Turn> TurningPoints::begins(std::size_t contact, ContactSeries::Field field,
+                                                         double value, double rate, double time) {
+  const std::size_t place = place_of(contact, field);
+  Range& range = ranges_[place];
+  const bool above = value > range.greatest, below = value < range.least;
+  if (!(above && rate <= 0.0) && !(below && rate >= 0.0)) return std::nullopt;
+  range.see(value);
+  return Turn{2 * place + (above ? 1 : 0), time};
+}
+
+TurningPoints::Samples TurningPoints::samples_of(double x_begin, double x_end) {
+  Samples x{};
+  for (std::size_t i = 0; i <= turn_samples; ++i)
+    x[i] = x_begin + (x_end - x_begin) * static_cast<double>(i) / static_cast<double>(turn_samples);
+  return x;
+}
+
+void TurningPoints::record(const Path& path, std::size_t place, double at) {
+  Range& range = ranges_[place];
+  const double turn = value_at(path.a, path.degree, at);
+  if (turn >= range.least && turn <= range.greatest) return;
+  turns_.push_back({2 * place + (turn > range.greatest ? 1 : 0), path.begin + at * path.scale});
+  range.see(turn);
+}
+
+/// Turning point between an end and the adjacent sample, if the samples are monotone: at a peak the slope at the end
+/// has the opposite sign, or is zero. One-sided differences give the slope to 0.04 of an amplitude whose samples, 0.5
+/// rad apart, differ by 0.12 there: half of that difference excludes a peak.
+void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t place, const Samples& x,
+                                const Samples& value, Ends ends) {
+  const bool first = end == 0;
+  const std::size_t next = first ? 1 : turn_samples - 1, third = first ? 2 : turn_samples - 2;
+  const Range& range = ranges_[place];
+  const double inward = value[next] - value[end], slope = 2.0 * inward - 0.5 * (value[third] - value[end]);
+  if (inward == 0.0 && slope == 0.0) return;
+  if (inward * slope > 0.0 && std::abs(slope) >= 0.5 * std::abs(inward)) {
+    // The beginning of a part is not observed; the motion before it may have risen up to here.
+    const bool hidden = first && ends == Ends::part;
+    if (hidden && (inward < 0.0 ? value[end] > range.greatest : value[end] < range.least))
+      record(path, place, x[end]);
+    return;
+  }
+  // A parabola that turns before `next` exceeds the end by at most 1/8 of the difference between `third` and the end;
+  // the limit is four times that, plus `inward` if the curve is not a parabola.
+  const double beyond = std::abs(inward) + 0.5 * std::abs(value[third] - value[end]);
+  if (inward > 0.0 ? value[end] - beyond >= range.least : value[end] + beyond <= range.greatest) return;
+  record(path, place, turned_beside(path.a, path.degree, x[end], x[next], inward));
+}
+
+/// True if the sums of the magnitudes of the terms prove that f stays within its earlier range: terms of f from the
+/// origin, terms of its slope from the middle.
+bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x) {
+  const double x_end = x[turn_samples];
+  double reach = 0.0, power = 1.0;
+  for (std::size_t k = 1; k <= path.degree; ++k) {
+    power *= x_end;
+    reach += std::abs(path.a[k]) * power;
+  }
+  const double a = path.a[0], rounding = rounding::of_many * (std::abs(a) + reach);
+  if (range.holds(a, reach, rounding)) return true;
+  if (x[0] == 0.0) return false;
+  double slope = 0.0;
+  power = 1.0;
+  for (std::size_t k = 1; k <= path.degree; ++k) {
+    slope += static_cast<double>(k) * std::abs(path.a[k]) * power;
+    power *= x_end;
+  }
+  const double middle = value_at(path.a, path.degree, 0.5 * (x[0] + x_end));
+  return range.holds(middle, 0.5 * (x_end - x[0]) * slope, rounding);
+}
+
+void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& x, Ends ends) {
+  Range& range = ranges_[place];
+  if (stays(path, range, x)) return;
+  Samples value{};
+  value.fill(path.a[path.degree]);
+  for (std::size_t k = path.degree; k-- > 0;)
+    for (std::size_t i = 0; i <= turn_samples; ++i) value[i] = value[i] * x[i] + path.a[k];
+  if (ends != Ends::part) range.see(value.front());
+  if (ends == Ends::observed) range.see(value.back());
+  find_beside(0, path, place, x, value, ends);
+  for (std::size_t i = 1; i < turn_samples; ++i) {
+    const double left = value[i] - value[i - 1], right = value[i + 1] - value[i];
+    if (left * right > 0.0 || left == right) continue;
+    // The parabola through three values turns here; a tenth more for its error.
+    const double rise = -(right + left) * (right + left) / (8.0 * (right - left));
+    const double turn = value[i] + 1.1 * rise;
+    if (turn >= range.least && turn <= range.greatest) continue;
+    const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
+    const double at = Slope(path.a, path.degree).zero_from(guess, x[i - 1], x[i + 1]);
+    const double there = value_at(path.a, path.degree, at);
+    // The Newton steps may have led away from the turning point.
+    record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
+  }
+  find_beside(turn_samples, path, place, x, value, ends);
+}
+
+}  // namespace signorini

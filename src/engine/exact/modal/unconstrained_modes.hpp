@@ -1,0 +1,84 @@
+// unconstrained_modes.hpp: all modes of a structure whose contacts are open.
+//
+//   K phi = omega^2 M phi,   Phi^T M Phi = 1
+//
+// Frequencies are bracketed by counting negative pivots of K - s M (damped_pencil.hpp). Shapes are computed by inverse
+// iteration and the Rayleigh quotient in extended precision, and made orthonormal from low to high: a symmetric
+// correction would bring the static forces of high modes into low ones. Free motions have omega = 0 exactly.
+// Sources: Bathe, Finite Element Procedures, section 11.4 (Sturm); Parlett, The Symmetric Eigenvalue Problem,
+// chapter 4 (Rayleigh quotient iteration).
+#pragma once
+
+#include <string>
+
+#include "engine/exact/modal/small_matrices.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+struct OpenModes {
+  Vector square;           ///< omega^2, ascending; 0 for free motions
+  Eigen::MatrixXd shapes;  ///< n x n, columns M-orthonormal
+  int free = 0;            ///< number of motions without stiffness
+  std::string failure;     ///< reason why there are none; empty if there are
+
+  [[nodiscard]] bool found() const { return failure.empty(); }
+};
+
+/// True if the band of both matrices is narrow enough to save time.
+[[nodiscard]] bool has_narrow_band(const SparseMatrix& mass, const SparseMatrix& stiffness);
+
+/// mass, stiffness: symmetric, mass positive definite. Costs about n^2 (10 + band^2) operations and 3 n^3 of matrix
+/// products. On failure `failure` gives the reason, and the rest is empty.
+[[nodiscard]] OpenModes open_modes(const SparseMatrix& mass, const SparseMatrix& stiffness);
+
+// A structure, its contacts and its loads in its open modes.
+//
+//   u = Phi q,   q = Phi^T M u,   form . u = (Phi^T form) . q
+
+/// True if the matrix is symmetric up to rounding.
+[[nodiscard]] bool is_symmetric(const SparseMatrix& a);
+/// True if all loads, compressions and surfaces are constant between their jumps.
+[[nodiscard]] bool stands_still(const Model& model);
+
+class OpenBasis {
+ public:
+  explicit OpenBasis(const Model& model);
+
+  /// Reason why there are no modes; empty: there are.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  /// omega^2, ascending.
+  [[nodiscard]] const Vector& square() const { return square_; }
+  /// Forms of contacts and directions of loads, one entry for each mode.
+  [[nodiscard]] const Vector& normal(std::size_t contact) const { return normal_[contact]; }
+  [[nodiscard]] const Vector& tangent(std::size_t contact) const { return tangent_[contact]; }
+  [[nodiscard]] const Vector& load(std::size_t load) const { return load_[load]; }
+  [[nodiscard]] const std::vector<Vector>& normals() const { return normal_; }
+  [[nodiscard]] const std::vector<Vector>& tangents() const { return tangent_; }
+  [[nodiscard]] const std::vector<Vector>& loads() const { return load_; }
+
+  /// Phi, by rows.
+  [[nodiscard]] const RowMatrix& shapes() const { return shapes_; }
+  /// Phi^T M
+  [[nodiscard]] const Eigen::MatrixXd& projection() const { return projection_; }
+  [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
+  /// Modal coefficients of a form or a direction of the structure.
+  [[nodiscard]] Vector amplitudes_of_form(const Vector& form) const { return shapes_.transpose() * form; }
+  [[nodiscard]] Vector amplitudes_of(const Combination& form) const {
+    Vector q = Vector::Zero(shapes_.cols());
+    for (const auto& [dof, factor] : form.terms) q += factor * shapes_.row(dof).transpose();
+    return q;
+  }
+  void motions(const std::vector<const Vector*>& q, const std::vector<Vector*>& u) const {
+    thin_product(shapes_, q, u);
+  }
+
+ private:
+  std::string failure_;
+  Vector square_;
+  RowMatrix shapes_;            // Phi
+  Eigen::MatrixXd projection_;  // Phi^T M
+  std::vector<Vector> normal_, tangent_, load_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,42 @@
+#include "engine/ida/restart_order.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/slip_growth.hpp"
+
+namespace signorini {
+namespace {
+
+// Orders 3 to 5 are unstable near the imaginary axis. At loose tolerances the error test does not notice growing
+// undamped modes (case 01b at rtol 1e-3: 142 events instead of 10), and order 2 takes at most twice the steps; at
+// tighter tolerances order 5 resolves those modes and needs a third to a ninth of the steps (benchmarks/README.md).
+constexpr double loose = 1e-4;
+
+/// Angle of the sector around the negative real axis in which the formula is stable, degrees.
+struct Stability {
+  int order;
+  double angle;
+};
+constexpr Stability stability[] = {{5, 51.84}, {4, 73.35}, {3, 86.03}};
+
+}  // namespace
+
+Order choose_order(const Model& model, const RunSpec& run) {
+  if (run.max_order) return {*run.max_order, "as given"};
+  if (run.rtol <= loose) return {5, "auto: at this tolerance the steps resolve the highest modes"};
+  const double ratio = least_damping_ratio(model);
+  int greatest = 2;
+  for (const Stability& s : stability) {
+    if (ratio < std::cos(s.angle * std::numbers::pi / 180.0)) continue;
+    greatest = s.order;
+    break;
+  }
+  return {greatest, fmt::format("auto: above rtol {} the greatest order that is stable for every mode; least "
+                                "damping ratio {:.2g}",
+                                loose, ratio)};
+}
+
+}  // namespace signorini

@@ -1,0 +1,153 @@
+#include "engine/newmark/local_step.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace signorini {
+namespace {
+
+/// Number of band widths. M^-1 of beams with a consistent mass matrix decays by 2 - sqrt(3) per element, and an element
+/// is about three places of a width of five: it reaches rounding after 28 elements. Chosen; the radius grows if the
+/// decay is slower.
+constexpr std::size_t first_radius = 16;  // widths
+constexpr std::size_t least_parts = 4;    // limit: W is at most this part of the structure
+
+}  // namespace
+
+NearStep::NearStep(const Model& model, const CondensedRows& rows)
+    : model_(model),
+      rows_(rows),
+      radius_(first_radius * std::max<std::size_t>(1, rows.width())),
+      by_N_(rows.contacts() > 0 ? rows.end_of_touches(rows.contacts() - 1) : 0),
+      by_T_(by_N_.size()) {
+  load_.setZero(static_cast<Eigen::Index>(rows.size()));
+  std::vector<std::size_t> place_of(rows.size());
+  for (std::size_t place = 0; place < rows.size(); ++place) place_of[rows.dof_at(place)] = place;
+  for (const Load& load : model.loads) {
+    Places& of_load = loads_.emplace_back(Places{rows.size(), 0});
+    for (const auto& [dof, factor] : load.direction.terms) {
+      const std::size_t place = place_of[static_cast<std::size_t>(dof)];
+      of_load = {std::min(of_load.begin, place), std::max(of_load.end, place + 1)};
+    }
+  }
+  end_ = {load_, load_, Vector::Zero(model.force_count()), load_};
+}
+
+std::optional<NearStep::Window> NearStep::window(std::size_t contact) const {
+  const std::size_t n = rows_.size();
+  Window w{n, 0, 0, 0};
+  for (std::size_t i = rows_.first_touch(contact); i < rows_.end_of_touches(contact); ++i) {
+    w.begin = std::min<std::size_t>(w.begin, rows_.touch(i).place);
+    w.end = std::max<std::size_t>(w.end, rows_.touch(i).place + 1);
+  }
+  if (w.begin >= w.end) return std::nullopt;  // the contact acts on no degree of freedom
+  w.begin -= std::min(w.begin, radius_);
+  w.end = std::min(n, w.end + radius_);
+  if (least_parts * (w.end - w.begin) > n) return std::nullopt;
+  w.first = w.begin - std::min(w.begin, rows_.width());
+  w.last = std::min(n, w.end + rows_.width());
+  return w;
+}
+
+void NearStep::know_motion(const Window& w, const Point& from, double h) {
+  const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
+  for (std::size_t place = w.first; place < w.last; ++place) {
+    const std::size_t i = rows_.dof_at(place);
+    end_.u.data()[i] = u0[i] + h * (v0[i] + 0.25 * h * a0[i]);
+    end_.v.data()[i] = v0[i] + 0.5 * h * a0[i];
+  }
+}
+
+/// Computes b_W and adds the contact terms to the matrix there.
+void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Rows>& rows, double t1) {
+  for (std::size_t place = w.begin; place < w.end; ++place) {
+    const std::size_t i = rows_.dof_at(place);
+    load_.data()[i] = forcing.standing_load(i);
+  }
+  forcing.add_varying(
+      t1, [&](std::size_t load) { return loads_[load].begin < w.end && loads_[load].end > w.begin; },
+      load_.data());
+  b_.resize(static_cast<Eigen::Index>(w.end - w.begin));
+  contacts_.clear();
+  for (std::size_t place = w.begin; place < w.end; ++place) {
+    double sum = load_.data()[rows_.dof_at(place)];
+    for (const CondensedRows::Entry& e : rows_.entries(place))
+      sum -= e.c * end_.v.data()[e.dof] + e.k * end_.u.data()[e.dof];
+    b_.data()[place - w.begin] = sum;
+    for (const std::uint32_t i : rows_.touches_at(place)) contacts_.push_back(rows_.touch(i).contact);
+  }
+  std::sort(contacts_.begin(), contacts_.end());
+  contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
+  for (const std::size_t k : contacts_) {
+    const Contact& contact = model_.contacts[k];
+    const CondensedRows::Held& held = rows_.held(k);
+    ContactMotion m;  // known part only
+    set_place(contact, end_.u, forcing.surface(k, t1, 0), m);
+    set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
+    m.pressing = forcing.pressing(k, t1, 0);
+    double &N = end_.forces.data()[model_.layout.normal(k)],
+           &T = end_.forces.data()[model_.layout.tangent(k)];
+    N = -rows[k].normal.value(m) / held.normal_N;
+    T = (-rows[k].tangent.value(m) - held.tangent_N * N) / held.tangent_T;
+    if (held.on_motion) rows_.share(k, weights_, by_N_.data(), by_T_.data());
+    for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i)
+      if (const CondensedRows::Touch& at = rows_.touch(i); at.place >= w.begin && at.place < w.end)
+        b_.data()[at.place - w.begin] -= at.n * N + at.t * T;
+  }
+}
+
+/// b_ := x_W
+bool NearStep::solve(const Window& w, const Point& from, double h, const Point& whole, double longer) {
+  const std::size_t size = w.end - w.begin, width = rows_.width();
+  if (!band_ || band_->size() != size) band_.emplace(size, width);
+  band_->clear(0, size);
+  const double part = h / longer;
+  const auto beside = [&](std::size_t place) {
+    const std::size_t i = rows_.dof_at(place);
+    return from.a.data()[i] + part * (whole.a.data()[i] - from.a.data()[i]);
+  };
+  for (std::size_t place = w.begin; place < w.end; ++place) {
+    double *row = band_->row(place - w.begin), &b = b_.data()[place - w.begin];
+    rows_.fill(place, weights_, by_N_.data(), by_T_.data(), row);
+    const auto take_out = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t other = begin; other < end; ++other)
+        b -= std::exchange(row[width + other - place], 0.0) * beside(other);
+    };
+    take_out(std::max(w.first, place - std::min(place, width)), w.begin);
+    take_out(w.end, std::min(w.last, place + width + 1));
+  }
+  if (!band_->factor()) return false;
+  band_->solve(b_.data());
+  return true;
+}
+
+/// Writes the motion of the contact's degrees of freedom and its forces into the point.
+void NearStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
+  double &N = end_.forces.data()[model_.layout.normal(k)], &T = end_.forces.data()[model_.layout.tangent(k)];
+  for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i) {
+    const std::size_t dof = rows_.touch(i).dof;
+    const double x = end_.a.data()[dof];
+    end_.u.data()[dof] += 0.25 * h * h * x;
+    end_.v.data()[dof] += 0.5 * h * x;
+    if (!rows_.held(k).on_motion) continue;
+    N -= by_N_[i] * x;
+    T -= by_T_[i] * x;
+  }
+  if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0) T = -tangent.N * N;
+}
+
+const Point* NearStep::end(std::size_t contact, const Forcing& forcing, const std::vector<Rows>& rows,
+                           const Point& from, double t1, double h, const Point& whole, double longer) {
+  const auto w = window(contact);
+  if (!w) return nullptr;
+  weights_ = {1.0, 0.5 * h, 0.25 * h * h};
+  know_motion(*w, from, h);
+  act(*w, forcing, rows, t1);
+  if (!solve(*w, from, h, whole, longer)) return nullptr;
+  for (std::size_t i = rows_.first_touch(contact); i < rows_.end_of_touches(contact); ++i)
+    end_.a.data()[rows_.touch(i).dof] = b_.data()[rows_.touch(i).place - w->begin];
+  read(contact, rows, h);
+  return &end_;
+}
+
+}  // namespace signorini

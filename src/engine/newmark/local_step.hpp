@@ -1,0 +1,56 @@
+// local_step.hpp: the end of a step at one contact, from its neighbourhood in the structure.
+//
+//   A_WW x_W = b_W - A_WO y      A, b, x: the step's (newmark_step.hpp), condensed (linear/condensed_matrix.hpp)
+//   y = a0 + h/H (a1 - a0)       motion outside W, from a step of length H with the same beginning
+//
+// W: places of the band up to a radius from the contact's. The influence of the places beyond decays as A^-1 does; the
+// error of y is of second order. The method assumes no bound: the caller checks the result by a whole step, and doubles
+// the radius if that step differs.
+#pragma once
+
+#include "linear/band_factors.hpp"
+#include "linear/condensed_matrix.hpp"
+#include "motion/point.hpp"
+
+namespace signorini {
+
+class NearStep {
+ public:
+  /// Both arguments must outlive the object.
+  NearStep(const Model& model, const CondensedRows& rows);
+
+  /// End of the step from `from` at t1 - h to t1, valid only at the contact. rows: in force, with the matrix pattern of
+  /// the constructor's rows; whole: the end of the step of length `longer`. Null: W is too large a part of the
+  /// structure, or elimination loses digits.
+  [[nodiscard]] const Point* end(std::size_t contact, const Forcing& forcing, const std::vector<Rows>& rows,
+                                 const Point& from, double t1, double h, const Point& whole, double longer);
+  /// Doubles the radius.
+  void look_farther() { radius_ *= 2; }
+
+ private:
+  struct Window {
+    std::size_t begin = 0, end = 0;   // W
+    std::size_t first = 0, last = 0;  // W and the places that couple to it
+  };
+  struct Places {
+    std::size_t begin = 0, end = 0;
+  };
+  [[nodiscard]] std::optional<Window> window(std::size_t contact) const;
+  void know_motion(const Window& w, const Point& from, double h);
+  void act(const Window& w, const Forcing& forcing, const std::vector<Rows>& rows, double t1);
+  [[nodiscard]] bool solve(const Window& w, const Point& from, double h, const Point& whole, double longer);
+  void read(std::size_t contact, const std::vector<Rows>& rows, double h);
+
+  const Model& model_;
+  const CondensedRows& rows_;
+  std::size_t radius_;
+  std::optional<BandFactors> band_;  // sized for the last window
+  Weights weights_;
+  Vector load_, b_;                    // by degree of freedom, valid in W only; by place of W
+  std::vector<Places> loads_;          // range of degrees of freedom on which each load acts
+  std::vector<double> by_N_, by_T_;    // one entry for each touch
+  std::vector<std::size_t> contacts_;  // contacts in the window
+  Point end_;                          // u, v: their known parts, until read
+};
+
+}  // namespace signorini

@@ -1,0 +1,355 @@
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "law_check/laws.hpp"
+#include "model/assembly/parts.hpp"
+
+namespace signorini {
+namespace {
+
+struct ClosedRows {
+  std::vector<const Combination*> forms;
+  std::vector<Vector> columns;  // M^-1 form; with its friction for a sliding contact
+  std::vector<double> gaps;
+
+  void add(const Combination& form, Vector column, double gap) {
+    forms.push_back(&form);
+    columns.push_back(std::move(column));
+    gaps.push_back(gap);
+  }
+  [[nodiscard]] Vector moved(int size) const {
+    Vector by = Vector::Zero(size);
+    const auto m = static_cast<Eigen::Index>(gaps.size());
+    if (m == 0) return by;
+    Eigen::MatrixXd W(m, m);
+    for (Eigen::Index i = 0; i < m; ++i)
+      for (Eigen::Index j = 0; j < m; ++j)
+        W(i, j) = forms[static_cast<std::size_t>(i)]->dot(columns[static_cast<std::size_t>(j)]);
+    const Eigen::VectorXd push =
+        pseudo_inverse(W).cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(gaps.data(), m);
+    for (Eigen::Index j = 0; j < m; ++j) by += push[j] * columns[static_cast<std::size_t>(j)].cwiseAbs();
+    return by;
+  }
+};
+
+}  // namespace
+
+/// Checks the continuity of u, and of T unless its row changes with the state. Both sides of u are rounded.
+void Finder::continuity() {
+  const WitnessLimits& tol = bench_.limits;
+  // Largest u, and largest v (multiplied below by the uncertainty of the time), for translations and rotations.
+  const std::array<double, 2> of_u = bench_.greatest(*record_.before.u),
+                              of_v = bench_.greatest(*record_.before.v);
+  const std::array<double, 2> off_by = bench_.greatest(*record_.after.u - *record_.before.u);
+  double clock = record_.resolution;
+  for (const RecordedEvent& event : record_.events) clock = std::max(clock, event.t_uncertainty);
+  std::array<double, 2> limits{};
+  for (const bool turn : {false, true}) {
+    const double size =
+        std::max(of_u[turn],
+                 record_.before.u_reach[turn] + (turn ? model_.scales.rotation : model_.scales.displacement));
+    limits[turn] = 2.0 * rounding::of_elimination * size + of_uncertainty * clock * of_v[turn] +
+                   of_tolerance * (tol.rtol * size + (turn ? tol.rotation : tol.displacement));
+  }
+  std::optional<Vector> closed;
+  const bool massless_jump = lets_massless_jump();
+  const bool any = !(off_by[0] <= limits[0] && off_by[1] <= limits[1]);
+  for (int i = 0; any && i < model_.size(); ++i) {
+    if (!bench_.has_mass(i) && massless_jump) continue;
+    const bool turn = model_.dofs[static_cast<std::size_t>(i)].rotation;
+    double limit = limits[turn];
+    const double off = std::abs((*record_.after.u)[i] - (*record_.before.u)[i]);
+    if (off <= limit) continue;
+    if (!closed) closed = closing();
+    limit += (*closed)[i];
+    if (off > limit) limit += unsure_without_mass(i);
+    if (off <= limit) continue;
+    add(-1, "continuity", off, limit, turn ? Unit{} : seen::length, false);
+    break;
+  }
+  if ((record_.start && !record_.continues) || !record_.located) return;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    if (model_.contacts[k].obeys_coulomb()) friction_continuity(k);
+}
+
+/// Uncertainty of u at a massless degree of freedom. There u follows from forces, and springs of contacts turn its
+/// rounding into forces: stiff springs bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on
+/// massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is singular.
+double Finder::unsure_without_mass(int dof) const {
+  if (bench_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
+  const std::vector<int>& all = bench_.massless();
+  const SparseMatrix only = selection(all, model_.size());
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt(only.transpose() * model_.stiffness * only);
+  if (ldlt.info() != Eigen::Success) return 0.0;
+  const Vector by_force = ldlt.solve(only.transpose() * Vector::Unit(model_.size(), dof));
+  const Vector noise = massless_noise(bench_, record_.before, 0) + massless_noise(bench_, record_.after, 0);
+  const double bent = by_force.cwiseAbs().dot(only.transpose() * noise);
+  return std::isfinite(bent) ? bent : 0.0;
+}
+
+/// Largest change of u by closing gaps of rigid contacts that have the size of their rounding. All gaps close together
+/// by the smallest change in the norm of M that leaves sticking contacts alone:
+/// du = M^-1 G^T W^-1 (g, 0),  W = G M^-1 G^T,  G: rows (n, t).
+Vector Finder::closing() const {
+  Vector most = Vector::Zero(model_.size());
+  const auto close = [&](const std::vector<ContactState>& mode, bool by_impulses) {
+    ClosedRows rows;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const Contact& c = model_.contacts[k];
+      const OwnResponse* own = bench_.own_response(k);
+      const bool touches =
+          !is_open(mode[k].state) || std::any_of(record_.impulses.begin(), record_.impulses.end(),
+                                                 [&](const RecordedImpulse& p) { return p.contact == k; });
+      if (own == nullptr || !touches) continue;
+      const Sight before = see(c, k, record_.before);
+      const double gap = rounding::of_elimination * before.place;
+      const double friction =
+          by_impulses ? 0.0
+                      : -sign_of_slip(mode[k].state) * friction_in(c, mode[k].state, before.dut, before.N);
+      if (c.takes_impulses()) rows.add(c.normal, own->by_n + friction * own->by_t, gap);
+      if (!by_impulses && c.sticks_rigidly() && kind_of(mode[k].state) == State::stick)
+        rows.add(c.tangent, own->by_t, 0.0);
+    }
+    most = most.cwiseMax(rows.moved(model_.size()));
+  };
+  close(*record_.before.mode, false);
+  close(*record_.after.mode, false);
+  close(*record_.after.mode, true);  // all contacts that touch, sticking or not
+  return most;
+}
+
+/// Massless parts jump if the forces on them jump: at a jump of a load, when they leave a contact, and when friction
+/// drops to its kinetic value.
+bool Finder::lets_massless_jump() const {
+  if (massless_jump_) return *massless_jump_;
+  bool any = record_.breakpoint || record_.start || !record_.released.empty();
+  for (const std::size_t k : bench_.on_massless()) any = any || lets_go(k);
+  massless_jump_ = any;
+  return any;
+}
+
+/// True if the body of a contact is massless; beside a dashpot it is the body that jumps.
+bool Finder::body_follows(std::size_t k) const {
+  const std::vector<std::pair<int, double>>& terms = model_.contacts[k].body_tangent().terms;
+  return std::any_of(terms.begin(), terms.end(),
+                     [&](const auto& term) { return !bench_.has_mass(term.first); });
+}
+
+/// True if contact k stuck at its static limit, which is above the kinetic one, and now slides, is open, or has slid
+/// and stopped within the instant (an event "slip" from stick to stick).
+bool Finder::lets_go(std::size_t k) const {
+  const Contact& c = model_.contacts[k];
+  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+  if (!c.obeys_coulomb() || (c.sliding_point() && !body_follows(k)) || c.friction.varies() ||
+      !c.friction.drops())
+    return false;
+  const RecordedEvent* event = event_of(k);
+  if (event == nullptr || event->t_uncertainty < 0.0) return false;
+  const bool stopped = kind_of(now.state) == State::stick && event->type == "slip";
+  if (kind_of(old.state) != State::stick || (kind_of(now.state) == State::stick && !stopped)) return false;
+  const Sight before = see(c, k, record_.before);
+  for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits)) {
+    if (guard.law != std::string_view("friction")) continue;
+    const double zero = zero_of(guard, c) + of_uncertainty * event->t_uncertainty *
+                                                std::max(std::abs(event->guard_rate), std::abs(guard.rate));
+    return std::abs(guard.value) <= zero;
+  }
+  return false;
+}
+
+/// Checks p if massless parts jump: a sticking contact keeps its sliding point, and a contact that lets go slides in
+/// the direction of its friction force:  p = ut - T/kt,  s (p+ - p-) >= 0.
+void Finder::slide_at_once(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+  if (record_.breakpoint || record_.start || is_released(k)) return;
+  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const double kt = *c.tangential_stiffness;
+  const double limit =
+      rounding::of_elimination * (kt * (a.place + b.place) + std::abs(a.T) + std::abs(b.T)) +
+      of_tolerance * (kt * (bench_.limits.rtol * a.place + bench_.limits.displacement) +
+                      bench_.limits.rtol * (std::abs(a.T) + std::abs(b.T)) + bench_.limits.force);
+  const double moved = kt * (a.ut - b.ut) - (a.T - b.T);
+  const bool sticks = kind_of(old.state) == State::stick && kind_of(now.state) == State::stick;
+  if (sticks && event_of(k) == nullptr && std::abs(moved) > limit)
+    add(static_cast<int>(k), "continuity of friction", std::abs(moved), limit, seen::force, false);
+  const double back = b.T >= 0.0 ? -moved : moved;
+  if (lets_go(k) && back > limit)
+    add(static_cast<int>(k), "continuity of friction", back, limit, seen::force, false);
+}
+
+/// True if T is the same on both sides, up to rounding of T itself, and points in the direction of slip.
+bool Finder::shear_stays(std::size_t k) const {
+  const auto at = static_cast<Eigen::Index>(model_.layout.tangent(k));
+  const double before = (*record_.before.forces)[at], after = (*record_.after.forces)[at];
+  return std::abs(after - before) <= rounding::of_elimination * std::abs(before) &&
+         sign_of_slip((*record_.after.mode)[k].state) * before >= 0.0;
+}
+
+/// True if |N| of a sliding contact jumps down and T decreases with it, whatever the new state: a hit that makes N jump
+/// may reverse the slip at the same instant, and a contact that stops sticks at its new kinetic limit.
+bool Finder::falls_with_it(std::size_t k, const Sight& before, const Sight& after, double off_N,
+                           double off_T) const {
+  const Contact& c = model_.contacts[k];
+  const State old = (*record_.before.mode)[k].state;
+  const int s = sign_of_slip(old);
+  if (s == 0 || std::abs(after.N) >= std::abs(before.N) - off_N) return false;
+  return std::abs(after.T + s * friction_in(c, old, before.dut, after.N) * after.N) <= off_T;
+}
+
+/// Checks that T of a spring is continuous; it drops from the static limit to the kinetic one if the contact lets go.
+void Finder::friction_continuity(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+  if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
+  if (lets_massless_jump() && moves_at_once(k)) return slide_at_once(k);
+  if (shear_stays(k)) return;
+  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const bool by_force = c.friction.by_force();
+  const double fs = by_force ? friction_at(c, 0.0, a.N) : c.friction.static_;
+  const double fk = by_force ? fs : c.friction.kinetic, kt = *c.tangential_stiffness;
+  const double off_N =
+      rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
+      of_tolerance * (c.normal_stiffness * (bench_.limits.rtol * a.place + bench_.limits.displacement));
+  if (std::abs(a.N - b.N) > off_N && sign_of_slip(now.state) != 0) return;  // T = -s fk N follows
+  double limit = rounding::of_elimination * (kt * (a.place + std::abs(now.anchor)) + std::abs(b.T)) +
+                 of_tolerance * (kt * (bench_.limits.rtol * a.place + bench_.limits.displacement)) +
+                 fs * off_N;
+  if (const RecordedEvent* event = event_of(k); event != nullptr && event->t_uncertainty > 0.0)
+    limit += of_uncertainty * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
+  if (falls_with_it(k, b, a, off_N, limit)) return;
+  const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
+  const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
+  const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // N has dropped
+  if (lets_go || above) {                                         // to the limit, with the same sign
+    if (sign_of_slip(now.state) * b.T < 0.0 && std::abs(b.T) > limit && !moves_at_once(k))
+      add(static_cast<int>(k), "continuity of friction", std::abs(a.T - b.T), limit, seen::force, false);
+    return;
+  }
+  if (const double off = std::abs(a.T - b.T); off > limit)
+    add(static_cast<int>(k), "continuity of friction", off, limit, seen::force, false);
+}
+
+// Laws that relate the two ends of a stretch of motion, without the motion between.
+//
+//   states+ of one instant = states- of the next            s (p- - p+) >= 0 for sliding contacts,  p = ut - T/kt
+//   ut- = ut+ for rigid stick,  g- = g+ for rigid closed contacts        unless a tolerance lets them drift
+//   M a + C v + K u + sum ( n N + t T + t (-N - N_carried) ut / R ) = P         just after; R: of a pendulum
+
+namespace {
+
+/// The two ends of a stretch, for one contact.
+struct StretchEnds {
+  Sight from, to;
+  [[nodiscard]] double place() const { return from.place + to.place; }
+};
+
+/// Displacement of the sliding point.
+double slid(const Contact& c, const StretchEnds& ends) {
+  const double by_force = c.tangential_stiffness ? (ends.to.T - ends.from.T) / *c.tangential_stiffness : 0.0;
+  return ends.to.ut - ends.from.ut - by_force;
+}
+
+/// Uncertainty of slid() by rounding and tolerances. A fixed point moves by the rounding of the scene's displacements.
+double slid_noise(const Contact& c, const StretchEnds& ends, const WitnessLimits& tol, double scale) {
+  const double by_force =
+      c.tangential_stiffness ? (std::abs(ends.to.T) + std::abs(ends.from.T)) / *c.tangential_stiffness : 0.0;
+  return rounding::of_elimination * (ends.place() + scale + by_force) +
+         of_tolerance * (tol.rtol * (ends.place() + by_force) + 2.0 * tol.displacement);
+}
+
+class RowSums {
+ public:
+  explicit RowSums(int size) : sum(Vector::Zero(size)), terms(sum) {}
+  /// size: of x, or the size that its rounding is relative to.
+  void add(const SparseMatrix& matrix, const Vector& x, const std::array<double, 2>& reach,
+           const Model& model) {
+    for (int j = 0; j < matrix.outerSize(); ++j) {
+      const double size = std::max(std::abs(x[j]), reach[model.dofs[static_cast<std::size_t>(j)].rotation]);
+      for (SparseMatrix::InnerIterator it(matrix, j); it; ++it) {
+        sum[it.row()] += it.value() * x[j];
+        terms[it.row()] += std::abs(it.value()) * size;
+      }
+    }
+  }
+  void add(const Combination& form, double force, double size) {
+    for (const auto& [dof, factor] : form.terms) {
+      sum[dof] += factor * force;
+      terms[dof] += std::abs(factor) * size;
+    }
+  }
+  Vector sum, terms;
+};
+
+}  // namespace
+
+std::vector<Violation> stretch_laws(const Bench& bench, double t, const WitnessedSide& from,
+                                    const WitnessedSide& to) {
+  std::vector<Violation> found;
+  const Model& model = bench.model;
+  const bool drifts = bench.limits.rtol > 0.0 || bench.limits.step > 0.0;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    const auto add = [&](const char* law, double value, double limit, const Unit& unit) {
+      if (value > limit) found.push_back({t, "between", static_cast<int>(k), law, value, limit, unit, false});
+    };
+    const ContactState &old = (*from.mode)[k], &now = (*to.mode)[k];
+    if (!(old == now)) {
+      add("unbroken state", 1.0, 0.0, {});
+      continue;
+    }
+    if (!c.obeys_coulomb() || c.sliding_point()) continue;
+    const StretchEnds ends{see(c, k, from), see(c, k, to)};
+    const double noise = slid_noise(c, ends, bench.limits, model.scales.displacement);
+    const int s = is_held(now.state) || held_beside(model, k) ? 0 : sign_of_slip(now.state);
+    if (s != 0) add("way of slip", -s * slid(c, ends), noise, seen::length);
+    if (drifts) continue;
+    if (kind_of(now.state) == State::stick && !c.tangential_stiffness)
+      add("unbroken rest", std::abs(slid(c, ends)), noise, seen::length);
+    if (c.takes_impulses() && !is_open(now.state))
+      add("unbroken rest", std::abs(ends.to.g - ends.from.g), noise, seen::length);
+  }
+  return found;
+}
+
+std::vector<Violation> equilibrium_law(const Bench& bench, double t, const WitnessedSide& side,
+                                       const Vector& load) {
+  const Model& model = bench.model;
+  RowSums rows(model.size());
+  rows.add(model.mass, *side.a, side.a_reach, model);
+  rows.add(model.damping, *side.v, side.v_reach, model);
+  rows.add(model.stiffness, *side.u, side.u_reach, model);
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    const Sight m = see(c, k, side);
+    const double size =
+        std::abs(m.N) + std::abs(m.T) + size_of_normal(c, m) + c.tangential_stiffness.value_or(0.0) * m.place;
+    rows.add(c.normal, m.N, size);
+    rows.add(c.tangent, m.T, size);
+    const Bowl* bowl = c.curved_surface();
+    if (bowl == nullptr) continue;
+    // The curved surface of a pendulum acts by N minus the weight that K contains.
+    const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
+    rows.add(c.body_tangent(), (-m.N - bowl->carried) * slope,
+             (size + bowl->carried) * m.place / bowl->radius);
+  }
+  rows.sum -= load;
+  rows.terms += load.cwiseAbs();
+  // Residuals of solves are relative to the largest row, separately for forces and for moments.
+  const std::array<double, 2> greatest = bench.greatest(rows.terms);
+  std::optional<Violation> worst;
+  for (int i = 0; i < model.size(); ++i) {
+    const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
+    const double limit = rounding::of_elimination * std::max(rows.terms[i], greatest[turns]);
+    const double off = std::abs(rows.sum[i]);
+    if (!bench.has_mass(i) || off <= limit || (worst && off / limit <= worst->value / worst->limit)) continue;
+    worst = Violation{t, "", -1, "equilibrium", off, limit, turns ? Unit{1, 1, 0} : seen::force, false};
+  }
+  if (!worst) return {};
+  return {*worst};
+}
+
+}  // namespace signorini

@@ -1,0 +1,372 @@
+// Massless parts: their forces are balanced, and so are the rates of these forces.
+//
+//   r   = P - C v - K u - sum ( n N + t T )          = 0    in rows of M that are empty
+//   r'  = P' - C a - K v - sum ( n N' + t T' )       = 0    if N', T' follow from u, v, a
+//   r'' = P'' - K a - sum ( n N'' + t T'' )          = 0    if the row also has no damping
+//
+// N' and T' are known for springs and for open contacts: kn g' + cn g'', kt ut', -s fk N'; constraint forces are
+// unknowns, and rows that contain one are skipped.
+
+#include "law_check/massless_laws.hpp"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "law_check/laws.hpp"
+
+namespace signorini {
+namespace {
+
+/// Sum of massless rows that determines velocities: C v from forces, or K v from their rates.
+struct RateRow {
+  std::vector<std::pair<int, double>> parts;  ///< place of the row, its weight
+  bool by_forces = false;
+};
+
+/// Massless rows that determine velocities, restricted to massless degrees of freedom.
+class RateRows {
+ public:
+  RateRows(const Bench& bench, const WitnessedSide& side)
+      : bench_(bench), place_(static_cast<std::size_t>(bench.model.size()), -1) {
+    for (const int i : bench.massless()) place_[static_cast<std::size_t>(i)] = size_++;
+    for (const int i : bench.massless()) {
+      add_row(i, bench.damping_by_rows(), dampers_);
+      add_row(i, bench.stiffness_by_rows(), springs_);
+    }
+    for (const std::size_t k : bench.on_massless()) {
+      check_known(k, side);
+      add_contact(k, side);
+    }
+    C_ = matrix_of(dampers_);
+    K_ = matrix_of(springs_);
+    if (told_) combine();
+  }
+
+  /// Solution of S^T x = f; empty: S does not determine it.
+  [[nodiscard]] Vector weights(const Combination& form, double factor, const Combination& more,
+                               double factor_of_more) const {
+    if (!told_) return {};
+    Vector f = Vector::Zero(size_);
+    for (const auto& [dof, value] : form.terms)
+      if (exists(dof)) f[place_[static_cast<std::size_t>(dof)]] += factor * value;
+    for (const auto& [dof, value] : more.terms)
+      if (exists(dof)) f[place_[static_cast<std::size_t>(dof)]] += factor_of_more * value;
+    const SparseMatrix transposed = this->transposed();
+    Eigen::SparseLU<SparseMatrix> lu(transposed);
+    if (lu.info() != Eigen::Success) return {};
+    const Vector x = lu.solve(f);
+    const bool solved = x.allFinite() && (transposed * x - f).norm() <= of_solve * f.norm();
+    return solved ? x : Vector();
+  }
+  /// Rounding of row j, from the rounding of forces and of their rates, one entry per degree of freedom.
+  [[nodiscard]] double noise(std::size_t j, const Vector& forces, const Vector& rates) const {
+    const Vector& terms = rows_[j].by_forces ? forces : rates;
+    double sum = 0.0;
+    for (const auto& [i, weight] : rows_[j].parts)
+      sum += std::abs(weight) * terms[bench_.massless()[static_cast<std::size_t>(i)]];
+    return sum;
+  }
+
+ private:
+  using Terms = std::vector<Eigen::Triplet<double>>;
+  // Half of the digits: a system with a larger residual determines no velocity.
+  static constexpr double of_solve = 1e-8;
+  // Limit for the number of rows that dampers couple, which are decomposed together. Chosen: more would take seconds.
+  static constexpr std::size_t most_together = 300;
+
+  [[nodiscard]] int at(int dof) const { return place_[static_cast<std::size_t>(dof)]; }
+  [[nodiscard]] bool exists(int dof) const { return at(dof) >= 0; }
+  [[nodiscard]] static bool closed(const Contact& c, const ContactState& state) {
+    return !is_open(state.state) && !c.normal_force_given();
+  }
+  [[nodiscard]] SparseMatrix matrix_of(const Terms& terms) const {
+    SparseMatrix matrix(size_, size_);
+    matrix.setFromTriplets(terms.begin(), terms.end());
+    return matrix;
+  }
+  void check_known(std::size_t k, const WitnessedSide& side) {
+    const Contact& c = bench_.model.contacts[k];
+    const ContactState& state = (*side.mode)[k];
+    if (!c.forces_follow_motion() || c.takes_impulses() || c.holds_tangent(state.state)) told_ = false;
+  }
+  void add(int row, int column, double value, Terms& terms) const {
+    if (exists(column) && value != 0.0) terms.emplace_back(at(row), at(column), value);
+  }
+  void add_row(int row, const SparseMatrix& by_rows, Terms& terms) const {
+    for (SparseMatrix::InnerIterator it(by_rows, row); it; ++it)
+      add(row, static_cast<int>(it.row()), it.value(), terms);
+  }
+  /// Adds N = kn g + cn g', T = kt ut or -s fk N: derivatives with respect to g' and ut', or to g and ut for the rates.
+  void add_contact(std::size_t k, const WitnessedSide& side) {
+    const Contact& c = bench_.model.contacts[k];
+    const ContactState& state = (*side.mode)[k];
+    const double sliding = -sign_of_slip(state.state) * c.friction.kinetic;
+    const auto add_force = [&](const Combination& along, const Combination& by, double spring,
+                               double dashpot) {
+      for (const auto& [row, factor] : along.terms) {
+        if (!exists(row)) continue;
+        for (const auto& [column, other] : by.terms) {
+          add(row, column, factor * spring * other, springs_);
+          add(row, column, factor * dashpot * other, dampers_);
+        }
+      }
+    };
+    if (closed(c, state)) {
+      add_force(c.normal, c.normal, c.normal_stiffness, c.normal_damping);
+      if (sliding != 0.0)
+        add_force(c.tangent, c.normal, sliding * c.normal_stiffness, sliding * c.normal_damping);
+    }
+    if (kind_of(state.state) == State::stick)
+      add_force(c.tangent, c.tangent, c.tangential_stiffness.value_or(0.0), 0.0);
+  }
+
+  /// Groups of rows that share an entry of C.
+  [[nodiscard]] std::vector<std::vector<int>> coupled() const {
+    std::vector<int> leader(static_cast<std::size_t>(size_));
+    std::iota(leader.begin(), leader.end(), 0);
+    const auto find = [&](int i) {
+      while (leader[static_cast<std::size_t>(i)] != i) i = leader[static_cast<std::size_t>(i)];
+      return i;
+    };
+    for (int j = 0; j < C_.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(C_, j); it; ++it)
+        leader[static_cast<std::size_t>(find(static_cast<int>(it.row())))] = find(j);
+    std::map<int, std::vector<int>> lists;
+    for (int i = 0; i < size_; ++i) lists[find(i)].push_back(i);
+    std::vector<std::vector<int>> result;
+    for (auto& [first, list] : lists) result.push_back(std::move(list));
+    return result;
+  }
+  /// Left null vectors of C take their row from K; the rows of their complement come from C.
+  void combine() {
+    for (const std::vector<int>& rows : coupled()) {
+      if (rows.size() > most_together) {
+        told_ = false;
+        return;
+      }
+      const auto n = static_cast<Eigen::Index>(rows.size());
+      Eigen::MatrixXd c(n, n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j)
+          c(i, j) = C_.coeff(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+      const Eigen::MatrixXd undamped = orthogonal_complement(c);
+      const bool all = undamped.cols() == 0;
+      take(rows, undamped, false);
+      take(rows, all ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)) : orthogonal_complement(undamped),
+           true);
+    }
+  }
+  void take(const std::vector<int>& rows, const Eigen::MatrixXd& weights, bool by_forces) {
+    for (Eigen::Index j = 0; j < weights.cols(); ++j) {
+      RateRow row;
+      row.by_forces = by_forces;
+      for (Eigen::Index i = 0; i < weights.rows(); ++i)
+        if (weights(i, j) != 0.0) row.parts.emplace_back(rows[static_cast<std::size_t>(i)], weights(i, j));
+      rows_.push_back(std::move(row));
+    }
+  }
+  [[nodiscard]] SparseMatrix transposed() const {
+    const SparseMatrix c = C_.transpose(), k = K_.transpose();  // their columns are rows
+    Terms terms;
+    for (std::size_t j = 0; j < rows_.size(); ++j)
+      for (const auto& [i, weight] : rows_[j].parts)
+        for (SparseMatrix::InnerIterator it(rows_[j].by_forces ? c : k, i); it; ++it)
+          terms.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), weight * it.value());
+    return matrix_of(terms);
+  }
+
+  const Bench& bench_;
+  std::vector<int> place_;
+  Terms dampers_, springs_;
+  SparseMatrix C_, K_;  // with the terms of contacts
+  std::vector<RateRow> rows_;
+  int size_ = 0;
+  bool told_ = true;
+};
+
+}  // namespace
+
+double noise_of_slip_rate(const Bench& bench, const WitnessedSide& side, std::size_t k) {
+  if (bench.massless().empty() || bench.own_response(k) != nullptr || side.loads.empty()) return 0.0;
+  const Contact& c = bench.model.contacts[k];
+  const RateRows rows(bench, side);
+  // p' = s (ut' + s fk/kt N') > 0: with a spring between body and sliding point, N' contributes.
+  const double kt = c.tangential_stiffness.value_or(0.0);
+  const double of_gap = kt > 0.0 ? c.friction.kinetic / kt * c.normal_stiffness : 0.0;
+  const Vector x = rows.weights(c.tangent, sign_of_slip((*side.mode)[k].state), c.normal, of_gap);
+  if (x.size() == 0) return 0.0;
+  const Vector forces = massless_noise(bench, side, 0), rates = massless_noise(bench, side, 1);
+  double noise = 0.0;
+  for (Eigen::Index j = 0; j < x.size(); ++j)
+    noise += std::abs(x[j]) * rows.noise(static_cast<std::size_t>(j), forces, rates);
+  return noise;
+}
+
+namespace {
+
+// Relative accuracy of the terms of rates, which come from solves and their derivatives. Chosen value: a rate that is
+// zero or missing by mistake is off by its whole size (tests/unit/law_check/massless.cpp).
+constexpr double of_rates = 1e-9;
+constexpr const char* names[] = {"massless equilibrium", "massless velocity", "massless acceleration"};
+
+/// N and T of a contact, or their first or second derivative, and the size of their terms. known: they follow from the
+/// motion.
+struct Push {
+  double N = 0.0, T = 0.0, size = 0.0;
+  bool known = true;
+};
+
+/// Derivatives of order 1 or 2.
+Push push_of(const Contact& c, const ContactState& state, const Sight& m, int order) {
+  Push push;
+  if (is_open(state.state) && !c.normal_force_given()) return push;
+  const bool first = order == 1;
+  const double g = first ? m.dg : m.ddg, ut = first ? m.dut : m.ddut, size = first ? m.speed : m.push;
+  push.known = c.forces_follow_motion() && !c.takes_impulses() && (first || c.normal_damping == 0.0);
+  if (!push.known) return push;
+  if (c.normal_force_given()) {
+    push.N = first ? -m.dq : -m.ddq;
+    push.size = std::abs(push.N);
+  } else {
+    push.N = c.normal_stiffness * g + (first ? c.normal_damping * m.ddg : 0.0);
+    push.size = c.normal_stiffness * size + (first ? c.normal_damping * m.push : 0.0);
+  }
+  if (const int s = sign_of_slip(state.state); s != 0) {
+    push.T = -s * c.friction.kinetic * push.N;
+  } else if (kind_of(state.state) == State::stick) {
+    push.known = c.tangential_stiffness.has_value();
+    push.T = c.tangential_stiffness.value_or(0.0) * ut;
+    push.size += c.tangential_stiffness.value_or(0.0) * size;
+  }
+  return push;
+}
+
+/// Sizes that the rounding of x is relative to, one per degree of freedom.
+Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>& reached) {
+  Vector reach = x.cwiseAbs();
+  for (int i = 0; i < model.size(); ++i)
+    reach[i] = std::max(reach[i], reached[model.dofs[static_cast<std::size_t>(i)].rotation]);
+  return reach;
+}
+
+/// Balance of one order, row by row.
+class Balance {
+ public:
+  Balance(const Bench& bench, const WitnessedSide& side, int order)
+      : bench_(bench),
+        side_(side),
+        order_(order),
+        sum_(Vector::Zero(bench.model.size())),
+        size_(sum_),
+        off_(sum_),
+        known_(static_cast<std::size_t>(bench.model.size()), true) {}
+
+  [[nodiscard]] std::optional<Unbalanced> worst() {
+    const Vector rounded = noise();
+    for (const int i : bench_.massless()) {
+      const double limit = rounded[i] + of_tolerance * off_[i];
+      // A decayed motion has terms below the smallest normal number, which have no digits.
+      if (limit < std::numeric_limits<double>::min()) continue;
+      if (known_[static_cast<std::size_t>(i)] && std::abs(sum_[i]) > limit)
+        return Unbalanced{i, names[order_], std::abs(sum_[i]), limit, order_};
+    }
+    return std::nullopt;
+  }
+
+  /// Sums all rows; returns the rounding of each.
+  [[nodiscard]] Vector noise() {
+    structure();
+    for (const std::size_t k : bench_.on_massless()) contact(k);
+    return (order_ == 0 ? rounding::of_elimination : of_rates) * size_;
+  }
+
+ private:
+  void structure() {
+    const Model& model = bench_.model;
+    const Vector none = Vector::Zero(model.size()), &a = side_.a != nullptr ? *side_.a : none;
+    const Vector &x = order_ == 0 ? *side_.u : order_ == 1 ? *side_.v : a, &dx = order_ == 0 ? *side_.v : a;
+    const Vector of_x = reach_of(model, x, reached(order_)), of_dx = reach_of(model, dx, reached(order_ + 1));
+    for (const int i : bench_.massless()) {
+      sum_[i] = side_.loads[static_cast<std::size_t>(order_)][i];
+      size_[i] = std::abs(sum_[i]);
+      for (SparseMatrix::InnerIterator it(bench_.stiffness_by_rows(), i); it; ++it) {
+        take(i, it.value(), x[it.row()], of_x[it.row()]);
+        off_[i] += std::abs(it.value()) * tolerance(static_cast<int>(it.row()), of_x[it.row()]);
+      }
+      SparseMatrix::InnerIterator damper(bench_.damping_by_rows(), i);
+      if (!damper) continue;
+      known_[static_cast<std::size_t>(i)] = order_ == 0 || (order_ == 1 && side_.a != nullptr);
+      for (; damper; ++damper) take(i, damper.value(), dx[damper.row()], of_dx[damper.row()]);
+    }
+  }
+  /// Sizes reached by displacements (order 0), velocities and accelerations. Rounding of displacements produces
+  /// velocities w times, and accelerations w^2 times as large, w: the highest frequency. At rest there is nothing else.
+  [[nodiscard]] std::array<double, 2> reached(int order) const {
+    if (order == 0) return side_.u_reach;
+    std::array<double, 2> reach = side_.u_reach;
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+      reach[i] *= rounding::eps * std::pow(bench_.model.omega_max, order);
+      if (order == 1) reach[i] = std::max(reach[i], side_.v_reach[i]);
+    }
+    return reach;
+  }
+  void take(int i, double factor, double x, double reach) {
+    sum_[i] -= factor * x;
+    size_[i] += std::abs(factor) * reach;
+  }
+  /// Tolerance of a displacement or a velocity.
+  [[nodiscard]] double tolerance(int dof, double reach) const {
+    const WitnessLimits& tol = bench_.limits;
+    const bool turns = bench_.model.dofs[static_cast<std::size_t>(dof)].rotation;
+    return tol.rtol * reach + (order_ == 0 ? turns ? tol.rotation : tol.displacement
+                               : turns     ? tol.angular_velocity
+                                           : tol.velocity);
+  }
+  void contact(std::size_t k) {
+    const Contact& c = bench_.model.contacts[k];
+    const Sight m = see(c, k, side_);
+    Push push{m.N, m.T, std::abs(m.N) + std::abs(m.T)};
+    if (order_ > 0) push = push_of(c, (*side_.mode)[k], m, order_);
+    if (order_ == 1 && c.normal_damping > 0.0 && side_.a == nullptr) push.known = false;
+    if (order_ == 0) push.size += size_of_normal(c, m) + c.tangential_stiffness.value_or(0.0) * m.place;
+    add(c.normal, push.N, push);
+    add(c.tangent, push.T, push);
+  }
+  void add(const Combination& form, double force, const Push& push) {
+    for (const auto& [dof, factor] : form.terms) {
+      sum_[dof] -= factor * force;
+      size_[dof] += std::abs(factor) * push.size;
+      if (!push.known) known_[static_cast<std::size_t>(dof)] = false;
+    }
+  }
+
+  const Bench& bench_;
+  const WitnessedSide& side_;
+  int order_;
+  Vector sum_, size_, off_;  // off_: tolerances
+  std::vector<bool> known_;
+};
+
+}  // namespace
+
+Vector massless_noise(const Bench& bench, const WitnessedSide& side, int order) {
+  return Balance(bench, side, order).noise();
+}
+
+std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide& side, int orders) {
+  std::vector<Unbalanced> found;
+  if (side.loads.empty()) return found;
+  for (int order = 0; order < orders; ++order)
+    if (const auto worst = Balance(bench, side, order).worst()) found.push_back(*worst);
+  return found;
+}
+
+}  // namespace signorini

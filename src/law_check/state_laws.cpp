@@ -1,0 +1,388 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "law_check/contact_kinematics.hpp"
+#include "law_check/laws.hpp"
+#include "law_check/massless_laws.hpp"
+
+namespace signorini {
+namespace {
+
+/// Constraint rows of rigid contacts, and the changes of their forces that satisfy them:  W dF = asked,
+/// W_ij = row_i . column_j.
+struct HeldRows {
+  std::vector<Vector> columns;  // accelerations by a unit force, with friction for a sliding contact
+  std::vector<const Combination*> rows;
+  std::vector<double> asked, noise;  // noise: of the accelerations along the rows
+
+  /// swung: accelerations that were present when a guard was located and have been removed since; empty: none.
+  void add(const Contact& c, const ContactState& state, const OwnResponse& response, const Sight& m,
+           const Vector& swung, bool hold) {
+    const bool tangent = c.holds_tangent(state.state);
+    double of_row = rounding::of_elimination * m.push;
+    if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
+    if (c.takes_impulses() && !is_open(state.state)) {
+      const double friction =
+          tangent ? 0.0 : -sign_of_slip(state.state) * friction_in(c, state.state, m.dut, m.N);
+      columns.push_back(-response.by_n - friction * response.by_t);
+      rows.push_back(&c.normal);
+      asked.push_back(hold ? -m.ddg : 0.0);
+      noise.push_back(of_row);
+    }
+    if (!tangent) return;
+    columns.push_back(-response.by_t);
+    rows.push_back(&c.tangent);
+    asked.push_back(hold ? -m.ddut : 0.0);
+    noise.push_back(of_row);
+  }
+  /// True if the other rows imply row k: its force is then not unique.
+  [[nodiscard]] bool is_shared(Eigen::Index k) const {
+    const auto size = static_cast<Eigen::Index>(columns.size());
+    Eigen::MatrixXd W(size, size);
+    for (Eigen::Index i = 0; i < size; ++i)
+      for (Eigen::Index j = 0; j < size; ++j)
+        W(i, j) = rows[static_cast<std::size_t>(i)]->dot(columns[static_cast<std::size_t>(j)]);
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index i = 0; i < size; ++i)
+      if (i != k) others.push_back(i);
+    return rank(W) == rank(W(others, Eigen::all));
+  }
+  struct Change {
+    Eigen::VectorXd forces, unsure;
+  };
+  /// Solves for dF. push: other changes of accelerations; those by dF are added to it.
+  Change solve(Vector& push) const {
+    const auto size = static_cast<Eigen::Index>(columns.size());
+    if (size == 0) return {};
+    Eigen::MatrixXd W(size, size);
+    Eigen::VectorXd miss(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Combination& row = *rows[static_cast<std::size_t>(i)];
+      miss[i] = asked[static_cast<std::size_t>(i)] - row.dot(push);
+      for (Eigen::Index j = 0; j < size; ++j) W(i, j) = row.dot(columns[static_cast<std::size_t>(j)]);
+    }
+    const Eigen::MatrixXd inverse = pseudo_inverse(W);
+    Change change{inverse * miss, inverse.cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(noise.data(), size)};
+    for (Eigen::Index j = 0; j < size; ++j) push += change.forces[j] * columns[static_cast<std::size_t>(j)];
+    return change;
+  }
+};
+
+}  // namespace
+
+double Finder::force_noise() const {
+  if (!force_noise_) force_noise_ = rounding::of_elimination * bench_.balance(record_.after);
+  return *force_noise_;
+}
+
+/// Allowed distance of a guard from zero at this instant.
+double Finder::zero_of(const SeenGuard& guard, const Contact& c) const {
+  const double noise = rounding::of_elimination * guard.size + of_tolerance * guard.tolerance +
+                       of_uncertainty * record_.resolution * std::abs(guard.rate);
+  const std::string_view law = guard.law;
+  const bool solved = law == "tension" ? c.takes_impulses() : law == "friction" && !c.tangential_stiffness;
+  return (1.0 + record_.forgiven) * (noise + (solved ? force_noise() : 0.0));
+}
+
+void Finder::states() {
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const Contact& c = model_.contacts[k];
+    if (!c.obeys_coulomb()) continue;
+    const double rest = c.capture_velocity.value_or(bench_.limits.capture_velocity);
+    const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+    if (!guards_stand(c, k, now, record_.after) || !rows_stand(c, k, now, record_.after, rest)) state_of(k);
+    if (!record_.start && record_.located && !rows_stand(c, k, old, record_.before, rest)) old_rows(k);
+  }
+}
+
+/// Checks that forces just before satisfy the rows of the old state, as far as u and v determine them.
+void Finder::old_rows(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState& state = (*record_.before.mode)[k];
+  const Sight m = see(c, k, record_.before);
+  const WitnessLimits& tol = bench_.limits;
+  const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
+  const double held = c.takes_impulses() ? force_noise() : 0.0;
+  // In modes, forces and displacements are two different sums, each with its own round-trip error.
+  const double limit =
+      rounding::of_elimination * (2.0 * (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor))) +
+                                  std::abs(m.N) + std::abs(m.T)) +
+      of_tolerance *
+          ((kn + kt) * (tol.rtol * m.place + tol.displacement) + cn * (tol.rtol * m.speed + tol.velocity) +
+           tol.rtol * (std::abs(m.N) + std::abs(m.T)) + tol.force) +
+      held;
+  const auto check = [&](const char* law, double off) {
+    if (std::abs(off) > limit) add(static_cast<int>(k), law, std::abs(off), limit, seen::force, false);
+  };
+  const int s = sign_of_slip(state.state);
+  if (c.normal_force_given())
+    check("normal force", m.N + m.q);
+  else if (is_open(state.state))
+    check("normal force", m.N);
+  else if (c.normal_spring())
+    check("normal force", m.N - kn * m.g - cn * m.dg);
+  if (is_open(state.state) && !c.normal_force_given())
+    check("friction force", m.T);
+  else if (s != 0 && !c.sliding_point())
+    check("friction force", m.T + s * friction_in(c, state.state, m.dut, m.N) * m.N);
+  else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
+    check("friction force", m.T - kt * (m.ut - state.anchor));
+}
+
+/// Checks the guards and rows of the new state.
+void Finder::state_of(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState& state = (*record_.after.mode)[k];
+  const Sight m = see(c, k, record_.after);
+  const int contact = static_cast<int>(k);
+  for (const SeenGuard& guard : guards_of(c, state, m, bench_.limits)) {
+    // An engine that finds states at ends of steps checks the slip of a whole step.
+    if (std::string_view(guard.law) == "slip direction" && (c.sliding_point() || !record_.located)) continue;
+    // Such an engine also stops a contact for one step if its slip reverses.
+    if (std::string_view(guard.law) == "friction" && !c.tangential_stiffness && !record_.located) continue;
+    double zero = zero_of(guard, c);
+    // A contact held by others slips at the rounding of the constraints that hold it.
+    const bool of_slip = std::string_view(guard.law) == "slip direction";
+    if (std::string_view(guard.law) == "rest" || (of_slip && held_beside(model_, k)))
+      zero += bench_.slowest(record_, k);
+    if (guard.value < -zero && of_slip)
+      zero += (1.0 + record_.forgiven) * noise_of_slip_rate(bench_, record_.after, k);
+    if (guard.value < -zero)
+      add(contact, guard.law, -guard.value, zero, guard.unit(), -guard.value > gross * guard.size);
+  }
+  double asked = 0.0, size = std::abs(m.N);
+  if (c.normal_force_given()) {
+    asked = -m.q;
+    size += std::abs(m.q);
+  } else if (!is_open(state.state)) {
+    if (!c.normal_spring()) {
+      friction_of(k, m);
+      return;
+    }
+    asked = c.normal_stiffness * m.g + c.normal_damping * m.dg;
+    size += size_of_normal(c, m);
+  }
+  const double limit = rounding::of_elimination * size;
+  if (const double off = std::abs(m.N - asked); off > limit)
+    add(contact, "normal force", off, limit, seen::force, false);
+  friction_of(k, m);
+}
+
+/// Checks that T satisfies the state's row.
+void Finder::friction_of(std::size_t k, const Sight& m) {
+  const Contact& c = model_.contacts[k];
+  const ContactState& state = (*record_.after.mode)[k];
+  const int s = sign_of_slip(state.state);
+  double asked = 0.0, size = std::abs(m.T);
+  if (s != 0) {
+    if (c.friction.varies() && c.sliding_point()) return;  // its rate follows from T and is not given
+    const double f = friction_in(c, state.state, m.dut, m.N);
+    asked = -s * f * m.N;
+    size += std::abs(asked) + f * size_of_normal(c, m);
+  } else if (kind_of(state.state) == State::stick) {
+    if (c.holds_tangent(state.state) || c.sliding_point()) {
+      const double zero = bench_.slowest(record_, k);
+      if (std::abs(m.dut) > zero)
+        add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
+      return;
+    }
+    asked = *c.tangential_stiffness * (m.ut - state.anchor);
+    size += *c.tangential_stiffness * (m.place + std::abs(state.anchor));
+  }
+  const double limit = rounding::of_elimination * size + (c.takes_impulses() ? force_noise() : 0.0);
+  if (const double off = std::abs(m.T - asked); off > limit)
+    add(static_cast<int>(k), "friction force", off, limit, seen::force, false);
+}
+
+/// True if the contact acts on massless degrees of freedom: its velocities are those of its new state.
+bool Finder::moves_at_once(std::size_t k) const { return bench_.own_response(k) == nullptr; }
+
+/// Contact k in its old state, with u, v+ and the new states of all others. nullopt: its old rows do not determine its
+/// forces.
+std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
+  const Contact& c = model_.contacts[k];
+  const ContactState& old = (*record_.before.mode)[k];
+  const OwnResponse* own = bench_.own_response(k);
+  if (own == nullptr) return std::nullopt;
+  Old result{see(c, k, record_.after)};
+  Sight& m = result.m;
+  const bool solved_N = c.takes_impulses() && !is_open(old.state), solved_T = c.holds_tangent(old.state);
+  const double N = m.N, T = m.T;
+  const auto sliding = [&] { return -sign_of_slip(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N; };
+  // Forces given directly by the old rows, and their effect on accelerations.
+  if (!solved_N)
+    m.N = c.normal_force_given() ? -m.q
+          : is_open(old.state)   ? 0.0
+                                 : c.normal_stiffness * m.g + c.normal_damping * m.dg;
+  if (!solved_T)
+    m.T = kind_of(old.state) == State::stick && !c.sliding_point()
+              ? *c.tangential_stiffness * (m.ut - old.anchor)
+              : sliding();
+  Vector push = -(m.N - N) * own->by_n;
+  if (!solved_T) push -= (m.T - T) * own->by_t;
+  HeldRows held;
+  const Vector swung = bench_.swung(record_);
+  held.add(c, old, *own, m, swung, true);
+  for (std::size_t j = 0; j < model_.contacts.size(); ++j) {
+    const Contact& other = model_.contacts[j];
+    const ContactState& state = (*record_.after.mode)[j];
+    const bool rigid = other.takes_impulses() || other.holds_tangent(state.state);
+    if (j == k || !other.obeys_coulomb() || is_open(state.state) || !rigid) continue;
+    const OwnResponse* response = bench_.own_response(j);
+    if (response == nullptr) return std::nullopt;
+    held.add(other, state, *response, see(other, j, record_.after), swung, false);
+  }
+  if (solved_T && held.is_shared(solved_N ? 1 : 0)) return std::nullopt;
+  const HeldRows::Change change = held.solve(push);
+  if (solved_N) {
+    m.N = N + change.forces[0];
+    result.unsure_N = change.unsure[0];
+  }
+  if (solved_T) {
+    m.T = T + change.forces[solved_N ? 1 : 0];
+    result.unsure_T = change.unsure[solved_N ? 1 : 0];
+  }
+  if (solved_N && !solved_T) m.T = sliding();
+  m.ddg += c.normal.dot(push);
+  m.ddut += c.tangent.dot(push);
+  return result;
+}
+
+/// True if its own g', ut', N or T jumps: the motion before does not determine its guard after the jump.
+bool Finder::jumps(std::size_t k) const {
+  const Contact& c = model_.contacts[k];
+  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const double speed = rounding::of_elimination * a.speed + of_tolerance * bench_.limits.velocity;
+  const double force = rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
+                       of_tolerance * (bench_.limits.force + c.normal_stiffness * bench_.limits.displacement);
+  const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;  // N = kn g is continuous, as u is
+  return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
+         (may_jump && std::abs(a.N - b.N) > force);
+}
+
+void Finder::transitions() {
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+    const RecordedEvent* event = event_of(k);
+    if (old.state == now.state && event == nullptr) continue;
+    const auto plain = [](State s) { return s == State::inside ? State::open : is_held(s) ? kind_of(s) : s; };
+    if (plain(old.state) != plain(now.state) && !record_.start &&
+        (event == nullptr || event->from != plain(old.state) || event->to != plain(now.state)))
+      add(static_cast<int>(k), "record", 1.0, 0.0, {}, true);
+    if (!model_.contacts[k].obeys_coulomb() || (record_.start && !record_.continues) || !record_.located)
+      continue;
+    if (old.state != now.state) necessity(k);
+    if (event != nullptr && event->t_uncertainty >= 0.0 && !record_.breakpoint && !record_.start && !jumps(k))
+      guard_of(*event);
+  }
+}
+
+/// True if a rigidly sticking contact slides, however slowly, after a hit that its friction could not withstand:
+/// |Pt| = fk Pn.
+bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& after) const {
+  const Contact& c = model_.contacts[k];
+  if (kind_of(old.state) != State::stick || c.tangential_stiffness) return false;
+  if (std::abs(after.dut) > rounding::of_elimination * after.speed) return true;
+  if (record_.impulses.empty() || after.dut == 0.0) return false;
+  for (const RecordedImpulse& p : record_.impulses) {
+    if (p.contact != k) continue;
+    double greatest = 0.0;
+    for (const RecordedImpulse& other : record_.impulses)
+      greatest = std::max({greatest, std::abs(other.normal), std::abs(other.tangent)});
+    return std::abs(p.tangent) >= c.friction.kinetic * p.normal - rounding::of_elimination * greatest;
+  }
+  return true;  // a slider, which takes no impulse
+}
+
+namespace {
+
+/// True if N jumps. With a dashpot its part of the jump is tested alone, since u is continuous: N is known to the
+/// rounding of kn u, cn (g'+ - g'-) to that of velocities.
+bool force_jumps(const Contact& c, const Sight& before, const Sight& after) {
+  const double of_N = rounding::of_many * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
+  const double of_rate = rounding::of_many * (before.speed + after.speed);
+  return std::abs(after.N - before.N) > of_N ||
+         (c.normal_damping > 0.0 && std::abs(after.dg - before.dg) > of_rate);
+}
+
+}  // namespace
+
+/// Reports a violation if every guard of the old state, with v+, is above its rounding: the change had no reason.
+void Finder::necessity(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+  if (!c.forces_follow_motion() || (moves_at_once(k) && record_.breakpoint)) return;
+  const Sight before = see(c, k, record_.before), after = see(c, k, record_.after);
+  if (c.normal_force_given() && (is_open(old.state) || is_open(now.state)))
+    return;  // the compression decides
+  const double rest = rounding::of_elimination * after.speed;
+  if (is_pushed_off(k, old, after)) return;
+  // A contact thrown off in a hit, however slowly.
+  if (c.takes_impulses() && !is_open(old.state) &&
+      (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
+    return;
+  // T stays if N jumps: a contact that slid sticks with this T until its limit is reached again. A distant jump makes N
+  // jump as well, however little reaches the contact.
+  if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && force_jumps(c, before, after)) return;
+  if (its_own_falls(k, old, before)) return;
+  const std::optional<Old> before_it = as_before(k);
+  if (!before_it) return;
+  const SeenGuards guards = guards_of(c, old, before_it->m, bench_.limits);
+  const RecordedEvent* event = event_of(k);
+  const SeenGuard* nearest = nullptr;
+  double limit = 0.0;
+  for (const SeenGuard& guard : guards) {
+    double zero = zero_of(guard, c);
+    if (guard.law != std::string_view("slip direction") && guard.law != std::string_view("penetration"))
+      zero += (1.0 + c.friction.static_) * before_it->unsure_N + before_it->unsure_T;
+    if (event != nullptr && event->t_uncertainty >= 0.0)
+      zero +=
+          of_uncertainty * event->t_uncertainty * std::max(std::abs(event->guard_rate), std::abs(guard.rate));
+    if (guard.value <= zero) return;
+    const bool leaves = is_open(old.state) || is_open(now.state);  // first guard; otherwise the last
+    if (nearest != nullptr && leaves) continue;
+    nearest = &guard;
+    limit = zero;
+  }
+  if (nearest == nullptr) return;
+  add(static_cast<int>(k), "necessity", nearest->value, limit, nearest->unit(),
+      nearest->value > gross * nearest->size);
+}
+
+/// True if a guard of its own was zero before, although changes of other contacts at this instant would have lifted it.
+bool Finder::its_own_falls(std::size_t k, const ContactState& old, const Sight& before) const {
+  const Contact& c = model_.contacts[k];
+  const RecordedEvent* event = event_of(k);
+  const double off = event != nullptr && event->t_uncertainty >= 0.0 ? event->t_uncertainty : 0.0;
+  for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits))
+    if (guard.value <= zero_of(guard, c) + of_uncertainty * off * std::abs(guard.rate)) return true;
+  return false;
+}
+
+/// Checks that the guard of an event is zero at its time, in the motion just before.
+void Finder::guard_of(const RecordedEvent& event) {
+  const std::size_t k = event.contact;
+  const Contact& c = model_.contacts[k];
+  if (!c.forces_follow_motion()) return;
+  const ContactState& old = (*record_.before.mode)[k];
+  if (sign_of_slip(old.state) != 0 && c.normal_damping > 0.0 && record_.before.a == nullptr) return;
+  const Sight m = see(c, k, record_.before);
+  double least = std::numeric_limits<double>::infinity(), limit = 0.0;
+  const SeenGuard* which = nullptr;
+  const SeenGuards guards = guards_of(c, old, m, bench_.limits);
+  for (const SeenGuard& guard : guards) {
+    // The zero was located with u and v themselves: no tolerance of the engine remains.
+    const double zero = zero_of(guard, c) - of_tolerance * guard.tolerance +
+                        of_uncertainty * event.t_uncertainty * std::abs(event.guard_rate);
+    if (which != nullptr && std::abs(guard.value) / zero >= std::abs(least) / limit) continue;
+    least = guard.value;
+    limit = zero;
+    which = &guard;
+  }
+  if (which != nullptr && std::abs(least) > limit)
+    add(static_cast<int>(k), "time of the event", std::abs(least), limit, which->unit(), false);
+}
+
+}  // namespace signorini

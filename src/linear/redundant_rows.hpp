@@ -1,0 +1,58 @@
+// redundant_rows.hpp: contacts that constrain one motion redundantly, such as two feet or two sticking sliders of one
+// body.
+//
+//   | M  F | | a |   | p |      H z = 0:  rows that say the same
+//   | H' 0 | | f | = | b |      F y = 0:  forces that move nothing, so that f is not unique
+//
+// H has the normals of what is closed and the tangents of what sticks; F the same, but n - s fs t for the normal of a contact
+// that bears its static limit at rest (T = -s fs N). With s z (D y)' in place of 0 the matrix is regular, and where z.b = 0
+// its solution has H' a = b and y.D f = 0: the motion is the same, and of all forces that go with it those are taken whose sum
+// of squares of N and T, f.D f, is least. s > 0 is of the size of H' M^-1 H, which changes no digit of either. Sliders share among themselves, on ground that stands and where
+// there is mass; beside rigid contacts they are refused.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact/law.hpp"
+#include "linear/system_matrices.hpp"
+
+namespace signorini {
+
+/// s Z (D Y)' on rows of forces, numbered as the forces are (signorini/force_layout.hpp).
+struct SharedForces {
+  std::vector<std::size_t> rows;
+  Eigen::MatrixXd entries;  ///< one for each pair of rows
+  Eigen::MatrixXd null;     ///< Z, orthonormal: rows x redundantly constrained motions
+};
+
+/// Orthonormal z with H z = 0: combinations of columns that vanish up to a rounding.
+[[nodiscard]] Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h);
+
+/// True if row i participates in one of these combinations (orthonormal columns) by more than rounding.
+[[nodiscard]] bool has_share(const Eigen::MatrixXd& null, Eigen::Index i);
+
+class SharedRows {
+ public:
+  SharedRows(const Model& model, const Structure& structure);
+
+  /// Lists of two or more contacts, some of which may constrain one motion together.
+  [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
+  /// True if the contact is in one of those lists.
+  [[nodiscard]] bool may_share(std::size_t contact) const { return grouped_[contact]; }
+  /// Shared forces of the rows in force; empty: all rows are independent.
+  [[nodiscard]] std::vector<SharedForces> in_force(const std::vector<Rows>& rows) const;
+
+ private:
+  const Model& model_;
+  std::vector<double> lightness_;  // by degree of freedom: 1/mass; 0 without mass
+  std::vector<std::vector<std::size_t>> groups_;
+  std::vector<bool> grouped_;  // one for each contact
+
+  [[nodiscard]] bool has_mass(const Combination& form) const;
+  [[nodiscard]] std::vector<std::vector<std::size_t>> together() const;
+  /// H on the degrees of freedom on which the rows act, each divided by the square root of its mass.
+  [[nodiscard]] Eigen::MatrixXd columns(const std::vector<std::size_t>& rows) const;
+};
+
+}  // namespace signorini

@@ -1,0 +1,107 @@
+// system_matrices.hpp: M, C and K on one common sparsity pattern.
+//
+//   r = M a + C v + K u        in one pass over the pattern
+//
+// Shapes: n degrees of freedom; compressed columns, rows ascending.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+// Forces of a structure with narrow band matrices, four equations at once.
+//
+//   r_i -= sum_j ( c_ij v_j + k_ij u_j ),   j from i - width to i + width
+//
+// Column by column each sum would wait until the previous one is stored. Here four rows are processed in parallel,
+// diagonal by diagonal. Each row adds its terms in the order of the columns, and missing entries add zero: the results
+// are bitwise the same.
+
+class BandedForces {
+ public:
+  BandedForces() = default;
+  /// Empty if bands would have far more places than entries. Compressed columns; c, k: aligned with `row`.
+  BandedForces(const std::vector<std::int64_t>& column_start, const std::vector<int>& row,
+               const std::vector<double>& c, const std::vector<double>& k);
+
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  /// r -= C v + K u
+  void subtract(const double* v, const double* u, double* r) const;
+
+ private:
+  std::size_t size_ = 0, width_ = 0;
+  std::vector<double> values_;  // four rows, diagonal by diagonal: c of each, k of each
+};
+
+struct Structure {
+  explicit Structure(const Model& model);
+
+  int size = 0;
+  std::vector<std::int64_t> column_start;
+  std::vector<int> row;
+  std::vector<double> m, c, k;  ///< values of M, C, K, aligned with `row`
+
+  /// r += M a + C v + K u
+  void add_product(const double* a, const double* v, const double* u, double* r) const;
+  /// r -= C v + K u
+  void subtract_forces(const double* v, const double* u, double* r) const;
+  /// v^T C v, from half of the symmetric part, nonzero entries only.
+  [[nodiscard]] double damping_power(const double* v) const;
+  /// x^T values x
+  [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
+  /// Sum of the magnitudes of the terms: reference for rounding.
+  [[nodiscard]] double magnitude(const std::vector<double>& values, const double* x) const;
+  /// r += values x, for one of m, c, k
+  void add_product(const std::vector<double>& values, const double* x, double* r) const;
+
+ private:
+  struct HalfColumn {
+    int column = 0, end = 0;  // end: end of its entries in half_row_
+    double diagonal = 0.0;
+  };
+  BandedForces banded_;
+  std::vector<HalfColumn> half_;
+  std::vector<int> half_row_;
+  std::vector<double> half_value_;  // c_ij + c_ji, i < j
+};
+
+// Inertia, damping and elastic forces, one pass over the entries.
+//
+//   r = M a + C v + K u = M (a + alpha v) + K (u + beta v) + R v,   C = alpha M + beta K + R
+//
+// R contains discrete dampers and is mostly zero, so an entry costs two numbers instead of three. Rows instead of
+// columns: every sum stays in a register. Shapes: n degrees of freedom; unit of r: force.
+//
+//   for (i) product.put(i, a[i], v[i], u[i]);
+//   product.apply(r);
+
+class Momentum {
+ public:
+  Momentum(const Model& model, const Structure& structure);
+
+  /// Sets the motion of degree of freedom i.
+  void put(std::size_t i, double a, double v, double u) {
+    x_[2 * i] = a + alpha_ * v;
+    x_[2 * i + 1] = u + beta_ * v;
+    if (!rest_.empty()) v_[i] = v;
+  }
+  /// r[0 .. n) := M a + C v + K u
+  void apply(double* r) const;
+
+ private:
+  struct Entry {
+    std::size_t row, column;
+    double value;
+  };
+  double alpha_, beta_;
+  std::vector<int> row_start_, column_;
+  std::vector<double> values_;  // (M, K) of each entry, row by row
+  std::vector<Entry> rest_;     // R
+  std::vector<double> x_, v_;   // factors of the rows, (for M, for K) of each column
+};
+
+}  // namespace signorini

@@ -1,0 +1,91 @@
+#include "linear/unknowns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/constants.hpp"
+
+namespace signorini {
+
+std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure) {
+  const auto n = static_cast<std::size_t>(structure.size);
+  std::vector<double> damping(n, 0.0);
+  for (std::size_t p = 0; p < structure.row.size(); ++p)
+    damping[static_cast<std::size_t>(structure.row[p])] += std::abs(structure.c[p]);
+  std::vector<DofKind> kinds(n, DofKind::massive);
+  for (std::size_t i = 0; i < n; ++i)
+    if (model.dofs[i].massless) kinds[i] = damping[i] > 0.0 ? DofKind::damped : DofKind::algebraic;
+  return kinds;
+}
+
+bool has_massless(const Model& model) {
+  return std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; });
+}
+
+namespace {
+
+/// Scales, frequencies and factors are those of the whole, so that decisions that depend on them agree.
+Model common_to_parts(const Model& whole) {
+  Model model;
+  model.layout = whole.layout;
+  model.units = whole.units;
+  model.unit = whole.unit;
+  model.machine = whole.machine;
+  model.static_start = whole.static_start;
+  model.scales = whole.scales;
+  model.alpha = whole.alpha;
+  model.beta = whole.beta;
+  model.omega1 = whole.omega1;
+  model.omega_max = whole.omega_max;
+  return model;
+}
+
+/// place: place in the part of a degree of freedom of the whole; -1: not in the part.
+SparseMatrix block_of(const SparseMatrix& a, const std::vector<int>& dofs, const std::vector<int>& place) {
+  const auto n = static_cast<int>(dofs.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < n; ++column)
+    for (SparseMatrix::InnerIterator it(a, dofs[static_cast<std::size_t>(column)]); it; ++it)
+      if (const int row = place[static_cast<std::size_t>(it.row())]; row >= 0 && it.value() != 0.0)
+        entries.emplace_back(row, column, it.value());
+  SparseMatrix result(n, n);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace
+
+Load without_direction(const Load& load) {
+  return {load.name, {}, load.history, load.is_static, load.kind, load.of_direction, load.of_history};
+}
+
+Model restricted(const Model& whole, const std::vector<int>& dofs, const std::vector<std::size_t>& contacts) {
+  Model model = common_to_parts(whole);
+  std::vector<int> place(whole.dofs.size(), -1);
+  const auto n = static_cast<Eigen::Index>(dofs.size());
+  model.u0.resize(n);
+  model.v0.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int from = dofs[static_cast<std::size_t>(i)];
+    place[static_cast<std::size_t>(from)] = static_cast<int>(i);
+    model.dofs.push_back(whole.dofs[static_cast<std::size_t>(from)]);
+    model.u0[i] = whole.u0[from];
+    model.v0[i] = whole.v0[from];
+  }
+  model.mass = block_of(whole.mass, dofs, place);
+  model.damping = block_of(whole.damping, dofs, place);
+  model.stiffness = block_of(whole.stiffness, dofs, place);
+  const auto renumber = [&](Combination& form) {
+    for (auto& [dof, factor] : form.terms) dof = place[static_cast<std::size_t>(dof)];
+  };
+  for (const std::size_t k : contacts) {
+    Contact contact = whole.contacts[k];
+    visit_forms(contact, renumber);
+    model.contacts.push_back(std::move(contact));
+    if (!whole.continues.empty()) model.continues.push_back(whole.continues[k]);
+  }
+  return model;
+}
+
+}  // namespace signorini

@@ -1,0 +1,27 @@
+// member_pieces.hpp: the pieces of members between named nodes, and forces along them.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "model/assembly/dofs.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// The piece of a member between two nodes, and whether it runs in the opposite direction. Errors: SceneError.
+[[nodiscard]] std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a,
+                                                              const std::string& b, const SourcePlace& place,
+                                                              const std::string& key);
+
+/// Components along x and y of a unit distributed load on an element; backwards: given against the element's direction.
+[[nodiscard]] std::array<double, 2> along_line(const LoadSpec& spec, const Axis& axis, bool backwards);
+
+// Data for drawings of deformed shapes.
+//
+//   position on a beam = x + u,  u between the ends: linear along it, cubic across (as its stiffness assumes)
+
+/// Fills drawing, drawn_nodes and drawn_contacts of a node scene; the contacts must exist already.
+void add_drawing(const Scene& scene, const DofMap& map, Model& model);
+
+}  // namespace signorini

@@ -1,0 +1,38 @@
+// prestress.hpp: geometric stiffness of static forces in the structure (P-delta, run.geometric).
+//
+//   K_g = sum over elements of the integral of N v'^2   (line_elements.hpp, line_elements.hpp)   +   rz^2 sum F . r of each rigid body
+//
+// A point of a body at r from its centre moves by rz x r - rz^2 r/2, so forces with a constant direction have the
+// potential rz^2/2 sum F . r; it does not depend on the centre, since the F are in equilibrium. A moment does the work
+// M rz only and contributes nothing. N and F are the frozen forces of the static loads.
+#pragma once
+
+#include <vector>
+
+#include "model/assembly/dofs.hpp"
+
+namespace signorini {
+
+struct GeometricStiffness {
+  SparseMatrix matrix;         ///< n x n
+  std::vector<Vector> moving;  ///< columns for unit motions of supports, one for each of DofMap::supports
+};
+
+/// Stiffness of the forces in the map; zero without forces.
+[[nodiscard]] GeometricStiffness assemble_geometric(const Scene& scene, const DofMap& map);
+
+/// Static state: displacements, contact forces, and for each of Model::loads whether it acts.
+struct StandingForces {
+  const Vector& u;
+  std::vector<double> N, T;
+  std::vector<bool> acts;
+};
+
+/// Errors: SceneError for a rigid body whose supports share a force on which its stiffness depends.
+[[nodiscard]] FrozenForces frozen_forces(const Scene& scene, const DofMap& map, const Model& model,
+                                         const StandingForces& standing);
+
+/// Puts the forces into the map. Errors: SceneError if they belong to another structure.
+void freeze(const FrozenForces& forces, const Scene& scene, DofMap& map);
+
+}  // namespace signorini

@@ -1,0 +1,391 @@
+#include "model/model_warnings.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/eigen_dense.hpp"
+#include "base/history/pieces.hpp"
+#include "base/run_files.hpp"
+#include "base/text.hpp"
+#include "contact/friction.hpp"
+#include "model/assembly/contacts.hpp"
+#include "model/assembly/dofs.hpp"
+#include "model/assembly/loads.hpp"
+#include "model/assembly/parts.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/initial_state.hpp"
+#include "model/massless.hpp"
+#include "model/modes/held.hpp"
+#include "model/modes/stability.hpp"
+#include "model/outputs/reactions.hpp"
+#include "model/slip_growth.hpp"
+#include "model/statics/mechanisms.hpp"
+#include "model/statics/static_system.hpp"
+#include "motion/point.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double greatest_friction = 2.0;
+constexpr double least_drag = 0.01;  // relative, of a velocity, during the run
+constexpr double along = 1e-9;       // relative; part of a motion that a contact must see
+constexpr std::size_t most_named = 3;
+
+/// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
+std::string names(const Model& model, const std::vector<std::size_t>& contacts) {
+  std::vector<std::string> list;
+  for (const std::size_t k : contacts) list.push_back(model.contacts[k].name);
+  return (list.size() == 1 ? "contact " : "contacts ") + listed(list, most_named);
+}
+
+/// True if f has values between these starts that exceed those before and after. Evaluated with a clock that begins at
+/// the piece; on the run's clock the starts may coincide.
+bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
+  const std::vector<double>& starts = f.starts();
+  struct Known {
+    double value, rounding;
+  };
+  const auto known = [&](std::size_t i, double t, double s) {
+    Piece piece = f.pieces()[i];
+    piece.origin -= t;
+    return Known{piece.value(s), roundoff(piece, s)};
+  };
+  const Known before = known(first, starts[first], 0.0), after = known(last + 1, starts[last], 0.0);
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    const double a = starts[i - 1], length = starts[i] - a;
+    for (const double s : {0.0, 0.5 * length, length}) {
+      const Known inside = known(i, a, s);
+      const double unsure = before.rounding + after.rounding + inside.rounding;
+      if (inside.value > std::max(before.value, after.value) + unsure ||
+          inside.value < std::min(before.value, after.value) - unsure)
+        return true;
+    }
+  }
+  return false;
+}
+
+class Doubts {
+ public:
+  Doubts(const Scene& scene, const DofMap& map, const Model& model)
+      : scene_(scene), map_(map), model_(model), weight_(static_load(model.loads, model.size())) {}
+
+  std::vector<std::string> all() {
+    idle_loads();
+    for (std::string& idle : idle_rotations(scene_, map_)) found_.push_back(std::move(idle));
+    falls();
+    sudden_weight();
+    drag();
+    friction();
+    shear();
+    another_run();
+    pulses();
+    sudden_supports();
+    sudden_heat();
+    growth();
+    for (std::string& doubt : hanger_doubts(scene_, model_)) found_.push_back(std::move(doubt));
+    runs_away();
+    for (std::string& unused : unused_values(scene_, map_, model_)) found_.push_back(std::move(unused));
+    return std::move(found_);
+  }
+
+ private:
+  void idle_loads() {
+    if (scene_.run.geometric) return;  // fixed loads may still compress members and bodies
+    for (const Load& load : model_.loads) {
+      if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support ||
+          load.kind == LoadKind::support_rate)
+        continue;
+      const auto& terms = load.direction.terms;
+      const bool idle =
+          std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });
+      if (idle && magnitude(load.history, scene_.run.t_end) > 0.0)
+        found_.push_back(load.name +
+                         " acts only along directions that supports or rigid bodies hold: it moves nothing");
+    }
+  }
+
+  /// Checks the contacts of each part separately; sliders have no normal and may hold a part by friction.
+  void falls() {
+    if (weight_.isZero(0.0)) return;
+    const Parts parts({&model_.mass, &model_.stiffness});
+    std::vector<std::vector<std::size_t>> supports(parts.count());
+    std::vector<bool> gripped(parts.count(), false);
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const Contact& c = model_.contacts[k];
+      for (const auto& term : c.normal.terms.empty() ? c.tangent.terms : c.normal.terms) {
+        const std::size_t part = parts.part_of(term.first);
+        if (c.normal_force_given()) gripped[part] = true;
+        if (!c.normal_force_given() && (supports[part].empty() || supports[part].back() != k))
+          supports[part].push_back(k);
+      }
+    }
+    std::size_t number = 0;
+    for (const Part& part : parts) {
+      const std::vector<std::size_t>& own = supports[number];
+      if (!own.empty() && !gripped[number] && flees(part, own))
+        falling_.insert(falling_.end(), own.begin(), own.end());
+      ++number;
+    }
+    if (falling_.empty()) return;
+    found_.push_back(
+        fmt::format("nothing stops the fall from {}: the static loads push the structure there along the "
+                    "normal, away from the ground; is the normal reversed?",
+                    names(model_, falling_)));
+  }
+
+  [[nodiscard]] bool flees(const Part& part, const std::vector<std::size_t>& contacts) const {
+    const Eigen::MatrixXd z = null_motions(part.matrix(model_.stiffness));
+    if (z.cols() == 0) return false;
+    const SparseMatrix mass = part.matrix(model_.mass);
+    const Vector force = z.transpose() * Vector(weight_(part.dofs()));
+    Vector fall = Vector::Zero(model_.size());
+    fall(part.dofs()) = z * solve_dense(z.transpose() * (mass * z), force);
+    const double size = fall.cwiseAbs().maxCoeff();
+    bool away = false;
+    for (const std::size_t k : contacts) {
+      const double rate = model_.contacts[k].normal.dot(fall);
+      if (!(rate >= -along * size)) return false;
+      away = away || rate > along * size;
+    }
+    return away;
+  }
+
+  void sudden_weight() {
+    if (model_.static_start || weight_.isZero(0.0) || !model_.u0.isZero(0.0)) return;
+    if (scene_.gravity[0] == 0.0 && scene_.gravity[1] == 0.0) return;
+    std::vector<std::size_t> touching;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const Contact& c = model_.contacts[k];
+      if (c.normal_force_given() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
+      // A rigid body on rigid ground has its reaction at once.
+      const bool gives = !c.takes_impulses() ||
+                         std::any_of(c.normal.terms.begin(), c.normal.terms.end(), [&](const auto& term) {
+                           return model_.stiffness.coeff(term.first, term.first) != 0.0;
+                         });
+      if (gives && std::find(falling_.begin(), falling_.end(), k) == falling_.end()) touching.push_back(k);
+    }
+    if (touching.empty()) return;
+    found_.push_back(
+        fmt::format("the weight acts suddenly at t = 0 on {}, closed there with zero force: the structure "
+                    "will oscillate, with up to twice the static force; initial = \"static\" starts at rest",
+                    names(model_, touching)));
+  }
+
+  void drag() {
+    if (!(model_.alpha * scene_.run.t_end > least_drag)) return;
+    std::vector<bool> closed(model_.contacts.size(), true);
+    const StaticProblem problem{model_.stiffness, weight_, model_.contacts, map_};
+    const Eigen::MatrixXd free = null_motions(problem.matrix(closed));
+    if (free.cols() == 0 || (model_.mass * free).isZero(0.0)) return;
+    found_.push_back(fmt::format(
+        "mass-proportional damping (alpha = {:.4g} 1/{}) also damps rigid-body motions: sliding and flying "
+        "parts lose their velocity with the time constant 1/alpha = {:.4g} {}; beta and single dampers do "
+        "not damp these motions",
+        model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
+        model_.units.time));
+  }
+
+  void friction() {
+    std::vector<std::size_t> high;
+    double greatest = 0.0;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const Friction& law = model_.contacts[k].friction;
+      const double f = std::max(law.static_, law.kinetic);
+      if (f > greatest_friction) high.push_back(k);
+      greatest = std::max(greatest, f);
+    }
+    if (high.empty()) return;
+    found_.push_back(fmt::format(
+        "friction {:.6g} at {}: coefficients above 2 are unusual; is it an angle or a percentage?", greatest,
+        names(model_, high)));
+  }
+
+  /// A pulse shorter than the time resolution has no effect.
+  void pulses() {
+    for (const Load& load : model_.loads) {
+      const std::vector<double>& starts = load.history.starts();
+      for (std::size_t first = 0, next = 0; first < starts.size(); first = next) {
+        next = end_of_instant(load.history, first, scene_.run.t_end);
+        const double a = starts[first], b = starts[next - 1], least = resolution_at(a, scene_.run.t_end);
+        if (!(a >= 0.0 && b < scene_.run.t_end && leaves_a_peak(load.history, first, next - 1))) continue;
+        found_.push_back(fmt::format(
+            "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} that times of sixteen "
+            "digits can resolve: its impulse is lost; make the pulse longer",
+            load.name, a * model_.unit.time, (b - a) * model_.unit.time, least * model_.unit.time));
+      }
+    }
+  }
+
+  /// The initial state is just after t = 0: a sudden motion of a support gives no impulse.
+  void sudden_supports() {
+    for (const Load& load : model_.loads) {
+      if (load.kind != LoadKind::support || scene_.initial.saved) continue;
+      const History f = resolved(load.history, scene_.run.t_end);
+      const Piece &before = f.piece_before(0.0), &after = f.piece(0.0);
+      for (const int order : {0, 1}) {
+        const double a = before.value(0.0, order), b = after.value(0.0, order);
+        const double rounded = order == 0 ? roundoff(before, 0.0) + roundoff(after, 0.0)
+                                          : roundoff_of_rate(before, 0.0) + roundoff_of_rate(after, 0.0);
+        if (std::abs(b - a) <= rounded) continue;
+        found_.push_back(
+            fmt::format("the {} of '{}' jumps at t = 0: the initial state is taken as the one just after, "
+                        "without an impulse; at a later time it would be refused",
+                        order == 0 ? "motion" : "velocity", load.name));
+        break;
+      }
+    }
+  }
+
+  /// Static and frictional starts ignore histories that are not constant; a temperature present from the start is
+  /// intended.
+  void sudden_heat() {
+    if (scene_.initial.saved || !scene_.initial.stages.empty()) return;
+    if (!scene_.initial.is_static && !scene_.initial.is_frictional) return;
+    for (const Load& load : model_.loads) {
+      if (load.kind != LoadKind::temperature || load.history.is_constant() || load.history.value(0.0) == 0.0)
+        continue;
+      found_.push_back(fmt::format(
+          "{} comes suddenly at t = 0, since its history is not constant: the static start is "
+          "without it, and the structure will oscillate. With initial = \"frictional\" a stage in "
+          "[[run.stages]] with loads = [\"temperature\"] starts in equilibrium with it",
+          load.name));
+    }
+  }
+
+  void another_run() {
+    if (!scene_.initial.saved) return;
+    const std::string& run = scene_.initial.saved->run;
+    if (const std::string why = run.empty() ? "" : why_unchecked(run); !why.empty())
+      found_.push_back("continues from the run in " + why);
+    if (scene_.initial.saved->differing.empty()) return;
+    found_.push_back(
+        fmt::format("continues from a run in {} whose scene has other {}: its displacements, velocities and "
+                    "shears are used unchanged",
+                    scene_.initial.saved->run, listed_plainly(scene_.initial.saved->differing)));
+  }
+
+  void shear() {
+    if (!model_.static_start || model_.statics.frictional) return;
+    std::vector<std::size_t> loose;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+      if (model_.contacts[k].initial_shear != 0.0) loose.push_back(k);
+    if (loose.empty()) return;
+    found_.push_back(
+        fmt::format("initial_shear at {} does not fit the displacements: a static start has no "
+                    "friction, so nothing balances it and it vanishes with the first "
+                    "oscillation; give displacements that balance it",
+                    names(model_, loose)));
+  }
+
+  void growth() {
+    if (!model_.statics.frictional || model_.statics.stages.empty()) return;
+    const auto found = slip_growth(model_, model_.statics.stages.back().states);
+    if (!found || !(found->rate * scene_.run.t_end > least_drag)) return;
+    const double rate = found->rate / model_.unit.time;
+    if (found->omega == 0.0)
+      throw SceneError(scene_.initial.place, "run.initial",
+                       fmt::format("no frictional start: with {} slipping at the limit a motion grows like "
+                                   "exp({:.4g} t), so this equilibrium cannot be reached",
+                                   names(model_, found->contacts), rate));
+    found_.push_back(fmt::format(
+        "if the slip of {} continues after the slow start, an oscillation of {:.4g} rad/{} grows like "
+        "exp({:.4g} t) (flutter); damping may stop it",
+        names(model_, found->contacts), found->omega / model_.unit.time, model_.units.time, rate));
+  }
+
+  /// run.geometric: some motion has negative energy while contacts are open.
+  void runs_away() {
+    if (!model_.geometric) return;
+    const auto fastest = fastest_growth(model_.stiffness, model_.mass);
+    if (!fastest) return;
+    const std::vector<double>& factors = model_.geometric->load_factors;
+    const bool at_once = !factors.empty() && factors.front() <= 1.0;
+    found_.push_back(
+        fmt::format("under its static forces (run.geometric) the structure is unstable {}: the {} grows like "
+                    "exp({:.4g} t)",
+                    model_.contacts.empty() ? "from the start"
+                    : at_once               ? "from the start, and with all its contacts open"
+                                            : "with all its contacts open",
+                    describe_motion(fastest->motion, map_), fastest->rate / model_.unit.time));
+  }
+
+  const Scene& scene_;
+  const DofMap& map_;
+  const Model& model_;
+  Vector weight_;
+  std::vector<std::size_t> falling_;  // indices of contacts
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> doubts(const Scene& scene, const DofMap& map, const Model& model) {
+  return Doubts(scene, map, model).all();
+}
+
+namespace {
+
+/// Loads that last longer than this fraction of 1/w keep their amplitude: scales are orders of magnitude, accurate
+/// within this factor for longer pulses.
+constexpr double full_above = 1.0 / 16.0;
+
+/// rad: a motion that rotates by less than 1 rad during the run counts as free, with this value for the limit of its
+/// pulses. A thousandth of the run then counts in full.
+constexpr double of_free = 64.0;
+
+/// Effective over full amplitude at this frequency.
+double share_at(const History& f, double amplitude, double t_end, double omega) {
+  return std::min(1.0, omega * greatest_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
+}
+
+/// Frequencies of the oscillations along the static responses to loads; 0 if there is none.
+class Swings {
+ public:
+  Swings(const Model& model, const Holding& holding) : model_(model) {
+    const SparseMatrix k = with_springs(model.stiffness, holding.springs);
+    if (null_motions(with_grips(k, holding.fixed)).cols() == 0) structure_.emplace(k, holding.fixed);
+  }
+  [[nodiscard]] double along(const Vector& p) const {
+    if (!structure_) return 0.0;
+    const Vector u = structure_->solve(p);
+    const double squared = u.dot(p) / u.dot(model_.mass * u);
+    return std::isfinite(squared) && squared > 0.0 ? std::sqrt(squared) : 0.0;
+  }
+
+ private:
+  const Model& model_;
+  std::optional<HeldStructure> structure_;
+};
+
+}  // namespace
+
+Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, double t_end) {
+  std::optional<Swings> swings;
+  const auto own = [&](double along) { return along * t_end > 1.0 ? along : of_free / t_end; };
+  // The share increases with the frequency, and the lowest frequency is known.
+  const double lowest = std::max(omega, 1.0 / t_end);
+  const auto lasts = [&](const History& f, double amplitude) {
+    return f.is_constant() || !(amplitude > 0.0) || share_at(f, amplitude, t_end, lowest) == 1.0;
+  };
+  Felt felt;
+  for (const Load& load : model.loads) {
+    FeltLoad& part = felt.loads.emplace_back();
+    const double amplitude = magnitude(load.history, t_end);
+    if (lasts(load.history, amplitude)) continue;
+    if (!swings) swings.emplace(model, holding);
+    const double along = swings->along(full(load.direction, model.size()));
+    part.share = share_at(load.history, amplitude, t_end, own(along > 0.0 ? along : omega));
+    if (part.share < 1.0) part.thrown = share_at(load.history, amplitude, t_end, 1.0 / t_end);
+  }
+  for (const Contact& contact : model.contacts) {
+    double& share = felt.compressions.emplace_back(1.0);
+    const double amplitude = contact.normal_force_given() ? magnitude(contact.normal_force, t_end) : 0.0;
+    if (!lasts(contact.normal_force, amplitude))
+      share = share_at(contact.normal_force, amplitude, t_end, own(omega));
+  }
+  return felt;
+}
+
+}  // namespace signorini

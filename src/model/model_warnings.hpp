@@ -1,0 +1,57 @@
+// model_warnings.hpp: model warnings: valid input that probably is a mistake. It is computed as given, with a warning.
+//
+//   load without effect                 direction . u = 0 for all u
+//   idle rotations                     massless.hpp
+//   a part leaves all contacts          n . a >= 0 at all of them, a = Z (Z^T M Z)^-1 Z^T P: the free fall
+//                                       of a part (Z: its motions without stiffness) under the static loads
+//   weight applied suddenly at t = 0    a gap of zero, no part at rest in equilibrium
+//   drag                                alpha M acts on rigid-body motions: v ~ exp(-alpha t)
+//   friction above 2                    an angle, a percentage?
+//   initial_shear in a static start     a static start has no friction that could carry it
+//   initial values without mass         equilibrium determines them (initial_state.hpp)
+//   different structure                 in the scene of the run that this one continues
+//   a pulse too short for the clock     100 eps (t + t_end)
+//   a support that jumps at t = 0      or whose velocity jumps: the initial state is the one after the jump
+//   flutter after a frictional start    contacts slip at their limits (slip_growth.hpp); divergence there
+//                                       is refused
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/assembly/dofs.hpp"
+#include "model/modes/modes.hpp"
+#include "signorini/model.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// One sentence per warning. Errors: SceneError, as above. The model must be complete (damping and initial state set),
+/// but not yet reduced, and without shear elements.
+[[nodiscard]] std::vector<std::string> doubts(const Scene& scene, const DofMap& map, const Model& model);
+
+// Effective amplitude of a load or a compression that acts only for a short time.
+//
+//   effective amplitude = min( A, c w J ),   A = max |f|,   J = max_t int_t^(t + 1/w) |f| dt,   c = 16
+//
+// An oscillator of frequency w at rest responds with |u| <= min( 2 A, w int |f| dt ) / k. So a load that acts for more
+// than 1/(c w) (a hundredth of the period) counts in full, a shorter one by its impulse. In J each piece of f counts
+// with its largest |f|. w: frequency along the static response u = K^-1 p to the load, w^2 = u.p / u.M u, with
+// initially closed contacts held, or the lowest frequency if there is no response. A motion that rotates by less than 1
+// rad during the run is free: w = 64 / t_end, so a thousandth of the run counts in full.
+
+/// Fractions of each load's largest amplitude.
+struct FeltLoad {
+  double share = 1.0;   ///< effective / full amplitude; exactly 1 for lasting loads
+  double thrown = 1.0;  ///< the same for a free motion over the whole run: J over all of the run
+};
+
+struct Felt {
+  std::vector<FeltLoad> loads;
+  std::vector<double> compressions;  ///< fraction for each slider's normal_force, with w the lowest frequency
+};
+
+/// omega: lowest frequency of the constrained structure; 0: it has none.
+[[nodiscard]] Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, double t_end);
+
+}  // namespace signorini

@@ -1,0 +1,67 @@
+// quasi_static_rates.hpp: quasi-static rates of contacts that touch or are at their friction limits.
+//
+//   w = q + M z,   w >= 0,   z >= 0,   w . z = 0        unknowns and conditions: frictional.hpp, least_motion.hpp
+//
+// Lemke's method is tried first. With friction M is not copositive-plus, and the method may end in a ray although there
+// is a solution. Then all combinations of the contacts' alternatives are tried:
+//
+//   touching      w = 0 of           at its limit   w = 0 of
+//   stick         none               stick          none
+//   slip +, -     that slip          slip           that slip
+//   open          opening and slip, whose sign is free: N' = 0, T' = 0
+//
+// If several hold, the one with the smallest |z| is taken: it is independent of the scene's orientation, reflection and
+// numbering.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "model/statics/least_motion.hpp"
+#include "signorini/contact.hpp"
+
+namespace signorini {
+
+struct SlowRates {
+  Eigen::VectorXd z;     ///< one per unknown
+  bool several = false;  ///< other rates satisfy the conditions, too
+};
+
+/// q: its largest entry has magnitude one. Unknowns of one contact are adjacent, its opening first. nullopt if no
+/// combination holds, or if there are more than most_combinations.
+[[nodiscard]] std::optional<SlowRates> slow_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
+                                                  const std::vector<Unknown>& unknowns);
+
+/// Chosen value: a start tries this number in less than a second.
+inline constexpr std::size_t most_combinations = 20'000;
+
+// State of a contact during quasi-static loading, and its distance from the limits.
+//
+//   f |N| - s T >= 0, s = +-1       while it sticks
+//   touching: g = 0 and N = 0       neither compressed nor separated
+
+/// State of one contact; rates are along the stage, from 0 to 1.
+struct Standing {
+  State state = State::open;
+  double gap = 0.0, N = 0.0, T = 0.0;
+  double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
+  double given_gap_rate = 0.0;    ///< rate of the given gap, without displacements, while an interference is
+                                  ///< fitted
+  int normal = -1, tangent = -1;  ///< rows in force
+};
+
+/// State before any load.
+[[nodiscard]] Standing undeformed(const Contact& contact);
+
+/// Friction coefficient: kinetic in slip, else static.
+[[nodiscard]] double friction_of(const Contact& contact, const Standing& standing);
+/// f |N| - s T
+[[nodiscard]] double margin_of(const Contact& contact, const Standing& standing, int s);
+
+/// Threshold below which a force is zero, for the largest force so far.
+[[nodiscard]] double zero_force(double greatest);
+/// zero: threshold of forces; travelled: sum of the magnitudes of the gap's terms.
+[[nodiscard]] bool touching(const Contact& contact, const Standing& standing, double zero, double travelled);
+
+}  // namespace signorini

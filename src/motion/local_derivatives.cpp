@@ -1,0 +1,356 @@
+#include "motion/local_derivatives.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/rounding.hpp"
+#include "base/wide_lanes.hpp"
+#include "motion/point.hpp"
+
+namespace signorini {
+namespace {
+
+/// Elements added to the radius: each order spreads a change by one more element, by M^-1 and by K.
+constexpr int spread = 2 * (Jet::orders + 1);
+/// Limit for contacts that are expanded locally, one by one; with more of them the whole structure is used. Chosen.
+constexpr std::size_t most_open = 6;
+
+/// True if some guard contains an acceleration, whose order 1 is not known here.
+bool accelerates(const Contact& contact, const ContactState& state) {
+  for (const GuardForm& guard : guards(contact, state))
+    if (guard.kind != Guard::none && (guard.form.an != 0.0 || guard.form.at != 0.0)) return true;
+  return false;
+}
+
+/// Relative to the greatest entry of a column of M^-1: smaller entries are rounding; and part of the structure beyond
+/// which a column saves no time.
+constexpr double of_nothing_here = rounding::eps / 16.0;
+constexpr std::size_t part_of_structure = 4;
+
+/// Forces of the surrounding structure on the neighbourhood at order 0.
+Vector from_outside(const Neighbourhood& near, const Point& now) {
+  Vector P = Vector::Zero(near.model.size());
+  for (const Neighbourhood::Tie& tie : near.ties)
+    P[tie.at] -= tie.m * now.a[tie.dof] + tie.c * now.v[tie.dof] + tie.k * now.u[tie.dof];
+  for (const Neighbourhood::Pull& pull : near.pulls)
+    P[pull.at] -= pull.factor * now.forces[static_cast<Eigen::Index>(pull.force)];
+  return P;
+}
+
+}  // namespace
+
+NearJets::NearJets(ModeSystems& systems, int least)
+    : model_(systems.model()),
+      possible_(model_.size() >= least && follows_from_motion(model_)),
+      taylor_(systems) {
+  if (!possible_) return;
+  near_.emplace(systems, spread);
+  for (const Contact& c : model_.contacts) {
+    Soft soft;
+    const auto take = [&](const Combination& form, double& squared) {
+      soft.is = soft.is && form.terms.size() <= most_plane_terms;
+      for (const auto& [dof, factor] : form.terms) {
+        soft.is = soft.is && factor != 0.0 && !model_.dofs[static_cast<std::size_t>(dof)].rotation;
+        squared += factor * factor;
+        terms_.emplace_back(static_cast<std::size_t>(dof), factor);
+      }
+      return terms_.size();
+    };
+    soft.is = !c.normal_force_given() && c.normal_damping == 0.0;
+    soft.gap = c.gap;
+    soft.first = terms_.size();
+    soft.middle = take(c.normal, soft.normal_squared);
+    soft.end = take(c.tangent, soft.tangent_squared);
+    soft_.push_back(soft);
+  }
+}
+
+/// Same results, bit by bit, as motion_of(), order_one() and bound_rounding() for a soft contact that is not driven and
+/// whose surface is at rest.
+void NearJets::tell_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
+                         MotionJet& result) const {
+  const Soft& c = soft_[contact];
+  const double *u = now.u.data(), *v = now.v.data(), *a = now.a.data();
+  ContactMotion &m = result.motion[0] = {}, &d = result.motion[1] = {}, &noise = result.noise[0] = {};
+  const auto along = [&](std::size_t first, std::size_t end, double squared, double& x, double& dx,
+                         double& ddx, double& size, double& dsize) {
+    double xx = 0.0, dd = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      const auto& [dof, factor] = terms_[i];
+      x += factor * u[dof];
+      dx += factor * v[dof];
+      ddx += factor * a[dof];
+      xx += u[dof] * u[dof];
+      dd += v[dof] * v[dof];
+    }
+    size = std::sqrt(squared * xx);
+    dsize = std::sqrt(squared * dd);
+  };
+  ContactMotion terms;
+  along(c.first, c.middle, c.normal_squared, m.gap, m.vn, m.an, terms.gap, terms.vn);
+  along(c.middle, c.end, c.tangent_squared, m.ut, m.vt, m.at, terms.ut, terms.vt);
+  m.gap += c.gap;
+  m.ut -= surface;
+  m.N = now.N(model_.layout, contact);
+  m.T = now.T(model_.layout, contact);
+  d.gap = m.vn;
+  d.ut = m.vt;
+  d.vn = m.an;
+  d.vt = m.at;
+  d.N = -(rows.normal.gap * d.gap) / rows.normal.N;
+  d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut) / rows.tangent.T;
+  constexpr double once = rounding::of_many;
+  terms.gap += std::abs(c.gap);
+  terms.ut += std::abs(surface);
+  terms.N = std::abs(rows.normal.gap * terms.gap) + std::abs(rows.normal.constant) + std::abs(m.N);
+  terms.T = std::abs(rows.tangent.N * terms.N) + std::abs(rows.tangent.ut * terms.ut) +
+            std::abs(rows.tangent.constant) + std::abs(m.T);
+  noise.N = 4.0 * once * terms.N;
+  noise.T = 5.0 * once * terms.T;
+  noise.gap = 3.0 * once * terms.gap;
+  noise.ut = 3.0 * once * terms.ut;
+  noise.vn = 3.0 * once * terms.vn;
+  noise.vt = 3.0 * once * terms.vt;
+}
+
+/// Rate of the motion without g''' and ut'''. Forces follow from their own rows.
+void NearJets::order_one(const ModeSystem& system, const Forcing& forcing, std::size_t contact,
+                         MotionJet& result) const {
+  const Rows& rows = system.rows()[contact];
+  const ContactMotion& m = result.motion[0];
+  ContactMotion& d = result.motion[1] = {};
+  d.gap = m.vn;
+  d.ut = m.vt;
+  d.vn = m.an;
+  d.vt = m.at;
+  d.pressing = m.pressing_rate;
+  d.pressing_rate = forcing.pressing(contact, series_.t, 2);
+  d.N = -rows.normal.rate(d) / rows.normal.N;
+  d.T = -rows.tangent.rate(d) / rows.tangent.T;
+}
+
+/// Upper limit for the noise of motion/jet.cpp: there the terms count once, and |x - y| once for each disturbance:
+/// places and velocities as data, N in its row as well, T in its own row and through N. The rounding of x and y
+/// themselves is less than one more.
+void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now,
+                              std::size_t contact, MotionJet& result) const {
+  const Contact& c = model_.contacts[contact];
+  const Rows& rows = system.rows()[contact];
+  const ContactMotion& m = result.motion[0];
+  ContactMotion terms, &d = result.noise[0] = {};
+  terms.gap = size_of(model_, c.normal, now.u) + std::abs(c.gap);
+  terms.ut = size_of(model_, c.tangent, now.u) + std::abs(forcing.surface(contact, series_.t, 0));
+  terms.vn = size_of(model_, c.normal, now.v);
+  terms.vt = size_of(model_, c.tangent, now.v) + std::abs(forcing.surface(contact, series_.t, 1));
+  terms.pressing = std::abs(m.pressing);
+  terms.pressing_rate = std::abs(m.pressing_rate);
+  constexpr double once = rounding::of_many;
+  terms.N = rows.normal.magnitude(terms) + std::abs(rows.normal.constant) + std::abs(m.N);
+  terms.T = rows.tangent.magnitude(terms) + std::abs(rows.tangent.constant) + std::abs(m.T);
+  d.N = 4.0 * once * terms.N;
+  d.T = 5.0 * once * terms.T;
+  d.gap = 3.0 * once * terms.gap;
+  d.ut = 3.0 * once * terms.ut;
+  d.vn = 3.0 * once * terms.vn;
+  d.vt = 3.0 * once * terms.vt + forcing.surface_rounding(contact, series_.t);
+  d.pressing = once * terms.pressing;
+  d.pressing_rate = once * terms.pressing_rate;
+}
+
+/// False: the neighbourhood does not decide the contact's state.
+bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
+                         std::size_t contact, const JetMaker::Told& told, MotionJet& motion) {
+  Neighbourhood* near = near_->around(contact, *system);
+  if (near == nullptr) {
+    possible_ = !near_->hopeless();
+    return false;
+  }
+  const ModeSystemPtr own = near->systems.of(near->mode_of(system->mode()));
+  if (!own) return false;
+  const auto at = static_cast<std::size_t>(
+      std::lower_bound(near->contacts.begin(), near->contacts.end(), contact) - near->contacts.begin());
+  while (work_.size() < near_->size()) work_.emplace_back();
+  std::unique_ptr<Work>& work = work_[near->number];
+  if (!work) work = std::make_unique<Work>(near->systems);
+  const Vector outside = from_outside(*near, now);
+  const auto with = [&](const Vector& more) {
+    return forcing.on_part(near->model, near->dofs, near->loads, near->contacts, more);
+  };
+  const Forcing given = with(outside), alone = with(Vector::Zero(outside.size()));
+  bool is_told = false;
+  (void)work->jets.make(
+      own, given, series_.t, now.u(near->dofs), now.v(near->dofs), work->motions,
+      [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
+        if (c != at) return true;
+        const bool enough = told(contact, jet, orders);
+        is_told = enough && orders < MotionJet::orders;
+        return enough;
+      },
+      &alone);
+  motion = work->motions[at];
+  return is_told;
+}
+
+/// True if order 0 decided the contact before and is bitwise unchanged: forces follow from its own rows, places and
+/// velocities.
+bool NearJets::stays(std::size_t contact, const Jet& jet, const Beside& beside) const {
+  if (jet.system->mode()[contact] != beside.jet.system->mode()[contact] ||
+      std::binary_search(beside.open.begin(), beside.open.end(), contact))
+    return false;
+  const auto same = [&](const auto& term) { return jet.u(term.first, 2) == beside.jet.u(term.first, 2); };
+  const Contact& c = model_.contacts[contact];
+  return std::all_of(c.normal.terms.begin(), c.normal.terms.end(), same) &&
+         std::all_of(c.tangent.terms.begin(), c.tangent.terms.end(), same);
+}
+
+/// Orders 0 to 2 of the whole structure; rates of forces are computed later.
+Jet NearJets::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                     const Vector& v) {
+  taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
+  taylor_.extend(forcing, 0, series_);
+  Jet jet{t, series_.u, Eigen::MatrixXd(series_.forces.rows(), 2), system};
+  jet.u.col(2) *= 2.0;
+  jet.forces.col(0) = series_.forces.col(0);
+  return jet;
+}
+
+/// system: that of any state.
+const NearJets::Columns& NearJets::columns_of(std::size_t contact, const ModeSystem& system) {
+  columns_.resize(model_.contacts.size());
+  Columns& columns = columns_[contact];
+  if (std::exchange(columns.known, true)) return columns;
+  const auto n = static_cast<std::size_t>(model_.size());
+  column_.resize(system.unknowns().size());
+  room_.resize(column_.size());
+  const auto solve = [&](const Combination& form, std::vector<std::pair<Eigen::Index, double>>& column) {
+    std::fill(column_.begin(), column_.end(), 0.0);
+    form.add_to(column_, 1.0);
+    system.solve(column_.data(), room_.data());
+    const auto felt = [&](std::size_t i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      return column_[i] * column_[i] * model_.mass.coeff(at, at);
+    };
+    double most = 0.0;
+    for (std::size_t i = 0; i < n; ++i) most = std::max(most, felt(i));
+    for (std::size_t i = 0; i < n; ++i)
+      if (felt(i) > of_nothing_here * of_nothing_here * most)
+        column.emplace_back(static_cast<Eigen::Index>(i), column_[i]);
+    column.shrink_to_fit();
+    return part_of_structure * column.size() <= n;
+  };
+  const Contact& c = model_.contacts[contact];
+  columns.few = solve(c.normal, columns.by_N) && solve(c.tangent, columns.by_T);
+  if (!columns.few) columns.by_N = columns.by_T = {};
+  return columns;
+}
+
+/// Same for states that differ from those of a known jet. nullopt: too many states differ, or the change reaches far.
+std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                    const Beside& beside) {
+  const Mode &mode = system->mode(), &before = beside.jet.system->mode();
+  std::vector<std::size_t> others;
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (mode[c] != before[c]) others.push_back(c);
+  if (others.size() > most_open) return std::nullopt;
+  for (const std::size_t c : others)
+    if (!columns_of(c, *system).few) return std::nullopt;
+  Jet jet{t, beside.jet.u, beside.jet.forces, system};
+  series_.t = t;
+  for (const std::size_t c : others) {
+    const Contact& contact = model_.contacts[c];
+    const Rows& rows = system->rows()[c];
+    ContactMotion m;  // the part without forces
+    set_place(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
+    set_velocity(contact, jet.u.col(1), forcing.surface(c, t, 1), m);
+    m.pressing = forcing.pressing(c, t, 0);
+    const double N = -rows.normal.value(m) / rows.normal.N,
+                 T = -(rows.tangent.value(m) + rows.tangent.N * N) / rows.tangent.T;
+    const Columns& columns = columns_[c];
+    const auto change = [&](std::size_t slot, double force, const auto& column) {
+      double& old = jet.forces(static_cast<Eigen::Index>(slot), 0);
+      const double by = force - std::exchange(old, force);
+      for (const auto& [dof, x] : column) jet.u(dof, 2) -= by * x;
+    };
+    change(model_.layout.normal(c), N, columns.by_N);
+    change(model_.layout.tangent(c), T, columns.by_T);
+  }
+  return jet;
+}
+
+std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                             const Vector& u, const Vector& v,
+                                             std::vector<MotionJet>& motions, const JetMaker::Told& told,
+                                             const std::optional<Beside>& beside) {
+  if (!possible_ || !system->factorised().by_mass) return std::nullopt;
+  std::optional<Jet> followed = beside ? follow(system, forcing, t, *beside) : std::nullopt;
+  Jet jet = followed ? *std::move(followed) : expand(system, forcing, t, u, v);
+  const std::size_t count = model_.contacts.size();
+  const Point now{u, v, jet.forces.col(0), jet.u.col(2)};
+  motions.resize(count);
+  std::vector<std::size_t> open;
+  for (std::size_t c = 0; c < count; ++c) {
+    MotionJet& motion = motions[c];
+    const bool known = beside && stays(c, jet, *beside), soft = soft_[c].is && !forcing.drives(c);
+    if (!known && soft) {
+      tell_soft(system->rows()[c], forcing.surface(c, t, 0), now, c, motion);
+    } else if (!known) {
+      motion.motion[0] = motion_of(model_.contacts[c], c, forcing, t, now);
+      order_one(*system, forcing, c, motion);
+      bound_rounding(*system, forcing, now, c, motion);
+    }
+    jet.forces(static_cast<Eigen::Index>(model_.layout.normal(c)), 1) = motion.motion[1].N;
+    jet.forces(static_cast<Eigen::Index>(model_.layout.tangent(c)), 1) = motion.motion[1].T;
+    if (known || ((soft || !accelerates(model_.contacts[c], system->mode()[c])) && told(c, motion, 1)))
+      continue;
+    open.push_back(c);
+    if (open.size() > most_open) return std::nullopt;
+  }
+  for (const std::size_t c : open)
+    if (!look_near(system, forcing, now, c, told, motions[c])) return std::nullopt;
+  return Made{std::move(jet), std::move(open)};
+}
+
+namespace {
+
+struct Columns {
+  const double *a, *b;
+  std::size_t rows, columns;
+  const double *u, *w;
+  double factor;
+};
+
+/// Rows i to i + count lanes of T.
+template <class T, std::size_t count>
+[[gnu::always_inline]] inline void some_rows(const Columns& c, std::size_t i, double* y) {
+  constexpr std::size_t lanes = sizeof(T) / sizeof(double);
+  T sum[count] = {};
+  const double *a = c.a + i, *b = c.b + i;
+  for (std::size_t j = 0; j < c.columns; ++j, a += c.rows, b += c.rows) {
+    const double u = c.u[j], v = c.factor * c.w[j];
+    for (std::size_t k = 0; k < count; ++k)
+      sum[k] += lanes_at<T>(a + k * lanes).v * u + lanes_at<T>(b + k * lanes).v * v;
+  }
+  for (std::size_t k = 0; k < count; ++k) lanes_at<T>(y + i + k * lanes).v = sum[k];
+}
+
+}  // namespace
+
+SIGNORINI_WIDE_LANES void both_products(const double* a, const double* b, std::size_t rows,
+                                        std::size_t columns, const double* u, const double* w, double factor,
+                                        double* y) {
+  const Columns c{a, b, rows, columns, u, w, factor};
+  std::size_t i = 0;
+  for (; i + 16 <= rows; i += 16) some_rows<Four, 4>(c, i, y);
+  if (i + 8 <= rows) {
+    some_rows<Four, 2>(c, i, y);
+    i += 8;
+  }
+  if (i + 4 <= rows) {
+    some_rows<Four, 1>(c, i, y);
+    i += 4;
+  }
+  for (; i < rows; ++i) some_rows<double, 1>(c, i, y);
+}
+
+}  // namespace signorini

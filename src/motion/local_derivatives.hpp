@@ -1,0 +1,101 @@
+// local_derivatives.hpp: the motion that a decision needs, computed near the contacts concerned.
+//
+//   M a = P - C v - K u - sum ( n N + t T )        everywhere, once; with it every guard's value and rate
+//   |guard| > rounding + resolution |guard'|       decides most contacts
+//   derivatives of higher order                    of the others, each on a neighbourhood W (motion/jet.hpp)
+//   a - M^-1 (n dN + t dT)                         other states at the same place, for contacts whose state differs
+//
+// W: motion/neighbourhoods.hpp. The structure outside W acts on it with its forces of order 0. Their noise is the
+// difference between the two computations of a jet (motion/jet.hpp), the second of which omits them. If the guard does
+// not exceed that noise, the neighbourhood does not decide the state.
+//
+// For large structures and states whose forces follow from places and velocities alone (linear/mass_factors.hpp).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "motion/jet.hpp"
+#include "motion/neighbourhoods.hpp"
+#include "motion/point.hpp"
+
+namespace signorini {
+
+class NearJets {
+ public:
+  /// least: smallest number of degrees of freedom for which local jets save time. All arguments must outlive the
+  /// object.
+  explicit NearJets(ModeSystems& systems, int least = large_structure);
+
+  /// True if local jets suit the model, as far as is known; false once M^-1 was found to decay nowhere.
+  [[nodiscard]] bool possible() const { return possible_; }
+  struct Made {
+    Jet jet;                        ///< orders 0 to 2 of u, orders 0 and 1 of forces
+    std::vector<std::size_t> open;  ///< contacts that order 0 does not decide
+  };
+  /// Last result at the same instant, under the same forcing and for the same query, possibly in other states.
+  struct Beside {
+    const Jet& jet;
+    const std::vector<std::size_t>& open;
+  };
+  /// Same meaning as JetMaker::make. nullopt: the whole structure is needed. beside: `motions` still contains its
+  /// motions, which are kept if other states change neither row nor acceleration.
+  [[nodiscard]] std::optional<Made> make(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                         const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
+                                         const JetMaker::Told& told,
+                                         const std::optional<Beside>& beside = {});
+
+ private:
+  /// A soft contact without a dashpot, on translations alone: data for its motion and rounding, contiguous in memory.
+  struct Soft {
+    bool is = false;
+    std::size_t first = 0, middle = 0, end = 0;  // terms of its normal, terms of its tangent
+    double gap = 0.0, normal_squared = 0.0, tangent_squared = 0.0;
+  };
+  /// Entries of M^-1 n and M^-1 t of a contact above rounding.
+  struct Columns {
+    bool known = false, few = false;  // few: a small part of the structure
+    std::vector<std::pair<Eigen::Index, double>> by_N, by_T;
+  };
+  [[nodiscard]] const Columns& columns_of(std::size_t contact, const ModeSystem& system);
+  [[nodiscard]] Jet expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                           const Vector& v);
+  [[nodiscard]] std::optional<Jet> follow(const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                          const Beside& beside);
+  void tell_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
+                 MotionJet& motion) const;
+  void order_one(const ModeSystem& system, const Forcing& forcing, std::size_t contact,
+                 MotionJet& motion) const;
+  void bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now, std::size_t contact,
+                      MotionJet& motion) const;
+  [[nodiscard]] bool stays(std::size_t contact, const Jet& jet, const Beside& beside) const;
+  [[nodiscard]] bool look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
+                               std::size_t contact, const JetMaker::Told& told, MotionJet& motion);
+
+  const Model& model_;
+  bool possible_;
+  Taylor taylor_;
+  Series series_;
+  std::vector<Soft> soft_;             // one for each contact
+  std::vector<Columns> columns_;       // one for each contact
+  std::vector<double> column_, room_;  // scratch for one column
+  std::vector<std::pair<std::size_t, double>> terms_;
+  std::optional<Neighbourhoods> near_;
+  struct Work {  // scratch for one neighbourhood
+    explicit Work(ModeSystems& systems) : jets(systems) {}
+    JetMaker jets;
+    std::vector<MotionJet> motions;
+  };
+  std::vector<std::unique_ptr<Work>> work_;
+};
+
+// Two small dense products at once, by columns.
+//
+//   y_i = sum_j ( a_ij u_j + b_ij factor w_j ),      a, b: rows x columns, one column after the other
+//
+// Rows are summed four at a time, each in the order of j: the results are bitwise those of the plain loop.
+
+void both_products(const double* a, const double* b, std::size_t rows, std::size_t columns, const double* u,
+                   const double* w, double factor, double* y);
+
+}  // namespace signorini

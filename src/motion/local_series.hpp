@@ -1,0 +1,67 @@
+// local_series.hpp: the series of a motion after an event, updated near the contacts whose states have changed.
+//
+//   M a_k + C v_k + K u_k + contacts on W = P_k - ( M a_k + C v_k + K u_k + contacts across )_outside       on W
+//
+// Outside W (motion/neighbourhoods.hpp) the motion keeps its series: the effect of the change there is rounding. This
+// is checked: at the boundary of W the new series must equal the old one up to rounding.
+//
+// For large structures and states whose forces follow from places and velocities alone (linear/mass_factors.hpp).
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "motion/neighbourhoods.hpp"
+#include "motion/taylor.hpp"
+
+namespace signorini {
+
+class NearSeries {
+ public:
+  /// The argument must outlive the object.
+  explicit NearSeries(ModeSystems& systems);
+
+  /// False: M^-1 was found to decay nowhere.
+  [[nodiscard]] bool possible() const { return !near_.hopeless(); }
+
+  /// Coefficients of the earlier motion about the instant: levels + 3 for a degree of freedom, levels + 1 for a force.
+  struct AsItWas {
+    std::function<void(int dof, double* out)> u;
+    std::function<void(std::size_t slot, double* out)> force;
+  };
+  /// Sizes of motions: weights make degrees of freedom comparable; least: the weighted motion whose rounding counts as
+  /// rounding everywhere.
+  struct Sizes {
+    const std::vector<double>& weights;
+    double least;
+  };
+  struct Made {
+    const Neighbourhood* where;
+    const Series* series;  ///< series on it, valid until the next one is made there
+  };
+  /// Expands from u and v at t to `levels`. changed: contacts. reach: that of the earlier series, in units of `scale`.
+  /// nullopt: no single W contains all changes, or their effect reaches beyond it.
+  [[nodiscard]] std::optional<Made> expand(const std::vector<std::size_t>& changed,
+                                           const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                           const Vector& u, const Vector& v, int levels, double scale,
+                                           double reach, const Sizes& sizes, const AsItWas& as_it_was);
+
+ private:
+  struct Work {  // scratch for one neighbourhood
+    explicit Work(Neighbourhood& near);
+    Taylor taylor;
+    Series series;
+    std::vector<int> ring, boundary;         // neighbours outside, in the whole; places inside
+    std::vector<Eigen::Index> place_of_tie;  // place in the ring of each tie
+    std::vector<std::size_t> place_of_pull;  // place in `across` of each pull
+    std::vector<std::size_t> across;         // forces
+    Eigen::MatrixXd outside, forces;         // coefficients: columns for the ring; for `across`
+  };
+  [[nodiscard]] bool dies_out(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
+                              const AsItWas& as_it_was) const;
+
+  Neighbourhoods near_;
+  std::vector<std::unique_ptr<Work>> work_;
+};
+
+}  // namespace signorini

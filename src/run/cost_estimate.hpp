@@ -1,0 +1,116 @@
+// cost_estimate.hpp: estimated cost of a run, and of engine exact in its place, before either runs.
+//
+// Costs are orders of magnitude (cost_estimate.hpp); loads that vary faster than the structure are included.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signorini/model.hpp"
+#include "signorini/result.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+// Estimated cost of a time loop, as an order of magnitude, before it runs.
+//
+//   series        t_end * max(omega_max, fastest decay) / 5.3 steps
+//   modes         a step follows the excited modes: 0.002 n^2 steps of the series; and the modes of about 16 states
+//   BDF, order 5  max(12, 3.1 rtol^(-1/6)) steps in the shortest period
+//   fixed steps   t_end / dt
+
+/// Zero steps: the cost is unknown beforehand.
+struct Effort {
+  double steps_per_period = 0.0;  ///< of omega_max
+  double steps = 0.0, seconds = 0.0;
+  double first = 0.0;  ///< part of `seconds` before the first step has ended: modes of a state
+  double by_series = 0.0,
+         by_modes = 0.0;  ///< exact: seconds with each flow; 0: modes cannot compute the scene
+};
+
+struct EffortParts {
+  const Model& model;
+  const RunSpec& run;
+  const Method& method;
+  double omega_max;  ///< > 0; of the structure with all contacts sticking, and of harmonic loads
+  long unknowns;
+};
+
+[[nodiscard]] Effort effort_of_exact(const EffortParts& parts);
+[[nodiscard]] Effort effort_of_bdf(const EffortParts& parts);
+[[nodiscard]] Effort effort_of_fixed_steps(const EffortParts& parts);
+
+/// Duration of the whole run with the series; and of the complex modes of all states that its contacts may enter.
+[[nodiscard]] double seconds_of_series(const Model& model, const RunSpec& run);
+[[nodiscard]] double seconds_of_damped_states(const Model& model);
+/// Duration of an event of `exact` with its series: the decision, and a series that restarts.
+[[nodiscard]] double seconds_of_event(const Model& model);
+
+// Estimates the duration of a run from its first steps.
+//
+//   seconds = s + (t_end - t) (s - s_1) / (t - t_1)       s: wall time when t is reached
+//
+// (t, s) is the end of the trial, or of the run; (t_1, s_1) is a quarter of the trial's time, so that assembly,
+// factorisation and the small steps of a start are counted once. The estimate holds if the motion continues as it
+// begins: a rest before a load acts makes it too short, and so do later events. If t - t_1 is less than ten steps by
+// the rule of cost_estimate.hpp, as on a busy machine after a start at the limits of friction, the seconds of the rule are
+// used.
+
+struct Trial {
+  Engine engine = Engine::automatic;
+  double cutoff = 0.0;   ///< of [reduction], as a frequency; 0: the model without reduction
+  double seconds = 0.0;  ///< for the whole run
+};
+
+/// Wall time, in seconds since the start, at which a time of the run was reached.
+struct TrialTime {
+  double t = 0.0, seconds = 0.0;
+};
+
+/// The equation above for (t_1, s_1) and (t, s); proportional to t if they are equal; 0 if t is 0.
+[[nodiscard]] double seconds_of_all(double t_end, const TrialTime& early, const TrialTime& late);
+
+/// Expected seconds of the run with this engine; 0: it does not accept the scene, or stops within the trial.
+/// `patience`: limit for the seconds of the trial, and for a step; the rule of cost_estimate.hpp is used if the first one
+/// takes too long.
+[[nodiscard]] double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double patience);
+
+/// Trials of exact, ida and the run's own engine, each without reduction and with each cutoff. `model`: of the scene
+/// without [reduction]; a scene that has one is tried without other cutoffs.
+[[nodiscard]] std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
+                                        const std::vector<double>& cutoffs, double patience);
+
+/// Cutoff worth a trial: 50 times the lowest frequency, if that is far below the highest; otherwise 0. Chosen value;
+/// `[reduction] tolerance` finds its accuracy.
+[[nodiscard]] double cutoff_to_try(double lowest_omega, double highest_omega);
+
+/// Trials as text: "exact 36 s, ida 5 s; with [reduction] cutoff_frequency = 100: exact 1.5 s".
+[[nodiscard]] std::string trial_text(const std::vector<Trial>& trials);
+
+/// Recommendation if `own` is expected to take `seconds`, more than four times another trial and more than five
+/// seconds; otherwise empty.
+[[nodiscard]] std::string quicker(const std::vector<Trial>& trials, Engine own, double seconds);
+
+struct Expected {
+  long unknowns = 0;
+  double omega_max = 0.0;  ///< of the structure with all contacts sticking, and of harmonic loads
+  Effort effort;
+};
+
+/// Cost with `method`, that of run.engine, which is not automatic.
+[[nodiscard]] Expected expected(const Model& model, const RunSpec& run, const Method& method);
+/// Cost with the engine's own method. Errors: SceneError if a step is required and not given.
+[[nodiscard]] Expected expected(const Model& model, const RunSpec& run);
+
+/// True if engine `exact` accepts this model, and may be chosen for it without being named: laws made of data run in its
+/// series only where a scene asks for it.
+[[nodiscard]] bool exact_takes(const Model& model, const RunSpec& run);
+
+/// Seconds with exact instead of ida; nullopt: another engine, a scene that exact does not accept, or an unknown cost.
+[[nodiscard]] std::optional<double> exact_instead(const Model& model, const RunSpec& run);
+
+/// Duration as text: "about 3", "less than 0.1".
+[[nodiscard]] std::string about_seconds(double seconds);
+
+}  // namespace signorini

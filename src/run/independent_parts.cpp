@@ -1,0 +1,331 @@
+#include "run/independent_parts.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "run/choose_engine.hpp"
+#include "run/part_rows.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t most_of_all_parts = 50;  // limit over all parts
+
+int number_of(const PartModel& part, int contact) {
+  return contact < 0 ? contact : static_cast<int>(part.contacts[static_cast<std::size_t>(contact)]);
+}
+
+constexpr Extreme Audit::*greatest_of_parts[] = {&Audit::gap,        &Audit::tension,   &Audit::product,
+                                                 &Audit::friction,   &Audit::direction, &Audit::equilibrium,
+                                                 &Audit::penetration};
+
+void join(const PartModel& part, const Audit& own, Audit& all) {
+  for (Extreme Audit::*const extreme : greatest_of_parts)
+    if ((own.*extreme).value > (all.*extreme).value) {
+      all.*extreme = own.*extreme;
+      (all.*extreme).contact = number_of(part, (own.*extreme).contact);
+    }
+  all.energy.value += own.energy.value;
+  all.length_scale = own.length_scale;
+  all.force_scale = own.force_scale;
+  all.power_scale = own.power_scale;
+  all.energy_scale += own.energy_scale;
+  all.impulses_on_closed += own.impulses_on_closed;
+  all.work_of_loads += own.work_of_loads;
+  for (std::size_t k = 0; k < part.contacts.size(); ++k)
+    all.friction_work[part.contacts[k]] = own.friction_work[k];
+  for (const EnergyColumn& column : energy_columns) {
+    all.initial.*column.value += own.initial.*column.value;
+    all.final.*column.value += own.final.*column.value;
+  }
+}
+
+constexpr long Counters::*counts_of_parts[] = {&Counters::steps,
+                                               &Counters::residuals,
+                                               &Counters::jacobians,
+                                               &Counters::factorisations,
+                                               &Counters::refactorisations,
+                                               &Counters::solves,
+                                               &Counters::error_test_failures,
+                                               &Counters::convergence_failures,
+                                               &Counters::guard_evaluations,
+                                               &Counters::restarts,
+                                               &Counters::rolled_back,
+                                               &Counters::contact_states,
+                                               &Counters::proof_steps,
+                                               &Counters::fallbacks};
+
+void join(const Counters& own, Counters& all) {
+  for (long Counters::*const count : counts_of_parts) all.*count += own.*count;
+  for (const auto& [order, steps] : own.steps_by_order) all.steps_by_order[order] += steps;
+}
+
+void join(const PartModel& part, const Testimony& own, Testimony& all) {
+  all.checked += own.checked;
+  all.violated += own.violated;
+  for (Violation v : own.violations) {
+    v.contact = number_of(part, v.contact);
+    all.violations.push_back(std::move(v));
+  }
+}
+
+}  // namespace
+
+double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<RunEnd>& endings,
+            Report& report) {
+  report.audit.energy_scale = 0.0;
+  report.audit.friction_work.resize(whole.contacts.size());
+  report.peaks.resize(whole.contacts.size());
+  report.supports.resize(whole.contacts.size());
+  report.landings.resize(whole.contacts.size());
+  report.warnings.insert(report.warnings.begin(), whole.warnings.begin(), whole.warnings.end());
+  std::set<std::string> said;
+  double energy_rounding = 0.0, greatest_off = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const PartModel& part = parts[i];
+    const Report& own = endings[i].report;
+    join(part, own.audit, report.audit);
+    if (own.audit.energy.value > greatest_off) {
+      greatest_off = own.audit.energy.value;
+      report.audit.energy.t = own.audit.energy.t;
+    }
+    join(own.counters, report.counters);
+    join(part, own.witness, report.witness);
+    for (std::size_t k = 0; k < part.contacts.size(); ++k) {
+      report.peaks[part.contacts[k]] = own.peaks[k];
+      report.supports[part.contacts[k]] = own.supports[k];
+      report.landings[part.contacts[k]] = own.landings[k];
+    }
+    report.undecided += own.undecided;
+    if (own.forgiven_at && !(report.forgiven_at && *report.forgiven_at <= *own.forgiven_at))
+      report.forgiven_at = own.forgiven_at;
+    for (const std::string& warning : own.warnings)
+      if (said.insert(warning).second && said.size() <= most_of_all_parts) report.warnings.push_back(warning);
+    energy_rounding += endings[i].energy_rounding;
+  }
+  if (said.size() > most_of_all_parts)
+    report.warnings.push_back(
+        fmt::format("{} more warnings of parts that nothing couples", said.size() - most_of_all_parts));
+  std::vector<Violation>& found = report.witness.violations;
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Violation& a, const Violation& b) { return a.t < b.t; });
+  if (found.size() > most_violations) found.resize(most_violations);
+  return energy_rounding;
+}
+
+namespace {
+
+/// Number of parts of t_end: rows of at most one such part wait for parts that are behind, and an interrupted run is as
+/// far behind. Chosen value.
+constexpr double stages = 32.0;
+constexpr double most_waiting = 8e6;  // limit for the numbers in these rows
+constexpr std::size_t most_events =
+    2000;  // waiting events, less than a megabyte: the next stage is shorter if there are more
+
+/// Run data with the flow chosen for the whole model, so that parts do not choose again.
+RunSpec as_chosen(RunSpec spec, const Method& method) {
+  if (engine_row(spec.engine).can.closed_flow)
+    spec.flow = method.flow == "modal" ? Flow::modal : Flow::taylor;
+  return spec;
+}
+
+/// Keeps only the curves that are drawn in pictures of the whole model.
+void keep_drawn(const Model& whole, std::vector<PartModel>& parts) {
+  std::set<std::string> drawn;
+  for (const Column& column : drawn_columns(whole)) drawn.insert(column.name);
+  for (PartModel& part : parts) {
+    std::vector<Column>& columns = part.model.columns;
+    columns.erase(std::remove_if(columns.begin(), columns.end(),
+                                 [&](const Column& c) { return drawn.count(c.name) == 0; }),
+                  columns.end());
+  }
+}
+
+class Apart {
+ public:
+  Apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec, const EngineRow& engine,
+        Method method, Recorder& recorder)
+      : whole_(whole),
+        parts_(std::move(parts)),
+        spec_(as_chosen(spec, method)),
+        engine_(engine),
+        recorder_(recorder),
+        grid_(std::make_shared<const std::vector<double>>(spec_.grid())),
+        rows_(whole, parts_, spec_.t_end, recorder, report_),
+        progress_([this] { return recorder_.progress(told_); }) {
+    report_.method = std::move(method);
+    keep_drawn(whole, parts_);
+    columns_ = drawn_columns(whole).size();
+    for (PartModel& part : parts_) {
+      recorders_.push_back(std::make_unique<PartRecorder>(part, recorder.wants_motion(), progress_));
+      rows_.add(*recorders_.back());
+      loops_.push_back(loop_of(part, spec_, *recorders_.back(), grid_));
+    }
+  }
+
+  RunEnd run() {
+    for (const auto& loop : loops_) loop->begin();
+    see_stops();
+    const double longest = longest_stage();
+    double length = longest / stages;  // short at first: the density of events is not known yet
+    while (told_ < spec_.t_end && !over()) {
+      const std::size_t found = stage(told_ + length < spec_.t_end ? told_ + length : spec_.t_end);
+      length = found > most_events ? 0.5 * length : std::min(longest, 2.0 * length);
+    }
+    return ending();
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<Loop> loop_of(PartModel& part, const RunSpec& spec, PartRecorder& recorder,
+                                              std::shared_ptr<const std::vector<double>> grid) const {
+    return std::make_unique<Loop>(
+        part.model, spec, engine_, report_.method, recorder, RunHooks{},
+        PartShare{parts_.size(), whole_.contacts.size(), columns_, part.contacts, std::move(grid),
+                  [&recorder](double t, const Energy& energy) { recorder.energies(t, energy); }});
+  }
+
+  [[nodiscard]] double longest_stage() const {
+    const double numbers =
+        static_cast<double>(grid_->size()) *
+        static_cast<double>(2 * whole_.size() + 8 * static_cast<int>(whole_.contacts.size()));
+    return spec_.t_end / std::max(stages, std::ceil(numbers / most_waiting));
+  }
+
+  [[nodiscard]] bool over() const { return interrupted_ || stopped_ != nullptr; }
+
+  /// Returns the number of events passed on.
+  std::size_t stage(double until) {
+    const double from = told_;
+    for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
+      told_ = from + (until - from) * static_cast<double>(i) / static_cast<double>(loops_.size());
+      loops_[i]->advance_to(std::min(until, end_));
+      see_stops(i);
+    }
+    told_ = until;
+    return over() ? 0 : rows_.pass_on(until == spec_.t_end ? until : reached(), until == spec_.t_end);
+  }
+
+  /// Time that all parts have reached.
+  [[nodiscard]] double reached() const {
+    double t = spec_.t_end;
+    for (const auto& loop : loops_) t = std::min(t, loop->t());
+    return t;
+  }
+
+  void see_stops() {
+    for (std::size_t i = 0; i < loops_.size(); ++i) see_stops(i);
+  }
+
+  void see_stops(std::size_t i) {
+    const Outcome& outcome = loops_[i]->outcome();
+    if (outcome.kind == Outcome::Kind::interrupted) interrupted_ = true;
+    if (outcome.kind != Outcome::Kind::stopped || !(loops_[i]->t() < end_)) return;
+    end_ = loops_[i]->t();
+    stopped_ = &parts_[i];
+  }
+
+  /// Advances all parts to the end. A step may have gone far beyond the stage in which its part was found to stop.
+  void catch_up() {
+    for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
+      loops_[i]->advance_to(end_);
+      see_stops(i);
+    }
+  }
+
+  RunEnd ending() {
+    if (stopped_ != nullptr && begun()) catch_up();
+    RunEnd result;
+    std::vector<RunEnd> endings;
+    std::vector<PartRecorder*> drawn;
+    std::vector<std::unique_ptr<PartRecorder>> again;
+    const double end = interrupted_ ? reached() : std::min(end_, spec_.t_end);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const bool beyond = !interrupted_ && stopped_ != nullptr && loops_[i]->t() > end;
+      drawn.push_back(recorders_[i].get());
+      if (beyond) {
+        again.push_back(std::make_unique<PartRecorder>(parts_[i], recorder_.wants_motion(), progress_));
+        drawn.back() = again.back().get();
+      }
+      endings.push_back(beyond ? until(end, parts_[i], *again.back()) : loops_[i]->end());
+      if (&parts_[i] == stopped_) result.law_violated = endings.back().law_violated;
+    }
+    if (over() && begun()) rows_.pass_on(end, true);
+    rows_.finish();
+    rows_.pass_on_motion(end, drawn);
+    result.energy_rounding = join(whole_, parts_, endings, report_);
+    tell_outcome(end, endings);
+    result.report = std::move(report_);
+    return result;
+  }
+
+  /// True if no part was refused at the start; otherwise there are no rows.
+  [[nodiscard]] bool begun() const {
+    return std::all_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop->begun(); });
+  }
+
+  /// Runs a part again, to an earlier end, and returns its results without rows.
+  [[nodiscard]] RunEnd until(double end, PartModel& part, PartRecorder& recorder) const {
+    RunSpec spec = spec_;
+    spec.t_end = end;
+    spec.output_times = std::vector<double>{0.0};
+    spec.frames.clear();
+    const std::unique_ptr<Loop> loop = loop_of(part, spec, recorder, nullptr);
+    loop->begin();
+    loop->advance_to(end);
+    return loop->end();
+  }
+
+  void tell_outcome(double end, const std::vector<RunEnd>& endings) {
+    report_.outcome.t = end;
+    if (interrupted_) {
+      report_.outcome.kind = Outcome::Kind::interrupted;
+      report_.outcome.reason = "interrupted";
+      return;
+    }
+    if (stopped_ == nullptr) return;
+    const auto i = static_cast<std::size_t>(stopped_ - parts_.data());
+    report_.outcome = endings[i].report.outcome;
+    for (std::size_t& contact : report_.outcome.refusal.contacts) contact = stopped_->contacts[contact];
+  }
+
+  const Model& whole_;
+  std::vector<PartModel> parts_;
+  const RunSpec spec_;
+  const EngineRow& engine_;
+  Recorder& recorder_;
+  const std::shared_ptr<const std::vector<double>> grid_;
+  Report report_;
+  PartRows rows_;
+  const std::function<bool()> progress_;
+  std::size_t columns_ = 0;
+  std::vector<std::unique_ptr<PartRecorder>> recorders_;
+  std::vector<std::unique_ptr<Loop>> loops_;
+  double told_ = 0.0;                                     // of the reported progress
+  double end_ = std::numeric_limits<double>::infinity();  // time at which the first part stops
+  const PartModel* stopped_ = nullptr;
+  bool interrupted_ = false;
+};
+
+}  // namespace
+
+RunEnd run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
+                 const EngineRow& engine, Method method, Recorder& recorder) {
+  return Apart(whole, std::move(parts), spec, engine, std::move(method), recorder).run();
+}
+
+std::vector<PartModel> parts_to_run(const Model& model, const Method& method, const Recorder& recorder,
+                                    const RunHooks& hooks) {
+  if (!hooks.none() || recorder.steers() || recorder.wants_instants()) return {};
+  std::vector<PartModel> parts = part_models(model);
+  if (method.flow == "modal")
+    for (const PartModel& part : parts)
+      if (!modal_kind(part.model).objection.empty()) return {};
+  return parts;
+}
+
+}  // namespace signorini

@@ -1,0 +1,407 @@
+#include "run/run_law_checker.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/rounding.hpp"
+#include "law_check/laws.hpp"
+#include "model/machine_units.hpp"
+#include "run/engines.hpp"
+
+namespace signorini {
+namespace {
+
+// Modes of a state are used if they reproduce a motion to 1e-12 of its size (src/engine/exact/modal), relative to the
+// rounding of other sums.
+constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::of_elimination;
+
+}  // namespace
+
+// A sum over modes starts a flight at g = 0 and does not detect its return if it is lower than the rounding of the sum.
+WitnessedEngine witnessed_engine(const RunSpec& run, const Tolerance& tolerance, const std::string& flow,
+                                 bool low_flights) {
+  WitnessedEngine engine;
+  const Accuracy accuracy = name_of(run.engine).accuracy;
+  engine.sums_over_modes = flow == "modal";
+  const EngineAbilities& can = engine_row(run.engine).can;
+  engine.follows = can.laws_at_ends;
+  engine.located = can.locates_events(run);
+  WitnessLimits& limits = engine.limits;
+  limits.capture_velocity = tolerance.capture_velocity();
+  limits.knows_low_flights = low_flights && !engine.sums_over_modes;
+  if (accuracy == Accuracy::step) limits.step = run.dt.value_or(0.0);
+  if (accuracy != Accuracy::tolerance) return engine;
+  limits.rtol = tolerance.rtol;
+  limits.displacement = tolerance.displacement;
+  limits.rotation = tolerance.rotation;
+  limits.velocity = tolerance.velocity;
+  limits.angular_velocity = tolerance.angular_velocity;
+  limits.force = tolerance.force;
+  return engine;
+}
+
+RecordedEvent recorded_event(const Event& event) {
+  RecordedEvent result;
+  result.contact = static_cast<std::size_t>(event.contact);
+  result.type = to_string(event.type);
+  result.from = event.from;
+  result.to = event.to;
+  result.gap = event.gap;
+  result.N = event.N;
+  result.T = event.T;
+  result.N_after = event.N_after;
+  result.T_after = event.T_after;
+  result.vn = event.vn;
+  result.vn_after = event.vn_after;
+  result.vt = event.vt;
+  result.vt_after = event.vt_after;
+  result.impulse_n = event.impulse_n.value_or(0.0);
+  result.impulse_t = event.impulse_t.value_or(0.0);
+  if (event.t_uncertainty) result.t_uncertainty = *event.t_uncertainty;
+  return result;
+}
+
+std::vector<ContactState> left_states(const Model& model, const std::vector<ContactState>& guessed) {
+  std::vector<ContactState> states = guessed;
+  for (std::size_t k = 0; k < model.continues.size(); ++k) {
+    const SavedState::Left& left = model.continues[k];
+    if (!model.contacts[k].obeys_coulomb()) continue;
+    for (const State state : {State::open, State::closed, State::stick, State::slip_plus, State::slip_minus})
+      if (left.state == to_string(state)) states[k] = {state, state == State::stick ? left.slip : 0.0};
+    if (states[k].state == State::open && left.gap && *left.gap < 0.0) states[k].state = State::inside;
+  }
+  return states;
+}
+
+Vector left_forces(const Model& model) {
+  Vector forces = Vector::Zero(model.force_count());
+  for (std::size_t k = 0; k < model.continues.size(); ++k) {
+    forces[static_cast<Eigen::Index>(model.layout.normal(k))] = model.continues[k].N;
+    forces[static_cast<Eigen::Index>(model.layout.tangent(k))] = model.continues[k].T;
+  }
+  return forces;
+}
+
+WitnessedMotion::WitnessedMotion(const Model& model, const WitnessedEngine& engine)
+    : model_(model),
+      sums_over_modes_(engine.sums_over_modes),
+      massless_(
+          std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; })),
+      step_(engine.limits.step),
+      jerk_(model.contacts.size(), 0.0) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (!model.contacts[k].surface_motion.is_constant() || !model.contacts[k].normal_force.is_constant())
+      driven_.push_back(k);
+}
+
+void WitnessedMotion::leave(const Forcing& forcing, double t) {
+  if (!(step_ > 0.0)) return;
+  for (const std::size_t k : driven_) jerk_[k] = std::abs(forcing.surface(k, t, 3));
+}
+
+WitnessedSide WitnessedMotion::side(const Forcing& forcing, double t, double dependence) const {
+  WitnessedSide side;
+  fill(forcing, t, dependence, side);
+  return side;
+}
+
+Driven WitnessedMotion::driven_at(std::size_t k, const Forcing& forcing, double t) const {
+  Driven d;
+  d.s = forcing.surface(k, t, 0);
+  d.ds = forcing.surface(k, t, 1);
+  d.dds = forcing.surface(k, t, 2);
+  d.q = forcing.pressing(k, t, 0);
+  d.dq = forcing.pressing(k, t, 1);
+  d.ddq = forcing.pressing(k, t, 2);
+  if (step_ > 0.0)
+    d.drift = step_ * step_ / 12.0 *
+              (jerk_[k] + std::abs(forcing.surface(k, t, 3)) + step_ * std::abs(forcing.surface(k, t, 4)));
+  return d;
+}
+
+void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const {
+  side.layout = model_.layout;
+  for (std::size_t turns : {0U, 1U}) {
+    // Between two instants the motion may reach the scene's displacements, even if it is at rest at both.
+    const double own = turns ? model_.scales.rotation : model_.scales.displacement;
+    side.u_reach[turns] = std::max({own, u_reach_[turns], dependence * of_round_trip * u_modal_[turns]});
+    // A body at rest on a surface that starts to move has the rounding of that motion: A cos(w t - pi/2) at t = 0.
+    const double given = rounding::of_few / rounding::of_elimination *
+                         (turns ? model_.scales.angular_velocity : model_.scales.velocity);
+    side.v_reach[turns] = std::max({given, v_reach_[turns], dependence * of_round_trip * v_modal_[turns]});
+  }
+  if (sums_over_modes_) side.lost = dependence * round_trip * std::sqrt(energy_ + kinetic_);
+  side.speeds = speeds_.empty() ? nullptr : speeds_.data();
+  if (side.driven.size() == model_.contacts.size()) {
+    for (const std::size_t k : driven_) side.driven[k] = driven_at(k, forcing, t);
+  } else {
+    side.driven.clear();
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) side.driven.push_back(driven_at(k, forcing, t));
+  }
+  if (!massless_) return;
+  side.loads.resize(3);
+  for (int order = 0; order < 3; ++order) {
+    Vector& load = side.loads[static_cast<std::size_t>(order)];
+    load.setZero(model_.size());
+    forcing.add_load(t, order, load.data());
+  }
+}
+
+void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vector& v) {
+  for (int i = 0; i < model_.size(); ++i) {
+    const bool turns = model_.dofs[static_cast<std::size_t>(i)].rotation;
+    u_reach_[turns] = std::max(u_reach_[turns], std::abs(u[i]));
+    v_reach_[turns] = std::max(v_reach_[turns], std::abs(v[i]));
+  }
+  energy_ = std::max(energy_, witness.twice_energy(u));
+  for (std::size_t k = lightness_.size(); k < model_.contacts.size(); ++k)
+    lightness_.push_back(witness.lightness(k));
+  const double root = std::sqrt(energy_);
+  speeds_.resize(lightness_.size());
+  for (std::size_t k = 0; k < speeds_.size(); ++k) speeds_[k] = lightness_[k] * root;
+  if (!sums_over_modes_) return;
+  kinetic_ = std::max(kinetic_, v.dot(model_.mass * v));
+  const std::array<double, 2> of_u = witness.modal_size(u), of_v = witness.modal_size(v);
+  const std::array<double, 2> by_energy = witness.modal_size(std::sqrt(energy_));
+  const double period = model_.omega1 > 0.0 ? 1.0 / model_.omega1 : 0.0;
+  for (std::size_t turns : {0U, 1U}) {
+    // In a sum over modes, displacements are amplitudes times sines, and the amplitudes are v/omega.
+    u_modal_[turns] =
+        std::max({u_modal_[turns], of_u[turns], period * by_energy[turns], period * of_v[turns]});
+    v_modal_[turns] = std::max({v_modal_[turns], of_v[turns], by_energy[turns]});
+  }
+}
+
+std::array<double, 2> WitnessedMotion::of_accelerations(const Witness& witness, const Vector& a,
+                                                        double dependence) const {
+  if (!sums_over_modes_) return {0.0, 0.0};
+  const std::array<double, 2> size = witness.modal_size(a);
+  return {dependence * of_round_trip * size[0], dependence * of_round_trip * size[1]};
+}
+
+namespace {
+
+/// Event with the guard's rate in the units of the computation, which are not those of its row.
+RecordedEvent recorded(const Event& event, const Decision& decision) {
+  RecordedEvent result = recorded_event(event);
+  const Crossing* crossing = event.t_uncertainty ? decision.crossing(result.contact) : nullptr;
+  if (crossing != nullptr) result.guard_rate = crossing->derivatives[0];
+  return result;
+}
+
+}  // namespace
+
+std::string sentence_of(const Violation& v, const Model& model) {
+  const std::string who =
+      v.contact >= 0 ? fmt::format("contact '{}'", model.contacts[static_cast<std::size_t>(v.contact)].name)
+                     : std::string("the structure");
+  return fmt::format("the witness finds that {} breaks the law of {} at t = {:.9g}: {:.4g}, limit {:.2g}",
+                     who, v.law, v.t, v.value, v.limit);
+}
+
+std::string sentence_of(const Testimony& testimony, const Model& model) {
+  std::string sentence = sentence_of(testimony.violations.front(), model);
+  if (testimony.violated > 1) sentence += fmt::format(" (the first of {})", testimony.violated);
+  return sentence;
+}
+
+RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Recorder& recorder)
+    : model_(model),
+      recorder_(recorder),
+      engine_(engine),
+      witness_(model, engine.limits),
+      motion_(model, engine),
+      holds_(std::any_of(model.contacts.begin(), model.contacts.end(),
+                         [](const Contact& c) { return !c.normal_spring(); })) {}
+
+namespace {
+
+/// Copy of the data that the record points to.
+InstantRow row_of(const InstantRecord& record) {
+  const auto side = [](const WitnessedSide& s) {
+    return InstantSide{*s.u, *s.v, s.a != nullptr ? *s.a : Vector(), *s.mode, *s.forces};
+  };
+  InstantRow row;
+  row.t = record.t;
+  row.resolution = record.resolution;
+  row.forgiven = record.forgiven;
+  row.dependence = record.dependence;
+  row.start = record.start;
+  row.breakpoint = record.breakpoint;
+  row.load_jumps = record.load_jumps;
+  row.located = record.located;
+  row.before = side(record.before);
+  row.after = side(record.after);
+  for (const RecordedImpulse& p : record.impulses)
+    row.blows.push_back({static_cast<int>(p.contact), p.turn, p.normal, p.tangent});
+  row.captures = record.captures;
+  for (const std::size_t k : record.released) row.released.push_back(static_cast<int>(k));
+  return row;
+}
+
+}  // namespace
+
+void RunWitness::instant(const Instant& now) {
+  const Decision& d = *now.decision;
+  if (now.start) start_peaks(now);
+  motion_.reach(witness_, now.before->u, now.before->v);
+  InstantRecord record;
+  record.t = now.t;
+  record.resolution = now.resolution;
+  record.before = std::move(before_);  // their memory is reused
+  record.after = std::move(after_);
+  motion_.fill(*now.forcing_before, now.t, now.dependence, record.before);
+  record.before.u = &now.before->u;
+  record.before.v = &now.before->v;
+  record.before.forces = &now.before->forces;
+  record.before.mode = now.mode_before;
+  motion_.fill(*now.forcing_after, now.t, now.dependence, record.after);
+  const Vector forces = d.jet.forces.col(0), a = d.jet.a();
+  record.after.u = &d.u;
+  record.after.v = &d.v;
+  record.after.a = &a;
+  record.after.a_reach = motion_.of_accelerations(witness_, a, now.dependence);
+  record.after.forces = &forces;
+  record.after.mode = &d.mode;
+  for (const Blow& blow : d.blows)
+    record.impulses.push_back({blow.contact, blow.turn, blow.normal, blow.tangent});
+  record.captures = d.captures;
+  record.released = d.released;
+  for (const Event& event : *now.events)
+    if (event.contact >= 0) record.events.push_back(recorded(event, d));
+  record.start = now.start;
+  std::vector<ContactState> left;
+  Vector forces_left;
+  if (now.start && !model_.continues.empty()) {
+    record.continues = record.breakpoint = true;
+    left = left_states(model_, *now.mode_before);
+    forces_left = left_forces(model_);
+    record.before.mode = &left;
+    record.before.forces = &forces_left;
+  }
+  record.breakpoint = record.breakpoint || now.breakpoint;
+  record.load_jumps = now.load_jumps;
+  record.located = engine_.located && !now.adopted;
+  record.forgiven = d.forgiven;
+  record.dependence = now.dependence;
+  if (holds_) held_forces_ = std::max(held_forces_, witness_.held_forces(record.after));
+  for (std::size_t k = 0; k < passed_.size(); ++k)
+    passed_[k].surface = std::max(passed_[k].surface, std::abs(record.before.driven[k].s));
+  for (const std::size_t turns : {0U, 1U})
+    reached_[turns] = std::max(reached_[turns], record.before.u_reach[turns]);
+  if (recorder_.wants_instants()) recorder_.instant(row_of(record));
+  keep(witness_.instant(record));
+  motion_.leave(*now.forcing_after, now.t);
+  before_ = std::move(record.before);
+  after_ = std::move(record.after);
+}
+
+void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, const Point& point,
+                         double dependence) {
+  if (!engine_.follows) return;
+  motion_.fill(forcing, t, dependence, point_);
+  WitnessedSide& side = point_;
+  side.u = &point.u;
+  side.v = &point.v;
+  side.a = point.a.size() > 0 ? &point.a : nullptr;
+  side.forces = &point.forces;
+  side.mode = &mode;
+  keep(witness_.between(t, side));
+}
+
+namespace {
+
+/// Deformation of the springs of a compliance split along n and t, in addition to the motion of its surfaces.
+std::pair<double, double> borrowed(const Contact& c, const ForceLayout& layout, std::size_t k,
+                                   const Vector& forces) {
+  if (!c.compliance_split()) return {0.0, 0.0};
+  return {forces.data()[layout.normal(k)] / c.normal_stiffness,
+          c.tangential_stiffness ? forces.data()[layout.tangent(k)] / *c.tangential_stiffness : 0.0};
+}
+
+}  // namespace
+
+void RunWitness::start_peaks(const Instant& now) {
+  passed_.resize(model_.contacts.size());
+  for (std::size_t k = 0; k < passed_.size(); ++k) {
+    const Contact& c = model_.contacts[k];
+    const auto [n, t] = borrowed(c, model_.layout, k, now.decision->jet.forces.col(0));
+    passed_[k].g0 = c.normal.dot(now.decision->u) - n;
+    passed_[k].ut0 = c.body_tangent().dot(now.decision->u) - now.forcing_after->surface(k, now.t, 0) - t;
+  }
+}
+
+void RunWitness::passes(double t, const Forcing& forcing, const Point& point) {
+  for (std::size_t k = 0; k < passed_.size(); ++k) passes(k, t, forcing, point);
+}
+
+void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const Point& point) {
+  if (engine_.limits.step > 0.0) return;  // peaks are taken at the ends of steps
+  const Contact& c = model_.contacts[k];
+  PassedPeak& p = passed_[k];
+  p.most.N = std::max(p.most.N, std::abs(point.N(model_.layout, k)));
+  p.most.T = std::max(p.most.T, std::abs(point.T(model_.layout, k)));
+  const auto [along_n, along_t] = borrowed(c, model_.layout, k, point.forces);
+  p.most.normal = std::max(p.most.normal, std::abs(c.normal.dot(point.u) - along_n - p.g0));
+  const double ut = c.body_tangent().dot(point.u) - forcing.surface(k, t, 0) - along_t;
+  p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));
+}
+
+/// Size of the terms of a contact's g and ut, with the largest displacement of each kind.
+double RunWitness::place_of(std::size_t k) const {
+  const Contact& c = model_.contacts[k];
+  const auto size = [&](const Combination& form) {
+    double of_form = 0.0, of_u = reached_[0] * reached_[0];
+    for (const auto& [dof, factor] : form.terms) {
+      const double reach = reached_[model_.dofs[static_cast<std::size_t>(dof)].rotation];
+      of_form += factor * factor;
+      of_u += reach * reach;
+    }
+    return std::sqrt(of_form * of_u);
+  };
+  return size(c.normal) + size(c.tangent) + std::abs(c.gap) + passed_[k].surface;
+}
+
+void RunWitness::peaks(double t, const std::vector<Peak>& told) {
+  for (std::size_t k = 0; k < passed_.size() && k < told.size(); ++k) {
+    const Contact& c = model_.contacts[k];
+    const PassedPeak& p = passed_[k];
+    // Both values are the same sum, at different points. A fixed point moves by the rounding of the scene's
+    // displacements.
+    const WitnessLimits& tol = engine_.limits;
+    const double place = place_of(k);
+    const double length = rounding::of_elimination * (place + model_.scales.displacement) +
+                          of_tolerance * (tol.rtol * place + tol.displacement);
+    const double force = (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
+                         (rounding::of_elimination + of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
+                         (c.normal_spring() ? 0.0 : rounding::of_elimination * held_forces_) +
+                         of_tolerance * tol.force;
+    const auto check = [&](double farthest, double said, double limit, const Unit& unit) {
+      if (farthest - said > limit)
+        keep({{t, "end", static_cast<int>(k), "peak", farthest - said, limit, unit, false}});
+    };
+    check(p.most.N, told[k].N, force, unit::force);
+    check(p.most.T, told[k].T, force, unit::force);
+    check(p.most.normal, told[k].normal, length, unit::length);
+    check(p.most.tangential, told[k].tangential, length, unit::length);
+  }
+}
+
+void RunWitness::keep(std::vector<Violation> found) {
+  ++testimony_.checked;
+  testimony_.violated += static_cast<long>(found.size());
+  for (Violation& v : found) {
+    if (v.grave && grave_.empty()) {
+      Violation shown = v;
+      shown.t = said_time(model_, v.t);
+      shown.value = said(model_, v.value, v.unit);
+      shown.limit = said(model_, v.limit, v.unit);
+      grave_ = sentence_of(shown, model_);
+    }
+    if (testimony_.violations.size() < most_violations) testimony_.violations.push_back(std::move(v));
+  }
+}
+
+}  // namespace signorini

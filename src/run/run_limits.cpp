@@ -1,0 +1,87 @@
+#include "run/run_limits.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+#include <utility>
+
+#include "model/machine_units.hpp"
+
+namespace signorini {
+namespace {
+
+// A bouncing ball with e = 0.99 passes its accumulation point with 2000 events; one with e = 0.999 needs 20000, in a
+// longer time.
+constexpr int watched_events = 10000;
+constexpr double least_progress = 1e-5;          // fraction of the run, for this number of events
+constexpr double resolutions_of_instant = 10.0;  // largest distance of events of one instant from the first
+
+}  // namespace
+
+std::optional<std::string> Standstill::count(double t, double resolution,
+                                             const std::vector<std::size_t>& contacts) {
+  after_mark_.insert(contacts.begin(), contacts.end());
+  if (auto reason = crawl(t)) return reason;
+  if (at_once_ == 0 || t - cluster_ > resolutions_of_instant * resolution) {
+    cluster_ = t;
+    at_once_ = 0;
+    in_cluster_.clear();
+  }
+  in_cluster_.insert(contacts.begin(), contacts.end());
+  if (++at_once_ <= most_at_once_) return std::nullopt;
+  contacts_ = in_cluster_;
+  return fmt::format("{} events at one instant; time does not advance", most_at_once_);
+}
+
+std::optional<std::string> Standstill::crawl(double t) {
+  if (++since_mark_ < watched_events) return std::nullopt;
+  const double advanced = t - mark_;
+  since_mark_ = 0;
+  mark_ = t;
+  contacts_ = std::exchange(after_mark_, {});
+  if (advanced >= least_progress * t_end_) return std::nullopt;
+  return fmt::format("{} events within {:.3g} of time; the motion does not get on", watched_events,
+                     advanced * unit_);
+}
+
+namespace {
+
+constexpr double large = 0.25;  // rad; 1 - cos is 3 %: chosen value
+
+}  // namespace
+
+LargeMotions::LargeMotions(const Model& model) : model_(model) {
+  if (model.reduction) return;
+  for (std::size_t i = 0; i < model.dofs.size(); ++i)
+    if (model.dofs[i].rotation) rotations_.push_back(i);
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (model.contacts[k].curved_surface()) pendulums_.push_back(k);
+}
+
+void LargeMotions::note(double t, double angle, const std::string& what) {
+  if (!(angle > large)) return;
+  if (!first_) first_ = Large{what, t, angle};
+  if (angle <= greatest_) return;
+  greatest_ = angle;
+  of_greatest_ = what;
+}
+
+void LargeMotions::see(double t, const Forcing& forcing, const Point& now) {
+  for (const std::size_t i : rotations_)
+    note(t, std::abs(now.u[static_cast<Eigen::Index>(i)]), model_.dofs[i].displacement);
+  for (const std::size_t k : pendulums_) {
+    const Contact& contact = model_.contacts[k];
+    note(t, std::abs(slide_of(contact, k, forcing, t, now.u, now.v).ut) / contact.curved_surface()->radius,
+         "ut / R of contact '" + contact.name + "'");
+  }
+}
+
+std::optional<std::string> LargeMotions::warning() const {
+  if (!first_) return std::nullopt;
+  return fmt::format(
+      "{} is {:.3g} rad at t = {:.6g}, and {} reaches {:.3g} rad: rotations are computed as small ones, so "
+      "that from there on "
+      "results are far from those of the real structure",
+      first_->what, first_->angle, said_time(model_, first_->t), of_greatest_, greatest_);
+}
+
+}  // namespace signorini

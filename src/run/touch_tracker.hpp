@@ -1,0 +1,99 @@
+// touch_tracker.hpp: last time at which each contact had exactly g = 0; rounding has accumulated in its gap since then.
+//
+//   touched_k = the last instant at which k was closed, before or after, or took an impulse; 0: never
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "decide/decision.hpp"
+#include "decide/instant.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+class LastTouch {
+ public:
+  explicit LastTouch(std::size_t contacts) : times_(contacts, 0.0) {}
+
+  void instant(double t, const Mode& before, const Decision& decision) {
+    for (std::size_t k = 0; k < times_.size(); ++k)
+      if (!before[k].is_open() || !decision.mode[k].is_open() ||
+          (!decision.impulses.empty() && decision.impulses[k].normal > 0.0))
+        times_[k] = t;
+  }
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+
+ private:
+  std::vector<double> times_;
+};
+
+// Times since when guards are zero up to rounding.
+//
+//   since_k = last change of the forcing's formula at which guard k and all its known derivatives were zero
+//
+// A guard that changes with a high power of time stays below its rounding for a long time: if a guard was never
+// observed above it, its event may have happened at any time since then.
+
+class ZeroSince {
+ public:
+  /// Updates the times after a decision at t. changed: the forcing has another formula from here on.
+  void decided(double t, const Decision& decision, bool changed) {
+    since_.resize(decision.guards.size(), none);
+    for (std::size_t slot = 0; slot < since_.size(); ++slot) {
+      const GuardStart& guard = decision.guards[slot];
+      if (guard.kind == Guard::none || !guard.at_zero || guard.leading >= 0)
+        since_[slot] = none;
+      else if (changed || !(since_[slot] <= t) || kinds_[slot] != guard.kind)
+        since_[slot] = t;
+    }
+    kinds_.resize(decision.guards.size());
+    for (std::size_t slot = 0; slot < kinds_.size(); ++slot) kinds_[slot] = decision.guards[slot].kind;
+  }
+
+  /// Time for which the guards triggered at t had been zero, one entry per contact; empty: none had.
+  [[nodiscard]] std::vector<double> before(double t, const std::vector<Fired>& fired) const {
+    std::vector<double> result;
+    for (const Fired& f : fired)
+      for (std::size_t slot = guards_per_contact * f.contact; slot < guards_per_contact * (f.contact + 1);
+           ++slot) {
+        if (!f.unseen || slot >= since_.size() || kinds_[slot] != f.guard || !(since_[slot] < t)) continue;
+        result.resize(since_.size() / guards_per_contact, 0.0);
+        result[f.contact] = t - since_[slot];
+      }
+    return result;
+  }
+
+ private:
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<double> since_;  // one entry per guard slot
+  std::vector<Guard> kinds_;   // guard kind of each slot
+};
+
+// Time, impulse, peak force and duration of every closure of a contact.
+//
+//   impulse = sum of Pn at hits + integral of -N dt,   from the instant of closing to that of opening
+//
+// Forces are never impulses divided by a step: a hit without a closure has an impulse and a peak force of zero.
+
+class Landings {
+ public:
+  explicit Landings(const Model& model)
+      : model_(model), ended_(model.contacts.size()), now_(model.contacts.size()) {}
+
+  void begin(double t, const Mode& mode);
+  /// Adds the integrals of -N since the last call.
+  void add(const Works& works);
+  void observe(std::size_t contact, double N);
+  void instant(double t, const Decision& decision, const Mode& old_mode);
+  /// Ends the landings that last at t. One list per contact.
+  [[nodiscard]] std::vector<std::vector<Landing>> finish(double t, const Mode& mode) const;
+
+ private:
+  const Model& model_;
+  std::vector<std::vector<Landing>> ended_;  // one list per contact
+  std::vector<Landing> now_;                 // one entry per contact; valid while its landing lasts
+  std::vector<bool> lasts_;
+};
+
+}  // namespace signorini

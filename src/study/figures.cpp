@@ -1,0 +1,18 @@
+#include "study/figures.hpp"
+
+#include "result/summary_parts.hpp"
+#include "scene/overrides.hpp"
+
+namespace signorini {
+
+std::string key_unit(const std::string& path, const Units& units) {
+  const Key* key = key_of(path);
+  return key != nullptr ? unit_in_words(key->unit, units) : "";
+}
+
+std::string key_with_unit(const std::string& path, const Units& units) {
+  const std::string unit = key_unit(path, units);
+  return unit.empty() ? path : path + " [" + unit + "]";
+}
+
+}  // namespace signorini

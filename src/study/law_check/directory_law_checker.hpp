@@ -1,0 +1,33 @@
+// directory_law_checker.hpp: the witness of a run from its files alone (docs/theory-checks.md, "The witness").
+//
+//   run.toml -> model;   summary.json -> engine;   instants.csv, events.csv -> src/law_check, instant by instant
+//   contacts.csv: rows per time and contact: state of the last instant, its guards, forces of that state
+//   summary.json: as many events of each type as in events.csv; peaks not below any row
+//
+//   DirectoryTestimony found = witness_directory("pipeline-run");
+//
+// The run's own witness result is not read. Errors: FileError for files that are missing, cut or not tables of a run,
+// SceneError for run.toml.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+/// The first hundred violations, in the units of the scene; for violations of tables Violation::event is the table's
+/// name.
+struct DirectoryTestimony {
+  Model model;
+  long instants = 0, events = 0, rows = 0;  ///< numbers of checked items; rows: of contacts.csv and
+                                            ///< motion.csv
+  bool complete = true;                     ///< the run had ended
+  Testimony testimony;
+};
+
+[[nodiscard]] DirectoryTestimony witness_directory(const std::filesystem::path& directory);
+
+}  // namespace signorini

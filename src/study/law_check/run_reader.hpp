@@ -1,0 +1,89 @@
+// run_reader.hpp: results in summary.json and events.csv of a run, for the witness.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "result/csv.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+class CsvReader;
+
+struct ToldSummary {
+  Engine engine = Engine::automatic;
+  std::string flow;      ///< of exact: "modal" or "taylor"
+  bool ended = true;     ///< false: it is still being written, or was killed
+  bool stopped = false;  ///< it stopped before t_end
+  double t = 0.0;        ///< time reached
+  long total = 0;        ///< number of events
+  std::map<std::string, long> events_by_type;
+  /// Extremes of each contact; empty for an older run.
+  struct Load {
+    double least_N = 0.0, greatest_N = 0.0, least_T = 0.0, greatest_T = 0.0;
+  };
+  std::vector<std::optional<Load>> loads;
+  std::vector<std::optional<Peak>> peaks;  ///< one per contact
+};
+/// Errors: FileError.
+[[nodiscard]] ToldSummary told_summary(const std::filesystem::path& directory, const Model& model);
+
+/// All rows of events.csv; user-law states are given as their kinds. ended: a last line without its line break then is
+/// an error. Errors: FileError.
+[[nodiscard]] std::vector<Event> told_events(const std::filesystem::path& directory, const Model& model,
+                                             bool ended);
+
+/// Message for a table that ends too early: the line of its end, and the missing part.
+[[nodiscard]] std::string cut_at(const CsvReader& reader, const std::string& lacks);
+
+/// Index of a contact by name; an unknown name is a FileError for this file and line.
+class ContactNames {
+ public:
+  explicit ContactNames(const Model& model);
+  [[nodiscard]] int at(const std::string& name, const std::filesystem::path& file, int line) const;
+
+ private:
+  std::map<std::string, int> places_;
+};
+
+// Reads the rows of contacts.csv and motion.csv.
+//
+//   ToldRowReader reader(directory / "contacts.csv", model);
+//   while (const auto row = reader.next()) ...
+//
+// Errors: FileError with line and column.
+
+struct ToldRow {
+  double t = 0.0;
+  std::size_t contact = 0;
+  std::string state;
+  std::optional<double> gap, ratio;
+  double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
+};
+
+class ToldRowReader {
+ public:
+  ToldRowReader(const std::filesystem::path& file, const Model& model);
+
+  [[nodiscard]] std::optional<ToldRow> next();
+  /// False for tables of older runs, which lack the column.
+  [[nodiscard]] bool has_ratios() const { return ratios_; }
+  /// True if a last line without its line break was omitted.
+  [[nodiscard]] bool is_cut() const { return reader_.is_cut(); }
+  /// Throws a FileError with the line, for a table that ends too early.
+  [[noreturn]] void refuse_as_cut(const std::string& lacks) const;
+
+ private:
+  [[nodiscard]] double number(std::size_t column) const;
+
+  std::filesystem::path file_;
+  ContactNames names_;
+  CsvReader reader_;
+  bool ratios_ = false;
+};
+
+}  // namespace signorini

@@ -1,0 +1,119 @@
+// table_rows.hpp: checks of contacts.csv and motion.csv by the witness.
+//
+//   state of a row = state after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
+//   ratio = |T| / |N| with friction, for a closed contact and N != 0
+//   peaks of summary.json >= rows up to the last instant of a stopped run
+//
+//   TableRows rows(model, engine, witness);
+//   for each instant: rows.instant(record);
+//   rows.contacts(directory / "contacts.csv", run, found);        required rows: table_rows.hpp
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "run/run_law_checker.hpp"
+#include "study/law_check/run_reader.hpp"
+
+namespace signorini {
+
+// Rows that contacts.csv and motion.csv must have.
+//
+//   contacts.csv   t in the grid of run.toml, every contact at each t      up to t_end, the time of the stop, or the
+// last instant
+//   motion.csv     contact by contact, t ascending, the first row at 0     in a completed run the last row at t_end
+//
+// Rows out of place are violations ("rows"). A table that ends too early is cut: FileError, with its line.
+
+/// Time span of a run.
+struct RunSpan {
+  std::vector<double> grid;           ///< output times, up to t_end
+  bool ended = true, stopped = true;  ///< as in the run's summary
+  double reached = 0.0;               ///< as recorded; for a run that has not ended, the last instant
+};
+
+class TableSpan {
+ public:
+  using Found = std::function<void(Violation)>;
+
+  /// All arguments must outlive the object.
+  TableSpan(const Model& model, const RunSpan& run, const Found& found)
+      : model_(model), run_(run), found_(found) {}
+
+  /// Checks the next row of contacts.csv; at its end, completeness.
+  void grid_row(const ToldRow& row);
+  void end_of_grid(const ToldRowReader& reader) const;
+  /// Checks the next row of motion.csv; at its end, completeness.
+  void block_row(const ToldRow& row);
+  void end_of_blocks(const ToldRowReader& reader) const;
+
+ private:
+  void misplaced(const char* file, double t, std::size_t contact);
+  [[nodiscard]] static bool same(double a, double b);
+  [[nodiscard]] bool comes_to_its_end() const { return run_.ended && !run_.stopped; }
+
+  const Model& model_;
+  const RunSpan& run_;
+  const Found& found_;
+  std::size_t place_ = 0, due_ = 0;  // expected next row: index in the grid, and contact
+  bool in_order_ = true;
+  std::optional<ToldRow> last_;  // last row of a contact's block
+};
+
+class TableRows {
+ public:
+  using Found = std::function<void(Violation)>;
+
+  /// All arguments must outlive the object. stopped: the run ended before t_end, by itself.
+  TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness, bool stopped);
+  /// To be called in the order of time.
+  void instant(const InstantRow& row, const InstantRecord& record);
+  /// Check all rows of contacts.csv, of motion.csv, and their completeness; return the number of rows. Errors:
+  /// FileError.
+  long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
+  long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
+  /// Compares peaks with the checked rows and instants.
+  void check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const;
+  void check_loads(const std::vector<std::optional<ToldSummary::Load>>& told,
+                   const std::vector<std::optional<Peak>>& peaks, const Found& found) const;
+
+ private:
+  struct States {
+    double t = 0.0, resolution = 0.0;
+    std::vector<ContactState> before, after;
+  };
+  /// Largest magnitudes of terms over the whole run.
+  struct Size {
+    double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
+  };
+  struct Order {  // position in a table
+    void (TableSpan::*row)(const ToldRow&);
+    void (TableSpan::*end)(const ToldRowReader&) const;
+  };
+  long read(const std::filesystem::path& file, const char* name, const Order& order, const RunSpan& run,
+            const Found& found);
+  [[nodiscard]] std::vector<ContactState> states_at(std::size_t contact, double t) const;
+  void check(const ToldRow& row, const ToldRowReader& reader, const char* file, const Found& found);
+  [[nodiscard]] std::vector<Violation> broken_by(const ToldRow& row, const ContactState& state,
+                                                 const char* file) const;
+  void check_forces(const ToldRow& row, const ContactState& state, const char* file,
+                    const Found& found) const;
+  void check_slip(const ToldRow& row, const char* file, double of_force, const Found& found) const;
+  void check_ratio(const ToldRow& row, const char* file, const Found& found) const;
+  void reach(const ToldRow& row);
+  [[nodiscard]] double noise_of_length(std::size_t k) const;
+  [[nodiscard]] double noise_of_force(std::size_t k) const;
+
+  const Model& model_;
+  const WitnessedEngine& engine_;
+  const Witness& witness_;
+  bool stopped_;
+  std::vector<States> states_;
+  std::vector<Size> sizes_;
+  std::vector<Peak> peaks_;
+  std::vector<ToldSummary::Load> loads_;  // extremes over rows
+  std::vector<bool> reached_;             // true if a row reaches the peak
+};
+
+}  // namespace signorini

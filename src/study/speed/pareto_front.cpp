@@ -1,0 +1,73 @@
+#include "study/speed/pareto_front.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+/// Ratio of equal times or errors: a gain in time of less than a tenth is the machine's variation.
+constexpr double noise = 0.9;
+
+double ranked(const WorkRow& row, const std::string& quantity, const ErrorRange& range) {
+  return std::max(row.error(quantity)->value, range.floor);
+}
+
+}  // namespace
+
+std::vector<std::size_t> frontier(const std::vector<WorkRow>& rows, const std::string& quantity,
+                                  const ErrorRange& range) {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const WorkError* error = rows[i].error(quantity);
+    if (rows[i].complete() && rows[i].wall_time() && error && error->value <= range.most) list.push_back(i);
+  }
+  const auto value = [&](std::size_t i) { return ranked(rows[i], quantity, range); };
+  const auto time = [&](std::size_t i) { return *rows[i].wall_time(); };
+  std::stable_sort(list.begin(), list.end(),
+                   [&](std::size_t a, std::size_t b) { return value(a) < value(b); });
+  std::vector<std::size_t> best;
+  for (const std::size_t i : list) {
+    if (!best.empty() && time(i) >= noise * time(best.back())) continue;
+    if (!best.empty() && value(best.back()) >= noise * value(i)) best.pop_back();
+    best.push_back(i);
+  }
+  std::reverse(best.begin(), best.end());
+  return best;
+}
+
+std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::string& quantity,
+                              const ErrorRange& range) {
+  std::string what = quantity;
+  std::replace(what.begin(), what.end(), '_', ' ');
+  const std::vector<std::size_t> best = frontier(rows, quantity, range);
+  if (best.empty()) {
+    const bool complete =
+        std::any_of(rows.begin(), rows.end(), [](const WorkRow& r) { return r.complete(); });
+    const bool timed =
+        std::any_of(rows.begin(), rows.end(), [](const WorkRow& r) { return r.complete() && r.wall_time(); });
+    const char* why = !complete ? "no run reached the end with the reference's events"
+                      : !timed  ? "no run was timed"
+                                : "no complete run has an error that means anything";
+    return fmt::format("Of {}, none can be named cheapest: {}.", what, why);
+  }
+  // Neighbours on one line are represented by the last one, the most accurate.
+  std::vector<std::size_t> last;
+  for (const std::size_t i : best) {
+    if (!last.empty() && rows[last.back()].point.line() == rows[i].point.line()) last.pop_back();
+    last.push_back(i);
+  }
+  std::string sentence;
+  for (const std::size_t i : last) {
+    const WorkRow& row = rows[i];
+    sentence += sentence.empty() ? fmt::format("For errors of {} ", what) : ", below that ";
+    sentence += fmt::format("down to {:.1e} {} {} is cheapest (", ranked(row, quantity, range),
+                            row.error(quantity)->unit, row.point.line());
+    if (row.point.accuracy) sentence += row.point.setting() + ": ";
+    sentence += fmt::format("{:.2g} s)", *row.wall_time());
+  }
+  return sentence + ".";
+}
+
+}  // namespace signorini

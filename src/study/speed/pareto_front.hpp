@@ -1,0 +1,31 @@
+// pareto_front.hpp: the cheapest engine for each accuracy (Pareto front of error and time).
+//
+//   A run is on the front if no other one is as accurate in as little time, within a tenth of each. Only runs that
+//   reach the end with the reference's sequence of events count: an error up to the first missing event is
+//   not comparable.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "study/speed/work_run.hpp"
+
+namespace signorini {
+
+/// Range of errors in which runs can be distinguished.
+struct ErrorRange {
+  double floor = 0.0;                                     ///< error of the reference itself
+  double most = std::numeric_limits<double>::infinity();  ///< larger errors are meaningless
+};
+
+/// Errors decrease, times increase from entry to entry. Indices into `rows`.
+[[nodiscard]] std::vector<std::size_t> frontier(const std::vector<WorkRow>& rows, const std::string& quantity,
+                                                const ErrorRange& range = {});
+
+/// One sentence: "For errors of event time down to 3e-05 s newmark is cheapest (dt=1e-04: 0.02 s), ..."; also if no run
+/// is complete, or none was timed.
+[[nodiscard]] std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::string& quantity,
+                                            const ErrorRange& range = {});
+
+}  // namespace signorini

@@ -1,0 +1,69 @@
+// parameter_range.hpp: values of the keys of a sweep.
+//
+//   0:1.3:0.1     start:stop:step, the stop included if it is a multiple; 0.3 is 0.3, not 0.30000000000000004
+//   ida,exact     a list of TOML values; commas inside of quotes, brackets and braces do not separate
+//
+// Several ranges form a product; the last one varies fastest. Keys of one group vary in step, and count as one range,
+// at the place of the first of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// One `--vary path=values`.
+struct Vary {
+  std::string path;
+  std::string text;                 ///< as given
+  std::vector<std::string> values;  ///< each as `--set` takes it
+  int group = 0;                    ///< keys of the same group, above 0, vary in step
+  bool sampled = false;             ///< the values are draws from the distribution `text`
+
+  friend bool operator==(const Vary&, const Vary&) = default;
+};
+
+/// "vary" or "sample", the option that gave the values.
+[[nodiscard]] const char* option_of(const Vary& vary);
+/// Override for one of its values.
+[[nodiscard]] Override override_of(const Vary& vary, const std::string& value);
+/// Refuses duplicates: two options that set one key under different names (contacts.*.friction and
+/// contacts.first.friction), and a setting all of whose keys are varied. Errors: UsageError; those of the file.
+void check_overlaps(const std::string& scene, const std::vector<Vary>& varied,
+                    const std::vector<Override>& settings);
+/// Errors: UsageError, also for more than 1e6 values.
+[[nodiscard]] Vary parse_vary(const std::string& text);
+/// The product: entry i holds one value for each Vary, in their order. Errors: UsageError for more than 1e6 points, for
+/// a repeated path, and for keys in step with different numbers of values.
+[[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<Vary>& varied);
+
+// Draws values of keys from distributions.
+//
+//   normal(0.4, 0.05)        mean, standard deviation
+//   lognormal(0.4, 0.05)     mean and standard deviation of the value itself, which is positive:
+//                            s^2 = log(1 + (sd/mean)^2), m = log(mean) - s^2/2
+//   uniform(0.3, 0.5)        from, to
+//   triangular(0.3, 0.35, 0.5)   minimum, mode, maximum
+//
+//   x_ij = F_j^-1(u_ij)      row i, draw j, which one or several keys share
+//   random   u from the Mersenne twister of the seed, draw by draw, row by row
+//   sobol    point i of Sobol's sequence, shifted by one vector of such draws, modulo 1
+//
+// Row i depends only on the seed, i and the number of draws per row: more samples leave the earlier ones unchanged, and
+// shares, resumed sweeps and other machines draw the same values. Source of both sequences: GSL.
+
+enum class Sequence { random, sobol };
+
+struct SampleSpec {
+  std::size_t count = 1000;
+  unsigned long seed = 1;
+  Sequence sequence = Sequence::random;
+};
+
+/// Keys from texts PATH,PATH,...=DISTRIBUTION, with `count` values each, all in one group; keys of one text have the
+/// same values. Errors: UsageError.
+[[nodiscard]] std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec);
+
+}  // namespace signorini

@@ -1,0 +1,186 @@
+// The cache of factorised modes: bounded, and nothing depends on what it holds.
+#include "motion/state_systems.hpp"
+
+#include <doctest/doctest.h>
+
+#include <utility>
+
+#include "motion/taylor.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// Masses in a row on springs, each on a slider; of more than three the last one sticks rigidly, so that its states are
+/// factorised.
+Model row_of_masses(int n) {
+  Model model;
+  model.mass.resize(n, n);
+  model.damping.resize(n, n);
+  model.stiffness.resize(n, n);
+  for (int i = 0; i < n; ++i) {
+    model.mass.insert(i, i) = 1.0 + 0.1 * i;
+    model.damping.insert(i, i) = 0.02;
+    model.stiffness.insert(i, i) = 20.0;
+    if (i > 0) model.stiffness.insert(i, i - 1) = -5.0;
+    if (i + 1 < n) model.stiffness.insert(i, i + 1) = -5.0;
+    const std::string name = "d" + std::to_string(i);
+    model.dofs.push_back({name + ".u", name + ".v", false, false});
+    Contact c;
+    c.name = name;
+    c.law = Law::slider;
+    c.tangent.terms = {{i, 1.0}};
+    c.normal_force = History::constant(1.0);
+    c.friction.static_ = c.friction.kinetic = 0.3;
+    c.tangential_stiffness = 50.0;
+    model.contacts.push_back(c);
+  }
+  if (n > 3) model.contacts.back().tangential_stiffness.reset();
+  model.u0 = model.v0 = Vector::LinSpaced(n, 0.1, 1.0);
+  return model;
+}
+
+/// Mode number i in a count to the base of stick and slip in both directions.
+Mode mode_number(std::size_t contacts, int i) {
+  constexpr State states[] = {State::stick, State::slip_plus, State::slip_minus};
+  Mode mode(contacts);
+  for (ContactState& s : mode) {
+    s = {states[i % 3], 0.01 * i};
+    i /= 3;
+  }
+  return mode;
+}
+
+Series series_in(ModeSystems& systems, const Mode& mode) {
+  const Model& model = systems.model();
+  const ModeSystemPtr system = systems.of(mode);
+  REQUIRE(system);
+  Series series;
+  Taylor(systems).expand(system, Forcing(model, 0.0, Side::after), 0.0, model.u0, model.v0, 8, 0.1, series);
+  return series;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/motion/state_systems");
+
+TEST_CASE("what is known is not factorised again; another anchor is the same matrix") {
+  const Model model = row_of_masses(3);
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  const Mode mode = mode_number(3, 5);
+  Mode moved = mode;
+  for (ContactState& s : moved) s.anchor += 1.0;
+  const ModeSystemPtr first = systems.of(mode), second = systems.of(moved);
+  CHECK(systems.made() == 1);
+  CHECK(&first->factorised() == &second->factorised());
+  const auto stuck = static_cast<std::size_t>(
+      std::find_if(mode.begin(), mode.end(), [](const ContactState& s) { return s.state == State::stick; }) -
+      mode.begin());
+  REQUIRE(stuck < mode.size());
+  CHECK(second->rows()[stuck].tangent.constant == 50.0 * moved[stuck].anchor);
+}
+
+TEST_CASE("count and bytes are bounded, whatever number of modes a run visits") {
+  for (const int masses : {3, 20}) {  // dense and sparse
+    CAPTURE(masses);
+    const Model model = row_of_masses(masses);
+    const Structure structure(model);
+    ModeSystems one(model, structure);
+    (void)one.of(mode_number(model.contacts.size(), 0));
+    const std::size_t each = one.bytes();
+    CHECK(each > 0);
+    ModeSystems by_count(model, structure, {4, 100 * each});
+    ModeSystems by_bytes(model, structure, {100, 4 * each + each / 2});
+    for (int i = 0; i < 27; ++i)
+      for (ModeSystems* systems : {&by_count, &by_bytes}) {
+        (void)systems->of(mode_number(model.contacts.size(), i));
+        CHECK(systems->held() <= 4 + (systems == &by_bytes ? 1 : 0));
+        CHECK(systems->bytes() <= 5 * each);
+      }
+    CHECK(by_count.held() == 4);
+    CHECK(by_count.made() == 27);
+  }
+}
+
+TEST_CASE("states whose forces follow from places and velocities are not held, and are the same each time") {
+  Model model = row_of_masses(20);
+  model.contacts.back().tangential_stiffness = 50.0;
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  const auto mode = [&](int i) { return mode_number(model.contacts.size(), i); };
+  const Series first = series_in(systems, mode(7));
+  REQUIRE(systems.of(mode(7))->factorised().by_mass);
+  (void)systems.of(mode(12));
+  const Series again = series_in(systems, mode(7));
+  CHECK((first.u.array() == again.u.array()).all());
+  CHECK((first.forces.array() == again.forces.array()).all());
+  CHECK(systems.made() == 3);
+  CHECK(systems.held() == 0);
+}
+
+TEST_CASE("a system greater than all bounds is held until the next one comes") {
+  const Model model = row_of_masses(3);
+  const Structure structure(model);
+  ModeSystems systems(model, structure, {10, 1});
+  const ModeSystemPtr first = systems.of(mode_number(3, 0));
+  CHECK(systems.held() == 1);
+  (void)systems.of(mode_number(3, 0));
+  CHECK(systems.made() == 1);
+  (void)systems.of(mode_number(3, 1));
+  CHECK(systems.held() == 1);
+  CHECK(first->rows().size() == 3);  // who carries one keeps it
+}
+
+TEST_CASE("what was used least recently goes") {
+  const Model model = row_of_masses(3);
+  const Structure structure(model);
+  ModeSystems systems(model, structure, {2, std::size_t{1} << 20});
+  const auto visit = [&](int i) {
+    const long before = systems.made();
+    (void)systems.of(mode_number(3, i));
+    return systems.made() > before;
+  };
+  CHECK(visit(0));
+  CHECK(visit(1));
+  CHECK_FALSE(visit(0));
+  CHECK(visit(2));  // in place of 1
+  CHECK_FALSE(visit(0));
+  CHECK(visit(1));
+}
+
+TEST_CASE("a series is the same to the last bit after its mode was dropped and made again") {
+  for (const int masses : {3, 20}) {
+    CAPTURE(masses);
+    const Model model = row_of_masses(masses);
+    const Structure structure(model);
+    ModeSystems large(model, structure), tiny(model, structure, {1, 1});
+    for (const int i : {0, 7, 12, 7, 0}) {
+      const Mode mode = mode_number(model.contacts.size(), i);
+      const Series a = series_in(large, mode), b = series_in(tiny, mode);
+      CHECK((a.u.array() == b.u.array()).all());
+      CHECK((a.forces.array() == b.forces.array()).all());
+    }
+    CHECK(large.made() == 3);
+    CHECK(tiny.made() == 5);
+  }
+}
+
+TEST_CASE("dependent rows are no system, and that is remembered too") {
+  Model model = row_of_masses(1);
+  Contact twin = model.contacts[0];
+  twin.law = Law::rigid;
+  twin.normal = std::exchange(twin.tangent, {});
+  twin.friction = {};
+  twin.tangential_stiffness.reset();
+  model.contacts[0] = twin;
+  twin.name = "twin";
+  model.contacts.push_back(twin);
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  for (int i = 0; i < 2; ++i) CHECK(systems.of({{State::closed, 0.0}, {State::closed, 0.0}}) == nullptr);
+  CHECK(systems.made() == 1);
+  CHECK(systems.of({{State::closed, 0.0}, {State::open, 0.0}}) != nullptr);
+}
+
+TEST_SUITE_END();

@@ -57,7 +57,7 @@ void table(const std::string& name, const Model& model) {
   const std::vector<std::int64_t> start(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1),
       row_index(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   const std::vector<double> values(a.valuePtr(), a.valuePtr() + a.nonZeros());
-  Klu klu(start, row_index);
+  linear::Klu klu(start, row_index);
   klu.factor(values);
   std::vector<double> x(static_cast<std::size_t>(a.rows()), 1.0), y;
   const double factor = time([&] { klu.refactor(values); });

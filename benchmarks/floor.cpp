@@ -50,7 +50,7 @@ Floor::Floor(sunindextype unknowns, int roots, double rtol, bool packaged) : m_(
   m.rtol = rtol;
   m.roots = roots;
   SUNContext_Create(nullptr, &m.context);
-  m.y = packaged ? N_VNew_Serial(unknowns, m.context) : make_vector(unknowns, m.context);
+  m.y = packaged ? N_VNew_Serial(unknowns, m.context) : ida::make_vector(unknowns, m.context);
   m.yp = N_VClone(m.y);
   N_VConst(0.0, m.y);
   N_VConst(1.0, m.yp);

@@ -60,7 +60,7 @@ void pipe(int unknowns, int contacts) {
   const double read = cpu();
   const Model model = build_model(scene);
   const double built = cpu();
-  const CheckReport report = check(scene, model);
+  const check::CheckReport report = check::check(scene, model);
   const double checked = cpu();
   fmt::print("{:>7} {:>4} {:>8.3f} {:>8.3f} {:>8.3f}", model.size(), model.contacts.size(), read - start,
              built - read, checked - built);

@@ -40,17 +40,17 @@ struct Bench {
       : model(model_of(n)),
         structure(model),
         systems(model, structure),
-        forcing(model, 0.0, Side::after),
-        mode(first_mode(model, forcing, 0.0, model.u0, model.v0)) {}
+        forcing(model, 0.0, motion::Side::after),
+        mode(decide::first_mode(model, forcing, 0.0, model.u0, model.v0)) {}
   const Model& model;
-  Structure structure;
-  ModeSystems systems;
-  Forcing forcing;
-  Mode mode;
+  linear::SystemMatrices structure;
+  motion::StateSystems systems;
+  motion::Forcing forcing;
+  contact::ContactStates mode;
 };
 
-std::vector<Weights> bdf_weights(const Model& model, double cj) {
-  return {static_cast<std::size_t>(model.size()), Weights{cj, 1.0, 1.0 / cj}};
+std::vector<linear::Weights> bdf_weights(const Model& model, double cj) {
+  return {static_cast<std::size_t>(model.size()), linear::Weights{cj, 1.0, 1.0 / cj}};
 }
 
 void ida_floor(State& state) {
@@ -64,7 +64,7 @@ void ida_floor(State& state) {
 
 void momentum(State& state) {
   const Bench b(state.range(0));
-  Momentum product(b.model, b.structure);
+  linear::StructuralForces product(b.model, b.structure);
   std::vector<double> r(static_cast<std::size_t>(b.model.size()));
   for (auto _ : state) {
     for (std::size_t i = 0; i < r.size(); ++i)
@@ -82,16 +82,16 @@ void damping_power(State& state) {
 
 void factor(State& state) {
   const Bench b(state.range(0));
-  SystemMatrix matrix(b.model, b.structure);
-  const auto rows = rows_of(b.model, b.mode);
+  linear::SystemMatrix matrix(b.model, b.structure);
+  const auto rows = linear::rows_of(b.model, b.mode);
   const auto weights = bdf_weights(b.model, 1e6);
   for (auto _ : state) DoNotOptimize(matrix.set(rows, weights, true));
 }
 
 void refactor(State& state) {
   const Bench b(state.range(0));
-  SystemMatrix matrix(b.model, b.structure);
-  const auto rows = rows_of(b.model, b.mode);
+  linear::SystemMatrix matrix(b.model, b.structure);
+  const auto rows = linear::rows_of(b.model, b.mode);
   const auto weights = bdf_weights(b.model, 1e6);
   matrix.set(rows, weights, true);
   for (auto _ : state) DoNotOptimize(matrix.set(rows, weights, false));
@@ -99,8 +99,8 @@ void refactor(State& state) {
 
 void solve(State& state) {
   const Bench b(state.range(0));
-  SystemMatrix matrix(b.model, b.structure);
-  matrix.set(rows_of(b.model, b.mode), bdf_weights(b.model, 1e6), true);
+  linear::SystemMatrix matrix(b.model, b.structure);
+  matrix.set(linear::rows_of(b.model, b.mode), bdf_weights(b.model, 1e6), true);
   std::vector<double> x(static_cast<std::size_t>(matrix.size()), 1.0), y = x;
   for (auto _ : state) {
     y = x;
@@ -112,10 +112,10 @@ void solve(State& state) {
 /// Taylor coefficients of one step of engine `exact`, 30 levels.
 void taylor(State& state) {
   Bench b(state.range(0));
-  const ModeSystemPtr system = b.systems.of(b.mode);
+  const motion::StateSystemPtr system = b.systems.of(b.mode);
   if (!system) return state.SkipWithError("singular");
-  Taylor series(b.systems);
-  Series out;
+  motion::Taylor series(b.systems);
+  motion::Series out;
   for (auto _ : state) {
     series.expand(system, b.forcing, 0.0, b.model.u0, b.model.v0, 30, 3.0 / b.model.omega_max, out);
     DoNotOptimize(out.u.data());
@@ -124,13 +124,14 @@ void taylor(State& state) {
 
 void newmark_step(State& state) {
   Bench b(state.range(0));
-  NewmarkStep step(b.model, b.structure);
-  const ModeSystemPtr system = b.systems.of(b.mode);
+  newmark::NewmarkStep step(b.model, b.structure);
+  const motion::StateSystemPtr system = b.systems.of(b.mode);
   if (!system) return state.SkipWithError("singular");
   step.set({}, system->rows(), system->kinds());
-  Point from{b.model.u0, b.model.v0, Vector::Zero(2 * static_cast<Eigen::Index>(b.model.contacts.size())),
-             Vector::Zero(b.model.size())};
-  Point to;
+  motion::Point from{b.model.u0, b.model.v0,
+                     Vector::Zero(2 * static_cast<Eigen::Index>(b.model.contacts.size())),
+                     Vector::Zero(b.model.size())};
+  motion::Point to;
   if (!step.take(b.forcing, from, 1e-5, 1e-5, true, to)) return state.SkipWithError("singular");
   for (auto _ : state) DoNotOptimize(step.take(b.forcing, from, 1e-5, 1e-5, true, to));
 }
@@ -138,9 +139,9 @@ void newmark_step(State& state) {
 /// The states at an instant, with all that a restart needs but the integrator's own.
 void decide(State& state) {
   Bench b(state.range(0));
-  Decider decider(b.systems, 1000, 0.0);
+  decide::ContactStateSolver decider(b.systems, 1000, 0.0);
   for (auto _ : state) {
-    Instant instant;
+    decide::Instant instant;
     instant.u = b.model.u0;
     instant.v = b.model.v0;
     instant.resolution = 1e-15;
@@ -152,7 +153,7 @@ void decide(State& state) {
 
 /// One guard's check at the end of a step: quick proof (0), Bernstein coefficients (1).
 void guard_polynomial(State& state) {
-  StepHistory history(1);
+  events::StepHistory history(1);
   *history.restart(0.0) = 1.0;
   for (int i = 1; i <= 8; ++i) {
     *history.push(0.1 * i, 0.1) = 1.0 + 0.01 * std::sin(i);

@@ -9,7 +9,7 @@ int main() {
   const double kn = 1e4, Y = 150.0;
   const OwnForm none{{.N = 1.0}}, elastic{{.N = 1.0, .gap = -kn}, kn}, crushed{{.N = 1.0, .constant = Y}};
   const OwnForm smooth{{.T = 1.0}};
-  auto pad = std::make_shared<OwnLaw>();
+  auto pad = std::make_shared<UserContactLaw>();
   pad->states = {
       {"off", open, none, smooth, {{{{.gap = 1.0}, -1.0}, 1}}},             // g - p falls: on
       {"on", closed, elastic, smooth, {{{{.N = -1.0}}, 0}, {crushed, 2}}},  // N = 0: off; N = -Y: crushed

@@ -58,7 +58,7 @@ struct Stop {
 /// Keeps the rows, hands them to a directory where there is one, and asks Python for interrupts.
 class Kept : public Result {
  public:
-  Kept(RunDirectory* directory, const Stop* stop) : directory_(directory), stop_(stop) {}
+  Kept(result::RunDirectory* directory, const Stop* stop) : directory_(directory), stop_(stop) {}
   void event(const Event& event) override {
     Result::event(event);
     if (directory_) directory_->event(event);
@@ -98,7 +98,7 @@ class Kept : public Result {
   [[nodiscard]] bool interrupted() const { return interrupted_; }
 
  private:
-  RunDirectory* directory_;
+  result::RunDirectory* directory_;
   const Stop* stop_;
   std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
   bool interrupted_ = false;
@@ -180,7 +180,7 @@ py::dict contact_tables(const Model& model, const std::vector<Result::Row>& rows
     table["N"] = of(&ContactSample::N);
     table["T"] = of(&ContactSample::T);
     table["ratio"] = column(rows, [&](const auto& row) {
-      return friction_ratio(model.contacts[k], row.contacts[k])
+      return result::friction_ratio(model.contacts[k], row.contacts[k])
           .value_or(std::numeric_limits<double>::quiet_NaN());
     });
     tables[model.contacts[k].name.c_str()] = table;
@@ -226,7 +226,7 @@ class Run {
  public:
   Run(Scene scene, const std::optional<std::string>& path, bool force, const Stop* stop)
       : scene_(std::move(scene)), model_(build_model(scene_)) {
-    std::optional<RunDirectory> directory;
+    std::optional<result::RunDirectory> directory;
     if (path) directory.emplace(*path, scene_, model_, RunDirectoryOptions{force, {"python"}});
     Kept kept(directory ? &*directory : nullptr, stop);
     report_ = simulate_certified(model_, scene_.run, kept, {{}, [&] { return kept.go_on(); }});
@@ -373,7 +373,7 @@ py::tuple find_orbit_of(const std::string& text, const std::string& file, const 
   {
     const py::gil_scoped_release free;
     const Orbit orbit = find_orbit(read, orbit_options(period, times, transient), &kept);
-    if (!kept.interrupted()) json = orbit_json(build_model(read({})), orbit);
+    if (!kept.interrupted()) json = orbit_study::orbit_json(build_model(read({})), orbit);
     if (orbit.found && !kept.interrupted())
       once = std::make_unique<Run>(orbit_scene(read, orbit), std::nullopt, false, nullptr);
   }
@@ -436,20 +436,21 @@ std::string check_scene(const std::string& text, const std::string& file, const 
   const Scene scene = parse_scene(text, file, overrides(settings));
   const py::gil_scoped_release free;
   const Model model = build_model(scene);
-  return check_json(scene, model, check(scene, model));
+  return check::check_json(scene, model, check::check(scene, model));
 }
 
 py::dict compare(const std::string& reference, const std::string& other) {
-  Comparison c;
+  compare::Comparison c;
   {
     const py::gil_scoped_release free;
-    c = compare_runs(read_compared_run(reference, "reference"), read_compared_run(other, "other"));
+    c = compare::compare_runs(compare::read_compared_run(reference, "reference"),
+                              compare::read_compared_run(other, "other"));
   }
   py::dict result;
   result["t_end"] = c.t_end;
   result["events"] = c.alignment.pairs.size();
   result["parted"] = c.alignment.split.has_value();
-  const auto add = [&](const char* name, const Deviation& d) {
+  const auto add = [&](const char* name, const compare::Deviation& d) {
     py::dict entry;
     entry["value"] = d.whole.value;
     entry["t"] = d.whole.t;

@@ -1,7 +1,7 @@
 # embed(OUTPUT FUNCTION FILE...): a C++ source with the text of the files, as `std::span<const EmbeddedFile> FUNCTION()`
 # (src/base/files.hpp). Written anew only where something changed; configured again when a file does.
 function(embed output function)
-  set(text "#include \"base/files.hpp\"\n\nnamespace signorini {\n\nnamespace {\n\n")
+  set(text "#include \"base/files.hpp\"\n\nnamespace signorini::base {\nnamespace {\n\n")
   string(APPEND text "constexpr EmbeddedFile ${function}_files[] = {\n")
   foreach(path IN LISTS ARGN)
     cmake_path(GET path FILENAME name)
@@ -10,7 +10,7 @@ function(embed output function)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${path}")
   endforeach()
   string(APPEND text "};\n\n}  // namespace\n\n")
-  string(APPEND text "std::span<const EmbeddedFile> ${function}() { return ${function}_files; }\n\n}  // namespace signorini\n")
+  string(APPEND text "std::span<const EmbeddedFile> ${function}() { return ${function}_files; }\n\n}  // namespace signorini::base\n")
   set(old "")
   if(EXISTS "${output}")
     file(READ "${output}" old)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Which folder of src/ includes which; fails where two include each other, directly or round about: rooms within
-# folders, and the folders themselves; and where two headers define types of one name.
+# folders, and the folders themselves; and where two headers define types of one name in one namespace.
 # includes.sh [--list]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../src"
@@ -21,8 +21,9 @@ for graph in arrows houses; do
 done
 
 # Two types of one name in one namespace are one to the linker, which takes either's functions and says nothing.
-twice=$(grep -rhoE '^(struct|class) [A-Za-z]+( final)?( :.*)? \{' --include='*.hpp' . ../include --exclude-dir=cli |
-  sed -E 's/^(struct|class) ([A-Za-z]+).*/\2/' | sort | uniq -d)
+twice=$(find . ../include -name '*.hpp' -print0 | xargs -0 awk '
+  /^namespace [a-z_:]+ \{/ { space = $2 }
+  /^(struct|class) [A-Za-z]+( final)?( :.*)? \{/ { print space "::" $2 }' | sort | uniq -d)
 if [[ -n "$twice" ]]; then
   echo "includes.sh: headers that define types of one name: $twice" >&2
   exit 1

@@ -10,7 +10,12 @@ long_functions() {
     FNR == 1 { first[0] = first[2] = raw = 0 }
     raw { if (/\)"/) raw = 0; next }
     /R"\(/ && !/R"\(.*\)"/ { raw = 1; next }
-    !/^(  )?[^ #\/]/ || /^ *(public|private|protected):/ { next }
+    !/^(  )?[^ #\/]/ {
+      for (i = 0; i <= 2; i += 2)
+        if (first[i] && !opened[i]) { if (/\{$/) opened[i] = 1; else if (/;$/) first[i] = 0 }
+      next
+    }
+    /^ *(public|private|protected):/ { next }
     { indent = /^ / ? 2 : 0 }
     /^ *}/ {
       length_ = FNR - first[indent] + 1
@@ -22,6 +27,7 @@ long_functions() {
     /;$/ && !/{/ { first[indent] = 0; next }
     /\(/ && !first[indent] && !/^ *(namespace|using|struct|class|enum|return|if|for|while|switch|else|do) / {
       first[indent] = FNR
+      opened[indent] = /\{$/
       head[indent] = $0
     }'
 }

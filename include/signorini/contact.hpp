@@ -77,7 +77,7 @@ struct Contact {
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
   std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
-  std::optional<Bowl> bowl;           ///< not for rigid contacts
+  std::optional<CurvedSurface> bowl;  ///< not for rigid contacts
   double normal_damping = 0.0;        ///< dashpot beside the normal spring
   Friction friction;
   double restitution = 0.0;                ///< rigid: Newton's coefficient
@@ -134,7 +134,7 @@ struct Contact {
   }
   /// Curved surface: in addition to T a force acts along body_tangent() that is a product of N and ut
   /// (contact/curved_surface.hpp). nullptr: the surface is plane.
-  [[nodiscard]] const Bowl* curved_surface() const { return bowl ? &*bowl : nullptr; }
+  [[nodiscard]] const CurvedSurface* curved_surface() const { return bowl ? &*bowl : nullptr; }
   /// True if forces are linear in the motion in each state, with constant coefficients.
   [[nodiscard]] bool is_linear() const { return !friction.varies() && !friction.by_force() && !bowl; }
   /// True for springs of constant stiffness and Coulomb friction without any other force: statics and closed-form flows

@@ -26,7 +26,7 @@ struct ContactState;
 struct ContactWork;
 struct GuardForm;
 struct MotionJet;
-struct OwnLaw;
+struct UserContactLaw;
 struct Rows;
 struct Unit;
 struct Violations;
@@ -126,7 +126,7 @@ class ContactLawPtr {
   ContactLawPtr(std::shared_ptr<const ContactLaw> law)
       : law_(std::move(law)) {}  // NOLINT(google-explicit-constructor)
   /// A user law.
-  ContactLawPtr(std::shared_ptr<const OwnLaw> law);  // NOLINT(google-explicit-constructor)
+  ContactLawPtr(std::shared_ptr<const UserContactLaw> law);  // NOLINT(google-explicit-constructor)
 
   const ContactLaw* operator->() const { return law_.get(); }
   const ContactLaw& operator*() const { return *law_; }

@@ -25,7 +25,7 @@ enum class ExitCode : int {
 /// A place in a text file; line and column count from 1, 0 means unknown.
 struct SourcePlace {
   static constexpr int command_line = -1;  ///< as a line: the command line; `file` is then the text that the
-                                           ///< user typed (Override::told)
+                                           ///< user typed (Override::shown_as)
 
   std::string file;
   int line = 0;

@@ -14,7 +14,7 @@
 
 namespace signorini {
 
-/// inside: open with g < 0, where a dashpot has released before the gap opened. held_plus, held_minus: friction is at
+/// inside: open with g < 0, where a dashpot has released before the gap opened. static_limit_plus, static_limit_minus: friction is at
 /// its static limit and the contact does not slip, because other sticking contacts prevent it; they count as slip_plus,
 /// slip_minus.
 enum class State : unsigned char {
@@ -24,8 +24,8 @@ enum class State : unsigned char {
   stick,
   slip_plus,
   slip_minus,
-  held_plus,
-  held_minus
+  static_limit_plus,
+  static_limit_minus
 };
 
 /// State i of a user law (user_contact_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in state, and counts
@@ -44,7 +44,7 @@ inline constexpr std::size_t most_own_states = 31;
 }
 /// True if friction is at the static limit and the contact does not slip.
 [[nodiscard]] constexpr bool is_held(State state) {
-  return state == State::held_plus || state == State::held_minus;
+  return state == State::static_limit_plus || state == State::static_limit_minus;
 }
 
 /// "open" (inside too), "closed", "stick", "slip+", "slip-"; for a user-law state its kind.
@@ -58,24 +58,26 @@ inline constexpr std::size_t most_own_states = 31;
 
 /// One contact at one instant (or a time derivative of it).
 struct ContactMotion {
-  double N = 0.0, T = 0.0;                     ///< force
-  double gap = 0.0, ut = 0.0;                  ///< length; ut relative to the surface
-  double vn = 0.0, vt = 0.0;                   ///< g', ut'
-  double an = 0.0, at = 0.0;                   ///< g'', ut''
-  double pressing = 0.0, pressing_rate = 0.0;  ///< normal_force(t) and its rate; sliders
-  double limit = 0.0, limit_rate = 0.0;        ///< F and its rate; only for friction that depends on N
+  double N = 0.0, T = 0.0;     ///< force
+  double gap = 0.0, ut = 0.0;  ///< length; ut relative to the surface
+  double vn = 0.0, vt = 0.0;   ///< g', ut'
+  double an = 0.0, at = 0.0;   ///< g'', ut''
+  double applied_normal_force = 0.0,
+         applied_normal_force_rate = 0.0;  ///< normal_force(t) and its rate; sliders
+  double limit = 0.0, limit_rate = 0.0;    ///< F and its rate; only for friction that depends on N
 };
 
 struct Form {
   double N = 0.0, T = 0.0, gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, an = 0.0, at = 0.0;
-  double pressing = 0.0, pressing_rate = 0.0;
+  double applied_normal_force = 0.0, applied_normal_force_rate = 0.0;
   double limit = 0.0, limit_rate = 0.0;
   double constant = 0.0;
 
   /// Value of the form without its constant, to be applied to a time derivative of the motion.
   [[nodiscard]] double rate(const ContactMotion& m) const {
     return N * m.N + T * m.T + gap * m.gap + ut * m.ut + vn * m.vn + vt * m.vt + an * m.an + at * m.at +
-           pressing * m.pressing + pressing_rate * m.pressing_rate + limit * m.limit +
+           applied_normal_force * m.applied_normal_force +
+           applied_normal_force_rate * m.applied_normal_force_rate + limit * m.limit +
            limit_rate * m.limit_rate;
   }
   [[nodiscard]] double value(const ContactMotion& m) const { return constant + rate(m); }
@@ -83,12 +85,25 @@ struct Form {
   [[nodiscard]] double magnitude(const ContactMotion& m) const {
     return std::abs(N * m.N) + std::abs(T * m.T) + std::abs(gap * m.gap) + std::abs(ut * m.ut) +
            std::abs(vn * m.vn) + std::abs(vt * m.vt) + std::abs(an * m.an) + std::abs(at * m.at) +
-           std::abs(pressing * m.pressing) + std::abs(pressing_rate * m.pressing_rate) +
-           std::abs(limit * m.limit) + std::abs(limit_rate * m.limit_rate);
+           std::abs(applied_normal_force * m.applied_normal_force) +
+           std::abs(applied_normal_force_rate * m.applied_normal_force_rate) + std::abs(limit * m.limit) +
+           std::abs(limit_rate * m.limit_rate);
   }
   [[nodiscard]] bool operator==(const Form&) const = default;
   [[nodiscard]] Form operator-() const {
-    return {-N, -T, -gap, -ut, -vn, -vt, -an, -at, -pressing, -pressing_rate, -limit, -limit_rate, -constant};
+    return {-N,
+            -T,
+            -gap,
+            -ut,
+            -vn,
+            -vt,
+            -an,
+            -at,
+            -applied_normal_force,
+            -applied_normal_force_rate,
+            -limit,
+            -limit_rate,
+            -constant};
   }
 };
 

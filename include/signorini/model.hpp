@@ -140,7 +140,7 @@ struct DrawnContact {
 /// Share of the left-out modes in a form's static compliance, the displacement along the form under a unit force along
 /// it (rigid-body motions excluded). The reduced model keeps this share, without inertia.
 struct ComplianceShare {
-  std::string what;         ///< "normal of contact 'first'", "load 1"
+  std::string label;        ///< "normal of contact 'first'", "load 1"
   int contact = -1;         ///< index into Model::contacts; -1: a load
   bool normal = false;      ///< true: the contact's normal, false: its tangent
   double compliance = 0.0;  ///< compliance of all modes with stiffness
@@ -202,7 +202,7 @@ struct SeenLoad {
 
 /// Result of run.geometric: Model::stiffness includes the geometric stiffness of these forces.
 struct Geometric {
-  FrozenForces forces;
+  Prestress forces;
   /// Load factors of buckling: the lowest multiples (> 0, ascending) of these forces at which some motion has no
   /// stiffness, with the contacts of the start. A factor up to 1 means that the structure is unstable. Empty: none
   /// exists, or none was requested.

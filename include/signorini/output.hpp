@@ -28,12 +28,13 @@ struct Output {
     double N = 0.0, T = 0.0;  ///< factors of both forces
   };
   std::vector<ContactForces> forces = {};
-  /// factor (|N| - said) slip . u: restoring force of a pendulum's surface in addition to its spring, whose stiffness
-  /// is that for the force `said`.
+  /// factor (|N| - scene_force) slip . u: restoring force of a pendulum's surface in addition to its spring, whose stiffness
+  /// is that for the force `scene_force`.
   struct Restoring {
     std::size_t contact = 0;
     Combination slip = {};
-    double factor = 0.0, said = 0.0;  ///< factor: unit of the output over force and length; said: force
+    double factor = 0.0,
+           scene_force = 0.0;  ///< factor: unit of the output over force and length; scene_force: force
   };
   std::vector<Restoring> restoring = {};
   struct Given {

@@ -93,7 +93,8 @@ struct InstantRow {
   double resolution = 0.0;  ///< times closer than this are one instant
   double forgiven = 0.0;    ///< violation of the states that were accepted as undecided, in units of their
                             ///< rounding errors
-  double dependence = 1.0;  ///< engine `exact`: condition of the modes, the factor by which roundings of
+  double eigenvector_condition =
+      1.0;                  ///< engine `exact`: condition of the modes, the factor by which roundings of
                             ///< modal sums grow
   bool start = false;       ///< start of the run
   bool breakpoint = false;  ///< the forcing is not smooth here
@@ -251,8 +252,8 @@ struct Violation {
   int contact = -1;   ///< -1: the structure
   std::string law;    ///< "momentum", "restitution", ...
   double value = 0.0, limit = 0.0;
-  Unit unit = {};      ///< unit of value and limit
-  bool grave = false;  ///< no recorded quantity and no tolerance explains it: the run ends
+  Unit unit = {};            ///< unit of value and limit
+  bool unexplained = false;  ///< no recorded quantity and no tolerance explains it: the run ends
 };
 
 /// Results of the witness of a run.

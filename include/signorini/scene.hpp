@@ -119,7 +119,7 @@ struct RunSpec {
   double flight_tolerances = 1.0;
   double relaxation = 1.0;   ///< friction-iteration: relaxation factor of a bound, in (0, 1]
   int max_iterations = 100;  ///< friction-iteration: limit for each step; beyond it the run stops
-  bool geometric = false;    ///< static forces have a geometric stiffness (FrozenForces)
+  bool geometric = false;    ///< static forces have a geometric stiffness (Prestress)
   SourcePlace place = {};
   SourcePlace geometric_place = {};
 
@@ -138,7 +138,7 @@ struct StageSpec {
 };
 
 /// Static forces whose geometric stiffness acts in a run (run.geometric).
-struct FrozenForces {
+struct Prestress {
   /// Axial force of a finite element at its two nodes, tension positive.
   struct Element {
     std::string from, to;
@@ -177,7 +177,7 @@ struct SavedState {
   /// Scales of the run, so that tolerances and the limit of rest do not change: displacement, rotation, velocity,
   /// angular velocity, force.
   std::optional<std::array<double, 5>> scales;
-  std::optional<FrozenForces> frozen;                   ///< forces of the run, if it had run.geometric
+  std::optional<Prestress> frozen;                      ///< forces of the run, if it had run.geometric
   std::vector<std::pair<std::string, double>> carried;  ///< carried loads of pendulums in the run's K, by
                                                         ///< name
   std::vector<std::string> differing;  ///< tables in which the structure of the run's scene differs
@@ -393,7 +393,7 @@ inline constexpr std::array friction_constants = {
 
 /// A curved surface of this radius under a varying force: |N| ut / radius drives the body back; its constant part
 /// carried ut / radius is in K (contact/curved_surface.hpp).
-struct Bowl {
+struct CurvedSurface {
   double radius = 0.0, carried = 0.0;
 };
 
@@ -415,11 +415,11 @@ struct ContactSpec {
   std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds come to rest; absent: from the
                                                 ///< tolerances
   SourcePlace place = {};
-  std::optional<Bowl> bowl = {};  ///< surface of a pendulum; `carried` is part of the springs
-  std::string table = {};         ///< its table, "contacts.first", "stops.guide"; empty: contacts.NAME
+  std::optional<CurvedSurface> bowl = {};  ///< surface of a pendulum; `carried` is part of the springs
+  std::string table = {};  ///< its table, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// User law in place of the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
-  std::shared_ptr<const OwnLaw> own = {};
+  std::shared_ptr<const UserContactLaw> own = {};
 
   /// Capabilities of the named law; a user law replaces a compliant one.
   [[nodiscard]] LawCapabilities capabilities() const { return capabilities_of(law); }
@@ -580,7 +580,8 @@ struct Scene {
 /// One `--set path=value`.
 struct Override {
   std::string path, value;
-  std::string told = {};  ///< text of the override in messages, as the user typed it; empty: --set path=value
+  std::string shown_as =
+      {};  ///< text of the override in messages, as the user typed it; empty: --set path=value
 };
 
 /// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError,

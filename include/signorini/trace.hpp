@@ -31,7 +31,7 @@ struct NamedGuard {
 struct Round {
   double t = 0.0;
   int number = 0;                     ///< 0: the states just before, with the forcing just after
-  std::vector<NamedGuard> fired;      ///< guards that the engine found at zero
+  std::vector<NamedGuard> triggered;  ///< guards that the engine found at zero
   std::vector<std::size_t> touching;  ///< rigid contacts with g = 0 that were decided together
   bool impact = false;                ///< velocities jumped before the mode was tried
   std::vector<ContactState> tried;    ///< one per contact

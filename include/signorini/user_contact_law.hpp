@@ -8,7 +8,7 @@
 // All are linear forms (form.hpp), with a coefficient for the memory p, a length, such as the anchor of friction or the
 // dent of crushed material. Every normal row must contain N, every tangent row T; forms on accelerations are refused.
 //
-//   auto pad = std::make_shared<OwnLaw>();         a pad that yields at -Y (src/contact/law/yielding_pad.cpp)
+//   auto pad = std::make_shared<UserContactLaw>();         a pad that yields at -Y (src/contact/law/yielding_pad.cpp)
 //   pad->states = {{"off", State::open, {{.N = 1}}, {{.T = 1}}, {{{{.gap = 1}, -1}, 1}}},
 //                  {"on", State::closed, ...}};
 //   scene.contacts[0].own = pad;
@@ -50,7 +50,7 @@ struct OwnState {
   std::vector<OwnGuard> guards = {};  ///< at most three
 };
 
-struct OwnLaw {
+struct UserContactLaw {
   std::string name = {};         ///< name in check, messages and summary.json; empty: "compliant", like its
                                  ///< springs
   std::vector<OwnState> states;  ///< at most most_own_states; a run begins in the first one

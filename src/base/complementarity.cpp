@@ -8,7 +8,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::base {
 namespace {
 
 /// The system w - M z - d z0 = q in the current basis. Columns: w, z, z0, right-hand side.
@@ -136,4 +136,4 @@ std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, c
   return std::nullopt;
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace signorini {
+namespace signorini::base {
 
 /// z (length n), or nullopt if the method ends in a ray. M: n x n, any; rows of M and q should have similar magnitudes.
 /// d: another d gives another sequence of pivots, useful if rounding has led to a ray.
@@ -22,4 +22,4 @@ namespace signorini {
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M,
                                                                    const Eigen::VectorXd& q);
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace signorini {
+namespace signorini::base {
 
 struct CacheBounds {
   std::size_t count = 0, bytes = 0;
@@ -141,4 +141,4 @@ class SharedVector {
   std::vector<std::shared_ptr<const T[]>> pieces_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -6,7 +6,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::base {
 namespace {
 
 using Powers = std::array<double, Along::most>;  // a_0 + a_1 y + ..., y = 2x - 1 in [-1, 1]
@@ -111,4 +111,4 @@ Along::Extremes Along::extremes(const Values& f, std::size_t n) {
   return e;
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace signorini {
+namespace signorini::base {
 
 // Low-degree polynomial through values at points along a line.
 //
@@ -51,7 +51,7 @@ struct Along {
 /// Values{}(row): an array of `count` quantities; bins keep the extremes of the first `drawn`. Rows have an ascending
 /// time t; it may repeat.
 template <class Row, std::size_t count, class Values, std::size_t drawn = count>
-class Thinned {
+class Downsampled {
  public:
   using Quantities = std::array<double, count>;
 
@@ -65,7 +65,7 @@ class Thinned {
     /// Lines leave no gap of more than this.
     double widest = std::numeric_limits<double>::infinity();
   };
-  Thinned(double duration, const Wanted& wanted)
+  Downsampled(double duration, const Wanted& wanted)
       : duration_(duration), wanted_(wanted), limit_(room(wanted.most)) {
     least_.fill(std::numeric_limits<double>::infinity());
     greatest_.fill(-std::numeric_limits<double>::infinity());
@@ -222,4 +222,4 @@ class Thinned {
   std::size_t settled_ = 0;  // last row processed with the current c
 };
 
-}  // namespace signorini
+}  // namespace signorini::base

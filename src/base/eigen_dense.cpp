@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace signorini {
+namespace signorini::base {
 namespace {
 
 Eigen::VectorXd values_of(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& solver) {
@@ -164,4 +164,4 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
   return a.completeOrthogonalDecomposition().pseudoInverse();
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace signorini {
+namespace signorini::base {
 
 struct EigenPairs {
   Eigen::VectorXd values;   ///< ascending
@@ -73,4 +73,4 @@ struct EigenPairs {
 /// Pseudo-inverse, m x n, for A: n x m of any rank.
 [[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -6,7 +6,7 @@
 
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::base {
 
 namespace fs = std::filesystem;
 
@@ -37,13 +37,13 @@ void check_output_directory(const fs::path& path, const ResultsKind& kind, bool 
   if (error) throw FileError(path.string(), "cannot be looked into: " + error.message());
   if (empty) return;
   if (!replace)
-    throw FileError(
-        path.string(),
-        fmt::format("directory exists and is not empty; use --force to replace the {} in it", kind.what));
+    throw FileError(path.string(),
+                    fmt::format("directory exists and is not empty; use --force to replace the {} in it",
+                                kind.description));
   if (!fs::exists(path / kind.marker, error))
     throw FileError(path.string(),
-                    fmt::format("is not empty and holds no {} (no {}) that --force could replace", kind.what,
-                                kind.marker));
+                    fmt::format("is not empty and holds no {} (no {}) that --force could replace",
+                                kind.description, kind.marker));
 }
 
 void check_output_file(const fs::path& path, const std::string& what, std::string_view mark) {
@@ -93,4 +93,4 @@ std::string file_name(std::string_view text, std::size_t most, std::string_view 
   return name;
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace signorini {
+namespace signorini::base {
 
 // Checks a file before it is read.
 
@@ -26,7 +26,7 @@ namespace signorini {
 
 /// Kind of a directory of results: "run", with summary.json as the file that identifies it.
 struct ResultsKind {
-  std::string what, marker;
+  std::string description, marker;
 };
 
 /// replace: earlier results may be replaced (--force).
@@ -63,4 +63,4 @@ struct EmbeddedFile {
 /// Parts of the page of `report`: src/report/page.
 [[nodiscard]] std::span<const EmbeddedFile> page_parts();
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <istream>
 
-namespace signorini {
+namespace signorini::base {
 
 namespace {
 
@@ -40,4 +40,4 @@ Json parse_json(std::istream& stream) { return Json::parse(stream); }
 
 Json parse_json(const std::string& text) { return Json::parse(text); }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace signorini {
+namespace signorini::base {
 
 using Json = nlohmann::ordered_json;
 
@@ -18,4 +18,4 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json parse_json(std::istream& stream);
 [[nodiscard]] Json parse_json(const std::string& text);
 
-}  // namespace signorini
+}  // namespace signorini::base

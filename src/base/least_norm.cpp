@@ -7,7 +7,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::base {
 namespace {
 
 using Eigen::Index;
@@ -117,4 +117,4 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
   return best;
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -19,7 +19,7 @@
 #include <optional>
 #include <vector>
 
-namespace signorini {
+namespace signorini::base {
 
 /// A convex set of the components of one contact: consecutive entries of x.
 struct ConvexSet {
@@ -35,4 +35,4 @@ struct ConvexSet {
 [[nodiscard]] std::optional<Eigen::VectorXd> least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
                                                         const std::vector<ConvexSet>& sets);
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <thread>
 
-namespace signorini {
+namespace signorini::base {
 
 Machine this_machine() {
   Machine machine{"unknown processor", processors(), "g++ " __VERSION__};
@@ -33,4 +33,4 @@ std::size_t processors() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace signorini {
+namespace signorini::base {
 
 struct Machine {
   std::string processor;  ///< as the system names it; otherwise "unknown processor"
@@ -17,4 +17,4 @@ struct Machine {
 /// Number of processors available to this process.
 [[nodiscard]] std::size_t processors();
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -13,7 +13,7 @@
 #include "base/version.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::base {
 
 namespace fs = std::filesystem;
 
@@ -185,4 +185,4 @@ std::string why_unchecked(const fs::path& directory) {
   return why;
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace signorini {
+namespace signorini::base {
 
 inline constexpr const char* manifest_file = "manifest.json";
 
@@ -66,4 +66,4 @@ void check_run_files(const std::filesystem::path& directory, const std::vector<s
 /// manifest.
 [[nodiscard]] std::string why_unchecked(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace signorini {
+namespace signorini::base {
 namespace {
 
 template <class Number>
@@ -199,4 +199,4 @@ bool read_csv_row(std::istream& in, std::vector<std::string>& cells) {
   return false;
 }
 
-}  // namespace signorini
+}  // namespace signorini::base

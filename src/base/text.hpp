@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace signorini {
+namespace signorini::base {
 
 /// The shortest digits that read back exactly (std::to_chars): "1e-08", "0.3", "100", "inf", "nan".
 [[nodiscard]] std::string shortest(double value);
@@ -100,4 +100,4 @@ class Fingerprint {
 /// 100 MB (a million degrees of freedom need 40), which is invalid.
 [[nodiscard]] bool read_csv_row(std::istream& in, std::vector<std::string>& cells);
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -7,7 +7,7 @@
 // support the selection, only the narrow version exists.
 #pragma once
 
-namespace signorini {
+namespace signorini::base {
 
 #if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
@@ -33,4 +33,4 @@ template <class T>
 }
 [[gnu::always_inline]] inline double sum_of_lanes(const Four& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
-}  // namespace signorini
+}  // namespace signorini::base

@@ -59,41 +59,41 @@ class QuietThread {
   std::thread thread_;
 };
 
-std::optional<Track::Objection> objection_of(const Report& report, const Model& model,
-                                             const std::string& where = "") {
+std::optional<certify::Track::Objection> objection_of(const Report& report, const Model& model,
+                                                      const std::string& where = "") {
   if (report.witness.violations.empty()) return std::nullopt;
   const Violation& first = report.witness.violations.front();
-  return Track::Objection{first.t, where + sentence_of(first, model)};
+  return certify::Track::Objection{first.t, where + run::sentence_of(first, model)};
 }
 
 /// Decisions that a companion leaves open, and the shifts of its events.
-class CompanionWatch final : public RunListener, public EventShift {
+class CompanionWatch final : public run::RunListener, public run::EventShift {
  public:
-  CompanionWatch(const CompanionRun& run, Tracker& tracker)
+  CompanionWatch(const certify::CompanionRun& run, certify::CompanionTracker& tracker)
       : tracker_(tracker), seed_(run.seed), moved_(run.moved) {}
   /// A shift of this event by the companion itself is not a difference between the runs: it affects later events only.
-  void instant(const RunInstant& instant) override {
-    tracker_.moved = instant.fired.empty() ? 0.0 : by_ / instant.t;
+  void instant(const run::RunInstant& instant) override {
+    tracker_.moved = instant.triggered.empty() ? 0.0 : by_ / instant.t;
   }
-  void end(const RunPoint& /*last*/, const StepperReport& engine) override {
+  void end(const run::RunPoint& /*last*/, const engine::StepperReport& engine) override {
     first = engine.graze;
     near = engine.near_hits;
   }
-  double shift(const Step& step) override {
+  double shift(const engine::Step& step) override {
     const double length = step.end - step.begin;
-    const double hidden = step.resolution - resolution_at(step.end, length);
+    const double hidden = step.resolution - motion::resolution_at(step.end, length);
     by_ = 0.0;
     if (moved_ > 0.0 && hidden > 0.0)
-      by_ = sign_by_chance(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
+      by_ = certify::sign_by_chance(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
     return by_;
   }
   /// Random step lengths give independent samples of rounding that accumulates from step to step.
-  [[nodiscard]] ListenerNeeds needs() const { return {nullptr, true, seed_}; }
-  std::optional<Graze> first;
-  std::vector<NearHit> near;
+  [[nodiscard]] run::ListenerNeeds needs() const { return {nullptr, true, seed_}; }
+  std::optional<events::Graze> first;
+  std::vector<events::NearHit> near;
 
  private:
-  Tracker& tracker_;
+  certify::CompanionTracker& tracker_;
   std::uint64_t seed_, events_ = 0;
   double moved_, by_ = 0.0;
 };
@@ -101,7 +101,8 @@ class CompanionWatch final : public RunListener, public EventShift {
 /// One companion run, from beginning to end.
 class CompanionTask {
  public:
-  CompanionTask(CompanionRun run, const Leash& leash, double most_steps, bool forces)
+  CompanionTask(certify::CompanionRun run, const certify::CompanionLimit& leash, double most_steps,
+                bool forces)
       : run_(std::move(run)), tracker_(run_.model, forces), watch_(run_, tracker_) {
     tracker_.leash = &leash;
     tracker_.most_steps = most_steps;
@@ -110,21 +111,21 @@ class CompanionTask {
   /// Stores errors: a companion never ends its run.
   void compute() {
     try {
-      report_ = simulate(run_.model, run_.run, tracker_, watch_, watch_.needs(), &watch_);
+      report_ = run::simulate(run_.model, run_.run, tracker_, watch_, watch_.needs(), &watch_);
     } catch (const std::exception& error) {
       failure_ = error.what();
     }
   }
 
   [[nodiscard]] double wall_time() const { return report_.wall_time; }
-  [[nodiscard]] Track track() {
-    Track track{std::move(tracker_.events),
-                report_.outcome.t,
-                "",
-                report_.forgiven_at,
-                watch_.first,
-                objection_of(report_, run_.model, "in the companion, "),
-                name_of(run_.run.engine).accuracy == Accuracy::rounding};
+  [[nodiscard]] certify::Track track() {
+    certify::Track track{std::move(tracker_.events),
+                         report_.outcome.t,
+                         "",
+                         report_.forgiven_at,
+                         watch_.first,
+                         objection_of(report_, run_.model, "in the companion, "),
+                         name_of(run_.run.engine).accuracy == Accuracy::rounding};
     if (!failure_.empty()) {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
@@ -137,12 +138,12 @@ class CompanionTask {
     }
     return track;
   }
-  [[nodiscard]] Kept kept() const { return {&tracker_.rows, &report_}; }
-  [[nodiscard]] const std::vector<NearHit>& near_hits() const { return watch_.near; }
+  [[nodiscard]] certify::Kept kept() const { return {&tracker_.rows, &report_}; }
+  [[nodiscard]] const std::vector<events::NearHit>& near_hits() const { return watch_.near; }
 
  private:
-  CompanionRun run_;
-  Tracker tracker_;
+  certify::CompanionRun run_;
+  certify::CompanionTracker tracker_;
   CompanionWatch watch_;
   Report report_;
   std::string failure_;
@@ -152,27 +153,27 @@ class CompanionTask {
 /// use its processor, too.
 class Companions {
  public:
-  Companions(std::vector<CompanionRun> runs, double most_steps, bool forces) {
-    for (CompanionRun& run : runs)
-      tasks_.push_back(std::make_unique<CompanionTask>(std::move(run), leash_, most_steps, forces));
+  Companions(std::vector<certify::CompanionRun> runs, double most_steps, bool forces) {
+    for (certify::CompanionRun& run : runs)
+      tasks_.push_back(std::make_unique<CompanionTask>(std::move(run), limit_, most_steps, forces));
   }
-  ~Companions() { leash_.stop(); }
+  ~Companions() { limit_.stop(); }
   Companions(const Companions&) = delete;
   Companions& operator=(const Companions&) = delete;
 
   /// Starts them beside the run, which uses one processor.
   void begin() {
-    const std::size_t beside = std::min(tasks_.size(), processors() - 1);
+    const std::size_t beside = std::min(tasks_.size(), base::processors() - 1);
     while (threads_.size() < beside) start();
   }
   /// The run has reached `reached`: companions need not go further. Waits until all have ended, or go_on returns false.
   void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
-    leash_.stop_at(reached);
-    if (interrupted) leash_.stop();
+    limit_.stop_at(reached);
+    if (interrupted) limit_.stop();
     if (threads_.size() < tasks_.size()) start();
     std::unique_lock lock(mutex_);
     while (!ended_.wait_for(lock, now_and_then, [this] { return done_ == tasks_.size(); }))
-      if (!go_on()) leash_.stop();
+      if (!go_on()) limit_.stop();
   }
 
   [[nodiscard]] const std::vector<std::unique_ptr<CompanionTask>>& tasks() const { return tasks_; }
@@ -190,7 +191,7 @@ class Companions {
     }
   }
 
-  Leash leash_;
+  certify::CompanionLimit limit_;
   std::vector<std::unique_ptr<CompanionTask>> tasks_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
@@ -200,66 +201,67 @@ class Companions {
 };
 
 /// True if a run is certified without a request.
-bool is_cheap(const CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
+bool is_cheap(const certify::CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
 
 /// Reason why the run is not certified. The cost ratio of two runs with one engine is well known; for two engines it is
 /// not, but by then the duration of the run and the number of its restarts are known.
-std::string why_not(const Model& model, const RunSpec& run, const CompanionPlan& plan, const Report& report) {
+std::string why_not(const Model& model, const RunSpec& run, const certify::CompanionPlan& plan,
+                    const Report& report) {
   if (!(plan.cost > 0.0))
     return "the cost of a companion run cannot be estimated for this scene; --certify starts one";
   if (plan.runs.front().run.engine == run.engine)
     return fmt::format(
         "a companion run would take about {:.2g} times as long as the run; --certify starts one", plan.cost);
   double seconds = plan.seconds;
-  if (engine_row(plan.runs.front().run.engine).can.closed_flow)
-    seconds += static_cast<double>(report.counters.restarts) * seconds_of_event(model);
+  if (run::engine_row(plan.runs.front().run.engine).can.closed_flow)
+    seconds += static_cast<double>(report.counters.restarts) * run::seconds_of_event(model);
   return fmt::format(
       "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "
       "--certify starts one",
-      plan.name, about_seconds(seconds), report.wall_time);
+      plan.name, run::about_seconds(seconds), report.wall_time);
 }
 
-Certificate certificate_of(const Model& model, const RunSpec& run, const CompanionPlan& plan,
-                           Companions& companions, Tracker& own, const Report& report) {
+Certificate certificate_of(const Model& model, const RunSpec& run, const certify::CompanionPlan& plan,
+                           Companions& companions, certify::CompanionTracker& own, const Report& report) {
   Certificate result;
   result.companion = plan.name;
   result.choice = plan.choice;
   result.factor = plan.factor;
-  std::vector<Track> tracks;
-  std::vector<Kept> kept;
-  const Kept kept_run{&own.rows, &report};
+  std::vector<certify::Track> tracks;
+  std::vector<certify::Kept> kept;
+  const certify::Kept kept_run{&own.rows, &report};
   for (const auto& task : companions.tasks()) {
     tracks.push_back(task->track());
     kept.push_back(task->kept());
-    const auto open = first_open_hit(model, kept_run, kept.back(), task->near_hits(), plan.factor);
-    if (std::optional<Track::Objection>& first = tracks.back().objection;
+    const auto open = certify::first_open_hit(model, kept_run, kept.back(), task->near_hits(), plan.factor);
+    if (std::optional<certify::Track::Objection>& first = tracks.back().objection;
         open && (!first || open->t < first->t))
       first = open;
     result.wall_time += task->wall_time();
   }
   std::vector<std::string> names;
   for (const Contact& contact : model.contacts) names.push_back(contact.name);
-  for (TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
-  const Track track{
-      std::move(own.events),
-      report.outcome.t,
-      "",
-      report.forgiven_at,
-      {},
-      plan.doubt.empty() ? objection_of(report, model) : std::optional(Track::Objection{0.0, plan.doubt})};
-  Verdict verdict =
-      judge(track, tracks, plan.factor, names, name_of(run.engine).accuracy == Accuracy::rounding);
-  BoundSettings settings{plan.factor, tolerance_of(model, run)};
+  for (certify::TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
+  const certify::Track track{std::move(own.events),
+                             report.outcome.t,
+                             "",
+                             report.forgiven_at,
+                             {},
+                             plan.doubt.empty() ? objection_of(report, model)
+                                                : std::optional(certify::Track::Objection{0.0, plan.doubt})};
+  certify::Verdict verdict = certify::match_events(track, tracks, plan.factor, names,
+                                                   name_of(run.engine).accuracy == Accuracy::rounding);
+  certify::BoundSettings settings{plan.factor, engine::tolerance_of(model, run)};
   if (name_of(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};
-  result.history = bound_history(model, kept_run, kept, settings, track.events, verdict);
+  result.history = certify::bound_history(model, kept_run, kept, settings, track.events, verdict);
   result.until = verdict.until;
   result.complete = verdict.reason.empty();
   result.reason = std::move(verdict.reason);
   result.first_uncertain = verdict.first_uncertain;
   result.t_errors = std::move(verdict.t_errors);
   result.unordered = verdict.unordered;
-  bound_extremes(result, kept_run, kept, settings);
-  if (model.reduction) result.reduction = truncation_of(model, *model.reduction, report.peaks);
+  certify::bound_extremes(result, kept_run, kept, settings);
+  if (model.reduction) result.reduction = certify::truncation_of(model, *model.reduction, report.peaks);
   return result;
 }
 
@@ -286,9 +288,9 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
     return result;
   }
   RunSpec run = settings;
-  run.engine = choose_engine(model, settings).engine;
-  engine_row(run.engine).refuse(model, run);
-  CompanionPlan plan = plan_companion(model, run);
+  run.engine = run::choose_engine(model, settings).engine;
+  run::engine_row(run.engine).refuse(model, run);
+  certify::CompanionPlan plan = certify::plan_companion(model, run);
   if (run.certify != Certify::yes && !is_cheap(plan)) {
     plain();
     result.why_not = why_not(model, run, plan, result.report);
@@ -297,8 +299,8 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   const double most_steps = run.certify == Certify::yes ? std::numeric_limits<double>::infinity()
                                                         : std::max(least_steps, patience * plan.steps);
   if (options.forces)
-    for (CompanionRun& companion : plan.runs) companion.model.outputs = model.outputs;
-  Tracker own(model, options.forces, &recorder);
+    for (certify::CompanionRun& companion : plan.runs) companion.model.outputs = model.outputs;
+  certify::CompanionTracker own(model, options.forces, &recorder);
   Companions companions(std::move(plan.runs), most_steps, options.forces);
   companions.begin();
   result.report = simulate(model, settings, own, options.listener);

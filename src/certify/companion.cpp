@@ -10,7 +10,7 @@
 #include "run/engines.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 namespace {
 
 // Values of c: companion.hpp.
@@ -25,7 +25,7 @@ constexpr double resolved = 1.0;
 /// The part that all companions share.
 CompanionRun companion_of(const Model& model, const RunSpec& run) {
   CompanionRun companion{model, run};
-  hold_capture(companion.model, tolerance_of(model, run).capture_velocity());
+  hold_capture(companion.model, engine::tolerance_of(model, run).capture_velocity());
   companion.run.frames.clear();
   companion.model.outputs.clear();  // not used
   return companion;
@@ -33,7 +33,7 @@ CompanionRun companion_of(const Model& model, const RunSpec& run) {
 
 CompanionPlan exact_plan(const Model& model, const RunSpec& run) {
   CompanionPlan plan;
-  const Engine closed_form = engine_for(EngineRole::closed_form);
+  const Engine closed_form = run::engine_for(run::EngineRole::closed_form);
   plan.name = to_string(closed_form);
   plan.factor = by_exact;
   if (name_of(run.engine).accuracy == Accuracy::tolerance) plan.local = local_beside_exact;
@@ -47,7 +47,7 @@ CompanionPlan ida_plan(const Model& model, const RunSpec& run) {
   plan.factor = by_exact;
   plan.runs.push_back(companion_of(model, run));
   RunSpec& own = plan.runs.back().run;
-  own.engine = engine_for(EngineRole::integrator);
+  own.engine = run::engine_for(run::EngineRole::integrator);
   own.rtol = std::min(own.rtol, rtol_beside_steps);
   own.atol = {};
   plan.name = fmt::format("{}, rtol {:g}", to_string(own.engine), own.rtol);
@@ -56,7 +56,7 @@ CompanionPlan ida_plan(const Model& model, const RunSpec& run) {
 
 /// Reason why half the step does not estimate the error of the step.
 std::string unresolved(const Model& model, double dt) {
-  const double decay = fastest_decay(model), rate = std::max(model.omega_max, decay);
+  const double decay = model::fastest_decay(model), rate = std::max(model.omega_max, decay);
   if (dt * rate <= resolved) return "";
   return fmt::format(
       "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so half of it may err alike; "
@@ -80,7 +80,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
       plan.factor = by_rounding;
       plan.name = fmt::format("{}, twice, every datum off by about one rounding", engine.name);
       for (const std::uint64_t seed : {1U, 2U})
-        plan.runs.push_back({disturbed(companion.model, seed), companion.run, seed, 1.0 / by_rounding});
+        plan.runs.push_back({perturbed(companion.model, seed), companion.run, seed, 1.0 / by_rounding});
       return plan;
     case Accuracy::tolerance:
       plan.factor = by_tolerance;
@@ -102,9 +102,9 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
 }
 
 void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
-  const Effort own = expected(model, run).effort;
+  const run::Effort own = run::expected(model, run).effort;
   for (const CompanionRun& companion : plan.runs) {
-    const Effort effort = expected(companion.model, companion.run).effort;
+    const run::Effort effort = run::expected(companion.model, companion.run).effort;
     plan.steps = effort.steps;
     if (!(own.seconds > 0.0) || !(effort.seconds > 0.0)) {
       plan.cost = plan.seconds = 0.0;
@@ -123,13 +123,13 @@ void hold_capture(Model& model, double capture_velocity) {
 }
 
 CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
-  const bool itself = engine_row(run.engine).role == EngineRole::closed_form;
-  if (run.companion == Companion::exact && !itself && !exact_takes(model, run))
+  const bool itself = run::engine_row(run.engine).role == run::EngineRole::closed_form;
+  if (run.companion == Companion::exact && !itself && !run::exact_takes(model, run))
     throw SceneError(
         run.place, "run.companion",
         "\"exact\" does not take this scene (signorini check --engine exact says why); use \"finer\"");
   const bool steps = name_of(run.engine).accuracy == Accuracy::step;
-  const bool may_be_exact = !itself && run.companion != Companion::finer && exact_takes(model, run);
+  const bool may_be_exact = !itself && run.companion != Companion::finer && run::exact_takes(model, run);
   if (steps && run.companion == Companion::automatic) {
     CompanionPlan plan = may_be_exact ? exact_plan(model, run) : ida_plan(model, run);
     estimate(plan, model, run);
@@ -157,13 +157,13 @@ CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
   return plan;
 }
 
-void Tracker::event(const Event& event) {
+void CompanionTracker::event(const Event& event) {
   events.push_back(timed(event));
   events.back().t -= moved * events.back().t;
-  ForwardingRecorder::event(event);
+  run::ForwardingRecorder::event(event);
 }
 
-void Tracker::sample(const Sample& sample) {
+void CompanionTracker::sample(const Sample& sample) {
   rows.t.push_back(sample.t);
   for (const Column& column : model_.columns) {
     rows.values.push_back(column.of(*sample.u, *sample.v));
@@ -177,23 +177,23 @@ void Tracker::sample(const Sample& sample) {
     else
       rows.values.resize(rows.t.size() * rows.width, std::numeric_limits<double>::quiet_NaN());
   }
-  ForwardingRecorder::sample(sample);
+  run::ForwardingRecorder::sample(sample);
 }
 
-void Tracker::response(double t, const std::vector<double>& values) {
+void CompanionTracker::response(double t, const std::vector<double>& values) {
   if (all_ && values.size() == model_.outputs.size()) {
     last_time_ = t;
     last_outputs_ = values;
     if (!rows.t.empty() && rows.t.back() == t)
       std::copy(values.begin(), values.end(), rows.values.end() - static_cast<std::ptrdiff_t>(values.size()));
   }
-  ForwardingRecorder::response(t, values);
+  run::ForwardingRecorder::response(t, values);
 }
 
-bool Tracker::progress(double t) {
-  if (!companion_) return ForwardingRecorder::progress(t);
+bool CompanionTracker::progress(double t) {
+  if (!companion_) return run::ForwardingRecorder::progress(t);
   too_long = ++steps_ > most_steps;
   return !too_long && (leash == nullptr || leash->allows(t));
 }
 
-}  // namespace signorini
+}  // namespace signorini::certify

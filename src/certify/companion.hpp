@@ -41,7 +41,7 @@
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 
 struct CompanionRun {
   Model model;
@@ -85,7 +85,7 @@ struct KeptRows {
 };
 
 /// Limit of the companions' time; changed by the run's thread.
-class Leash {
+class CompanionLimit {
  public:
   void stop_at(double t) { end_.store(t, std::memory_order_relaxed); }
   void stop() { stop_at(-std::numeric_limits<double>::infinity()); }
@@ -98,11 +98,11 @@ class Leash {
 /// N and T: columns of a row that each contact has.
 inline constexpr std::size_t forces_a_row = 2;
 
-class Tracker : public ForwardingRecorder {
+class CompanionTracker : public run::ForwardingRecorder {
  public:
   /// Both arguments must outlive the object; without a recorder nothing is forwarded. `all`: also forces and outputs.
-  explicit Tracker(const Model& model, bool all, Recorder* next = nullptr)
-      : ForwardingRecorder(next), model_(model), all_(all), companion_(next == nullptr) {
+  explicit CompanionTracker(const Model& model, bool all, Recorder* next = nullptr)
+      : run::ForwardingRecorder(next), model_(model), all_(all), companion_(next == nullptr) {
     rows.width =
         model.columns.size() + (all ? forces_a_row * model.contacts.size() + model.outputs.size() : 0);
   }
@@ -114,7 +114,7 @@ class Tracker : public ForwardingRecorder {
 
   std::vector<TimedEvent> events;
   KeptRows rows;
-  const Leash* leash = nullptr;                                 ///< only for a companion
+  const CompanionLimit* leash = nullptr;                        ///< only for a companion
   double most_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
   bool too_long = false;                                        ///< it was ended by most_steps
   double moved = 0.0;  ///< for a companion: part of the time of the next events that it has added itself
@@ -127,4 +127,4 @@ class Tracker : public ForwardingRecorder {
   double steps_ = 0.0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::certify

@@ -11,7 +11,7 @@
 #include "model/assembly/loads.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 namespace {
 
 /// Relative change of each datum: some units in the last place, less than the accuracy of any structural data.
@@ -31,9 +31,9 @@ bool is_apart(const Contact& c, const Vector& u0) {
          c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0));
 }
 
-class Disturber {
+class DataPerturber {
  public:
-  explicit Disturber(std::uint64_t seed) : seed_(mixed(seed)) {}
+  explicit DataPerturber(std::uint64_t seed) : seed_(mixed(seed)) {}
 
   /// 1 + delta r, for the datum with this number.
   [[nodiscard]] double factor(std::uint64_t number) const {
@@ -80,7 +80,7 @@ class Disturber {
 
   void contact(Contact& c, const Vector& u0) {
     if (is_apart(c, u0)) c.gap *= next();
-    visit_stiffnesses(c, [this](double& x, const Unit&) { x *= next(); });
+    contact::visit_stiffnesses(c, [this](double& x, const Unit&) { x *= next(); });
     // Numbers of a law made of data: equal ones stay equal, such as a stiffness in a row and in a memory.
     if (auto law = c.law->with_constants([this](double& x, const Unit&) {
           x *= factor(mixed(number_) ^ std::bit_cast<std::uint64_t>(std::abs(x)));
@@ -114,9 +114,9 @@ double sign_by_chance(std::uint64_t seed, std::uint64_t number) {
   return (mixed(mixed(seed) ^ mixed(number)) & 1U) != 0U ? 1.0 : -1.0;
 }
 
-Model disturbed(const Model& model, std::uint64_t seed) {
+Model perturbed(const Model& model, std::uint64_t seed) {
   Model near = model;
-  Disturber disturb(seed);
+  DataPerturber disturb(seed);
   disturb.matrix(near.mass);
   disturb.matrix(near.damping);
   disturb.matrix(near.stiffness);
@@ -130,7 +130,7 @@ Model disturbed(const Model& model, std::uint64_t seed) {
     if (!model.static_start) near.u0[i] *= disturb.next();
   }
   if (model.reduction) disturb.products(near);
-  if (const auto moved = moved_start(model, near)) {  // it follows from the other data
+  if (const auto moved = perturbed_start(model, near)) {  // it follows from the other data
     near.u0 += moved->w;
     for (std::size_t k = 0; k < near.contacts.size(); ++k) near.contacts[k].initial_shear = moved->shears[k];
   }
@@ -187,7 +187,7 @@ void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& couplin
   for (Vector* q : {&model.u0, &model.v0}) q->head(c.rows()) -= c.transpose() * q->head(c.rows()).eval();
   for (Contact& contact : model.contacts) {
     const double before = contact.normal.dot(u0);
-    visit_forms(contact, [&](Combination& form) { mix(c, form); });
+    contact::visit_forms(contact, [&](Combination& form) { mix(c, form); });
     if (!contact.normal_force_given()) contact.gap += before - contact.normal.dot(model.u0);
   }
   for (Load& load : model.loads) mix(c, load.direction);
@@ -204,7 +204,7 @@ bool rubs(const Model& model, const Contact& c) { return model.statics.frictiona
 /// True if friction holds the contact below its limit, by a spring.
 bool sticks(const Model& model, std::size_t k) {
   const Contact& c = model.contacts[k];
-  const double limit = sticking_limit(c, -model.statics.reactions[k]);
+  const double limit = contact::sticking_limit(c, -model.statics.reactions[k]);
   return c.tangential_stiffness && c.initial_slip == 0 &&
          std::abs(c.initial_shear) < (1.0 - at_limit) * limit;
 }
@@ -224,7 +224,7 @@ std::vector<double> shears(const Model& model, const Model& near) {
 /// Unbalanced forces at u0, with contact forces from the gaps, for rigid contacts from the start.
 Vector left_over(const Model& model, const std::vector<double>& reactions,
                  const std::vector<double>& shears) {
-  Vector force = static_load(model.loads, model.size()) - model.stiffness * model.u0;
+  Vector force = assembly::static_load(model.loads, model.size()) - model.stiffness * model.u0;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     if (model.statics.frictional && reactions[k] > 0.0 && c.has_friction())
@@ -270,13 +270,13 @@ bool is_known(const Model& model) {
 
 }  // namespace
 
-std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
+std::optional<MovedStart> perturbed_start(const Model& model, const Model& near) {
   if (!is_known(model)) return std::nullopt;
   MovedStart moved{{}, shears(model, near)};
   const std::vector<double>& reactions = model.statics.reactions;
   const Vector p =
       left_over(near, reactions, moved.shears) - left_over(model, reactions, shears(model, model));
-  std::vector<HeldRow> rows;
+  std::vector<statics::HeldRow> rows;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = near.contacts[k];
     if (rubs(model, c) && reactions[k] > 0.0) rows.push_back({c.tangent, *c.tangential_stiffness, false});
@@ -284,10 +284,10 @@ std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
     if (c.normal_spring() && bears(model, k))
       rows.push_back({c.normal, c.normal_stiffness, false});
     else if (bears(model, k) || std::abs(c.gap_at(near.u0)) <= rounding_of_gap(c, near.u0))
-      rows.push_back({c.normal, own_stiffness(near.stiffness, c.normal), true});
+      rows.push_back({c.normal, statics::own_stiffness(near.stiffness, c.normal), true});
   }
   const auto solve = [&]() -> std::optional<Vector> {
-    const HeldRows held(near.stiffness, rows);
+    const statics::ConstraintRows held(near.stiffness, rows);
     if (!held.regular()) return std::nullopt;
     return held.solve(p, Vector::Zero(static_cast<Eigen::Index>(rows.size()))).first;
   };
@@ -298,7 +298,7 @@ std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
     if (tangent.terms.empty() ||
         std::abs(tangent.dot(near.u0)) > rounding::of_elimination * near.u0.cwiseAbs().maxCoeff())
       continue;
-    rows.push_back({tangent, own_stiffness(near.stiffness, tangent), true});
+    rows.push_back({tangent, statics::own_stiffness(near.stiffness, tangent), true});
     w = solve();
   }
   if (!w || !(w->allFinite() && keeps_states(model, near, near.u0 + *w))) return std::nullopt;
@@ -309,4 +309,4 @@ std::optional<MovedStart> moved_start(const Model& model, const Model& near) {
   return moved;
 }
 
-}  // namespace signorini
+}  // namespace signorini::certify

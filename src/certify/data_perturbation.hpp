@@ -16,12 +16,12 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 
 /// Pseudo-random 1 or -1, the same for the same numbers.
 [[nodiscard]] double sign_by_chance(std::uint64_t seed, std::uint64_t number);
 
-[[nodiscard]] Model disturbed(const Model& model, std::uint64_t seed);
+[[nodiscard]] Model perturbed(const Model& model, std::uint64_t seed);
 
 // Perturbation of a reduced model's shapes by roundings of K.
 //
@@ -53,6 +53,6 @@ struct MovedStart {
 };
 /// near: the model with perturbed data and the same closed gaps. nullopt: the start is not static, or friction in it is
 /// at its limit or holds rigidly, or its matrix is singular, or a contact's state would change.
-[[nodiscard]] std::optional<MovedStart> moved_start(const Model& model, const Model& near);
+[[nodiscard]] std::optional<MovedStart> perturbed_start(const Model& model, const Model& near);
 
-}  // namespace signorini
+}  // namespace signorini::certify

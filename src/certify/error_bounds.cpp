@@ -7,14 +7,14 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Error of a column from one step; columns beyond the model's are forces, then outputs, which have no tolerances of
 /// their own.
-double tolerance_of(const Model& model, std::size_t index, double greatest, const Tolerance& t) {
+double tolerance_of(const Model& model, std::size_t index, double greatest, const engine::Tolerance& t) {
   if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
   if (index >= model.columns.size() + forces_a_row * model.contacts.size()) return t.rtol * greatest;
   if (index >= model.columns.size()) return t.rtol * greatest + t.force;
@@ -262,10 +262,10 @@ class GapDifference {
 }  // namespace
 
 std::optional<Track::Objection> first_open_hit(const Model& model, const Kept& run, const Kept& companion,
-                                               const std::vector<NearHit>& near, double factor) {
+                                               const std::vector<events::NearHit>& near, double factor) {
   const GapDifference difference(model, run, companion);
   std::optional<Track::Objection> first;
-  for (const NearHit& hit : near) {
+  for (const events::NearHit& hit : near) {
     const Contact& contact = model.contacts[static_cast<std::size_t>(hit.contact)];
     const double off = difference.around(hit.t, contact);
     if (!(hit.gap <= factor * off)) continue;
@@ -281,4 +281,4 @@ std::optional<Track::Objection> first_open_hit(const Model& model, const Kept& r
   return first;
 }
 
-}  // namespace signorini
+}  // namespace signorini::certify

@@ -12,7 +12,7 @@
 #include "signorini/certify.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 
 /// Recorded data of a run or of its companion.
 struct Kept {
@@ -21,8 +21,8 @@ struct Kept {
 };
 
 struct BoundSettings {
-  double factor = 1.0;  ///< c
-  Tolerance tolerance;  ///< tolerance of the run; rtol 0: rounding only
+  double factor = 1.0;          ///< c
+  engine::Tolerance tolerance;  ///< tolerance of the run; rtol 0: rounding only
 };
 
 [[nodiscard]] HistoryErrors bound_history(const Model& model, const Kept& run,
@@ -60,6 +60,7 @@ void bound_extremes(Certificate& certificate, const Kept& run, const std::vector
 /// The first of these near impacts that is open. factor: c.
 [[nodiscard]] std::optional<Track::Objection> first_open_hit(const Model& model, const Kept& run,
                                                              const Kept& companion,
-                                                             const std::vector<NearHit>& near, double factor);
+                                                             const std::vector<events::NearHit>& near,
+                                                             double factor);
 
-}  // namespace signorini
+}  // namespace signorini::certify

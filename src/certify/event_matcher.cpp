@@ -7,7 +7,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -16,7 +16,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double of_clock = 2.0 * rounding::eps;
 
 /// End of the certain sequence, and its reason; the earliest one counts.
-struct Horizon {
+struct CertifiedSpan {
   double t = never;
   std::string reason;
   void at(double time, const std::string& why) {
@@ -45,10 +45,10 @@ bool same(const TimedEvent& a, const TimedEvent& b) {
   return a.type == b.type && a.from == b.from && a.to == b.to;
 }
 
-class Judge {
+class EventMatcher {
  public:
-  Judge(const Track& run, const std::vector<Track>& companions, double factor,
-        const std::vector<std::string>& names, bool rounded)
+  EventMatcher(const Track& run, const std::vector<Track>& companions, double factor,
+               const std::vector<std::string>& names, bool rounded)
       : run_(run), companions_(companions), factor_(factor), names_(names), rounded_(rounded) {}
 
   Verdict verdict() {
@@ -77,19 +77,20 @@ class Judge {
     }
     for (const Track* track : {&run_, &companion})
       if (track->forgiven_at)
-        horizon_.at(
+        certified_until_.at(
             *track->forgiven_at,
             fmt::format("at t = {:.9g} rounding left several contact states possible", *track->forgiven_at));
     for (const Track* track : {&run_, &companion})
-      if (track->objection) horizon_.at(track->objection->t, track->objection->sentence);
+      if (track->objection) certified_until_.at(track->objection->t, track->objection->sentence);
     if (const auto& graze = companion.graze)
-      horizon_.at(
+      certified_until_.at(
           graze->t,
           fmt::format("the {} of '{}' comes back into the companion's tolerance at t = {:.9g} and leaves it "
                       "without an event; a smaller rtol, or engine exact, decides whether it fell there",
                       graze->guard, names_[static_cast<std::size_t>(graze->contact)], graze->t));
     if (companion.reached < run_.reached)
-      horizon_.at(companion.reached, companion.stop.empty() ? "the companion has ended" : companion.stop);
+      certified_until_.at(companion.reached,
+                          companion.stop.empty() ? "the companion has ended" : companion.stop);
   }
 
   bool pair(const Rows& own, const Rows& other, std::size_t i, const Track& companion, Past& past) {
@@ -99,9 +100,9 @@ class Judge {
       const TimedEvent& alone = a != nullptr ? *a : *b;
       if (alone.t <= std::min(run_.reached, companion.reached))
         // It may be earlier by its own uncertainty, which is large where a guard grazes.
-        horizon_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
-                    a != nullptr ? describe(*a) + " has no partner in the companion"
-                                 : "the companion has an event more, " + describe(*b));
+        certified_until_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
+                            a != nullptr ? describe(*a) + " has no partner in the companion"
+                                         : "the companion has an event more, " + describe(*b));
       return false;
     }
     const double off = b->t - a->t, change = std::abs(off - past.off);
@@ -118,14 +119,14 @@ class Judge {
       return true;
     }
     if (same(*a, *b)) {
-      horizon_.at(
+      certified_until_.at(
           std::min(a->t, b->t),
           fmt::format("{} follows the contact's event before by {:.2g}, and this time has an error of {:.2g}",
                       describe(*a), since, shift));
       return false;
     }
-    horizon_.at(std::min(a->t, b->t),
-                fmt::format("{} has the partner {} in the companion", describe(*a), describe(*b)));
+    certified_until_.at(std::min(a->t, b->t),
+                        fmt::format("{} has the partner {} in the companion", describe(*a), describe(*b)));
     return false;
   }
 
@@ -147,7 +148,7 @@ class Judge {
     past.speeds[past.next++ % remembered] = std::abs(r - other) / std::max({r, other, 1.0});
     const double off = factor_ * *std::max_element(past.speeds.begin(), past.speeds.end()) * std::max(r, 1.0);
     if (off < std::abs(r - 1.0)) return true;
-    horizon_.at(
+    certified_until_.at(
         std::min(a.t, b.t),
         fmt::format(
             "{} ends with {:.6g} of the slowest speed that flies, and this part has an error of {:.2g}",
@@ -180,9 +181,9 @@ class Judge {
     std::size_t next = 0;
     for (std::size_t i = 0; i < run_.events.size(); ++i) {
       const TimedEvent& event = run_.events[i];
-      if (event.t >= horizon_.t) break;
+      if (event.t >= certified_until_.t) break;
       errors_[i] = of_clock * event.t;
-      if (!event.is_change() || (!event.fell && deviation_[i] == 0.0)) continue;
+      if (!event.is_change() || (!event.is_located && deviation_[i] == 0.0)) continue;
       last[next++ % remembered] = deviation_[i];
       const double error = factor_ * *std::max_element(last.begin(), last.end());
       spread_ = error;
@@ -194,10 +195,10 @@ class Judge {
   /// that it contains no such event, and no row that may be after one.
   void settle(Verdict& result) {
     result.until = run_.reached;
-    if (horizon_.t < never) {
-      const double end = std::max(0.0, horizon_.t - spread_);
+    if (certified_until_.t < never) {
+      const double end = std::max(0.0, certified_until_.t - spread_);
       result.until = end;
-      result.reason = horizon_.reason;
+      result.reason = certified_until_.reason;
       for (std::size_t i = 0; i < errors_.size(); ++i) {
         const double t = run_.events[i].t;
         if (t + errors_[i] < end) continue;
@@ -230,7 +231,7 @@ class Judge {
   double factor_;
   const std::vector<std::string>& names_;
   bool rounded_;
-  Horizon horizon_;
+  CertifiedSpan certified_until_;
   std::vector<double> deviation_, errors_;
   std::vector<float> uncertainty_;  // for an event of the run, or its partner's if larger
   double spread_ = 0.0;             // c D at the end of the certain sequence
@@ -255,9 +256,9 @@ TimedEvent timed(const Event& event) {
           event.departure.value_or(none)};
 }
 
-Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,
-              const std::vector<std::string>& names, bool rounded) {
-  return Judge(run, companions, factor, names, rounded).verdict();
+Verdict match_events(const Track& run, const std::vector<Track>& companions, double factor,
+                     const std::vector<std::string>& names, bool rounded) {
+  return EventMatcher(run, companions, factor, names, rounded).verdict();
 }
 
-}  // namespace signorini
+}  // namespace signorini::certify

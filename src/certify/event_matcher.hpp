@@ -31,7 +31,7 @@
 #include "engine/events/graze.hpp"
 #include "signorini/event.hpp"
 
-namespace signorini {
+namespace signorini::certify {
 
 /// Number of events or rows over which the largest difference is taken, because a single one may vanish by chance.
 /// Chosen value; the test "certify: the greatest of five" depends on it.
@@ -44,7 +44,7 @@ struct TimedEvent {
   int contact = -1;          ///< -1: a jump of a load
   EventType type = EventType::time;
   State from = State::open, to = State::open;
-  bool fell = false;  ///< a guard reached zero; else a jump of a load changed the state
+  bool is_located = false;  ///< a guard reached zero; else a jump of a load changed the state
   double departure = std::numeric_limits<double>::quiet_NaN();  ///< Event::departure; NaN: there is none
 
   /// True for a change of a contact's state; false for a jump of a load.
@@ -66,7 +66,7 @@ struct Track {
   /// Time at which rounding first left several states open (Report::forgiven_at).
   std::optional<double> forgiven_at = {};
   /// For a companion: a decision that it leaves open, and thus cannot confirm for the run.
-  std::optional<Graze> graze = {};
+  std::optional<events::Graze> graze = {};
   std::optional<Objection> objection = {};
   bool rounded = false;  ///< for a companion: its uncertainties are roundings
 };
@@ -82,7 +82,7 @@ struct Verdict {
 
 /// `names` of the contacts, for the reason; `factor`: c; `rounded`: uncertainties are roundings, which no two events
 /// share. Cost: proportional to the number of events.
-[[nodiscard]] Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,
-                            const std::vector<std::string>& names, bool rounded = false);
+[[nodiscard]] Verdict match_events(const Track& run, const std::vector<Track>& companions, double factor,
+                                   const std::vector<std::string>& names, bool rounded = false);
 
-}  // namespace signorini
+}  // namespace signorini::certify

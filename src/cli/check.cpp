@@ -22,7 +22,7 @@
 namespace signorini::cli {
 namespace {
 
-constexpr std::size_t most_rows = 24;
+constexpr std::size_t most_table_rows = 24;
 
 /// The number with two significant digits, written out: 140000.
 std::string rough(double value) {
@@ -44,10 +44,11 @@ std::string unit(const std::string& text) { return " [" + text + "]"; }
 std::string frequency_unit(const Units& units) { return units.time == "s" ? "Hz" : "1/" + units.time; }
 
 std::string more(std::size_t all) {
-  return all > most_rows ? fmt::format("  ... {} more; all are in --json\n", all - most_rows) : "";
+  return all > most_table_rows ? fmt::format("  ... {} more; all are in --json\n", all - most_table_rows)
+                               : "";
 }
 
-std::string head(const Scene& scene, const Model& model, const CheckReport& report) {
+std::string head(const Scene& scene, const Model& model, const check::CheckReport& report) {
   const Units& u = model.units;
   std::string text = model.title.empty() ? "" : model.title + "\n";
   text += fmt::format("units: {}, {}, {}, {}\n\n", u.force, u.mass, u.length, u.time);
@@ -60,7 +61,7 @@ std::string head(const Scene& scene, const Model& model, const CheckReport& repo
                         number(report.greatest_mass));
     return text;
   }
-  const MassFacts& m = *report.mass;
+  const check::MassFacts& m = *report.mass;
   text += fmt::format("mass: {} {}, centre at ({}, {}) {}", number(m.total), u.mass, number(m.x), number(m.y),
                       u.length);
   const double weight = m.total * std::hypot(scene.gravity[0], scene.gravity[1]);
@@ -92,12 +93,12 @@ std::string body_lines(const Scene& scene) {
 /// Two lines per mesh.
 std::string mesh_lines(const Scene& scene) {
   std::string text;
-  const PlaceOf place = [&](int n) {
+  const mesh::PlaceOf place = [&](int n) {
     const Node& node = scene.nodes[static_cast<std::size_t>(n)];
-    return PlanePoint{node.x, node.y};
+    return mesh::PlanePoint{node.x, node.y};
   };
   for (const BodySpec& body : scene.bodies) {
-    const MeshQuality q = quality_of(body.mesh.elements, place);
+    const mesh::MeshQuality q = mesh::quality_of(body.mesh.elements, place);
     text += fmt::format("body '{}': {}, {}, plane {}\n", body.name,
                         count(static_cast<long>(body.node_count), "node", "nodes"),
                         count(static_cast<long>(body.mesh.elements.size()), "element", "elements"),
@@ -111,19 +112,20 @@ std::string mesh_lines(const Scene& scene) {
   return text;
 }
 
-std::string contact_rows(const Model& model, const CheckReport& report) {
+std::string contact_rows(const Model& model, const check::CheckReport& report) {
   if (report.contacts.empty()) return "";
   const std::string force = unit(model.units.force), length = unit(model.units.length);
   Table table({"contact", "law", "state", "gap" + length, "ut" + length, "reaction -N" + force, "T" + force,
                "limit f |N|" + force},
               {false, false, false, true, true, true, true, true});
-  for (std::size_t k = 0; k < report.contacts.size() && k < most_rows; ++k) {
+  for (std::size_t k = 0; k < report.contacts.size() && k < most_table_rows; ++k) {
     const Contact& c = model.contacts[k];
     const ContactSample& s = report.contacts[k];
     const std::optional<double> gap = c.gap_if_any(s.gap);
     table.row({c.name, c.law->name(), to_string(s.state), gap ? number(*gap) : "",
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
-               above(s.T, model.scales.force), c.has_friction() ? number(sticking_limit(c, s.N)) : ""});
+               above(s.T, model.scales.force),
+               c.has_friction() ? number(contact::sticking_limit(c, s.N)) : ""});
   }
   return fmt::format("contacts at t = 0, {}:\n", model.statics.frictional ? "after a start with friction"
                                                  : model.static_start     ? "in static equilibrium"
@@ -139,25 +141,25 @@ std::string hanger_rows(const Model& model) {
               {false, true, true, true, true});
   for (const HangerLoad& h : model.hangers)
     table.row({fmt::format("{}", h.spring), number(h.cold), number(h.at_start), h.hot ? number(*h.hot) : "",
-               h.at_start == 0.0 ? "-" : fmt::format("{:.3g} %", 100.0 * variability(h))});
+               h.at_start == 0.0 ? "-" : fmt::format("{:.3g} %", 100.0 * outputs::variability(h))});
   return "springs with a preload:\n" + table.str() + "\n";
 }
 
-std::string warning_lines(const CheckReport& report) {
+std::string warning_lines(const check::CheckReport& report) {
   std::string text;
   for (const std::string& warning : report.warnings) text += "warning: " + warning + "\n\n";
   return text;
 }
 
-std::string free_motion_lines(const CheckReport& report) {
+std::string free_motion_lines(const check::CheckReport& report) {
   if (report.free_motions.empty()) return "rigid-body motions with the closed contacts: none\n\n";
   std::string text = "rigid-body motions with the closed contacts, without friction:\n";
-  for (std::size_t i = 0; i < report.free_motions.size() && i < most_rows; ++i)
+  for (std::size_t i = 0; i < report.free_motions.size() && i < most_table_rows; ++i)
     text += "  " + report.free_motions[i] + "\n";
   return text + more(report.free_motions.size()) + "\n";
 }
 
-bool same(const Frequencies& a, const Frequencies& b) {
+bool same(const modes::Frequencies& a, const modes::Frequencies& b) {
   if (a.free_motions != b.free_motions || a.unstable != b.unstable || a.modes.size() != b.modes.size())
     return false;
   for (std::size_t i = 0; i < a.modes.size(); ++i)
@@ -165,7 +167,7 @@ bool same(const Frequencies& a, const Frequencies& b) {
   return true;
 }
 
-void add_frequencies(Table& table, std::string label, const Frequencies& f) {
+void add_frequencies(Table& table, std::string label, const modes::Frequencies& f) {
   if (f.unstable > 0) {
     table.row({label, count(f.unstable, "unstable motion", "unstable motions"), "-", "-", ""});
     label.clear();
@@ -175,7 +177,7 @@ void add_frequencies(Table& table, std::string label, const Frequencies& f) {
     label.clear();
   }
   for (std::size_t i = 0; i < f.modes.size(); ++i) {
-    const NaturalMode& mode = f.modes[i];
+    const modes::NaturalMode& mode = f.modes[i];
     table.row({label, fmt::format("{}", i + 1), number(mode.omega / (2.0 * std::numbers::pi)),
                number(mode.omega),
                mode.damping_ratio > 0.0 ? fmt::format("{:.3g}", mode.damping_ratio) : "0"});
@@ -184,7 +186,7 @@ void add_frequencies(Table& table, std::string label, const Frequencies& f) {
   if (!label.empty()) table.row({label, "nothing can move", "", "", ""});
 }
 
-std::string frequency_rows(const Model& model, const CheckReport& report) {
+std::string frequency_rows(const Model& model, const check::CheckReport& report) {
   const Units& u = model.units;
   Table table(
       {"contacts", "mode", "f" + unit(frequency_unit(u)), "omega" + unit("rad/" + u.time), "damping ratio"},
@@ -215,7 +217,7 @@ std::string frequency_rows(const Model& model, const CheckReport& report) {
                             number(model.alpha), u.time, number(model.beta), u.time);
 }
 
-std::string load_factor_lines(const CheckReport& report) {
+std::string load_factor_lines(const check::CheckReport& report) {
   if (!report.load_factors) return "";
   const std::vector<double>& factors = *report.load_factors;
   std::string text = "buckling load factors (factors of the static loads; contacts as at the start): ";
@@ -226,13 +228,13 @@ std::string load_factor_lines(const CheckReport& report) {
                      : "; a factor up to 1: the structure is unstable under its static loads\n\n");
 }
 
-std::string stiffness_rows(const Model& model, const CheckReport& report) {
+std::string stiffness_rows(const Model& model, const check::CheckReport& report) {
   if (report.stiffness.empty()) return "";
   const std::string stiffness = unit(model.units.force + "/" + model.units.length);
   Table table({"contact", "direction", "its stiffness" + stiffness, "structure" + stiffness, "ratio"},
               {false, false, true, true, true});
-  for (std::size_t i = 0; i < report.stiffness.size() && i < most_rows; ++i) {
-    const StiffnessRatio& s = report.stiffness[i];
+  for (std::size_t i = 0; i < report.stiffness.size() && i < most_table_rows; ++i) {
+    const check::StiffnessRatio& s = report.stiffness[i];
     table.row({model.contacts[static_cast<std::size_t>(s.contact)].name, s.normal ? "normal" : "tangential",
                number(s.stiffness), s.rest > 0.0 ? fmt::format("{:.4g}", s.rest) : "0",
                s.rest > 0.0 ? fmt::format("{:.3g}", s.stiffness / s.rest) : "only this contact resists"});
@@ -244,30 +246,31 @@ std::string stiffness_rows(const Model& model, const CheckReport& report) {
 }
 
 /// Breakpoints of one load, compression or velocity: listed one by one, or only counted if there are many.
-void add_breakpoints(Table& table, const std::vector<Discontinuity>& all, const std::string& what) {
+void add_breakpoints(Table& table, const std::vector<check::Discontinuity>& all, const std::string& what) {
   constexpr std::size_t most_listed = 12;
-  std::vector<const Discontinuity*> own;
-  for (const Discontinuity& d : all)
-    if (d.what == what) own.push_back(&d);
+  std::vector<const check::Discontinuity*> own;
+  for (const check::Discontinuity& d : all)
+    if (d.description == what) own.push_back(&d);
   if (own.size() <= most_listed) {
-    for (const Discontinuity* d : own) table.row({number(d->t), d->jump ? "jump" : "kink", what});
+    for (const check::Discontinuity* d : own) table.row({number(d->t), d->jump ? "jump" : "kink", what});
     return;
   }
-  const long jumps = std::count_if(own.begin(), own.end(), [](const Discontinuity* d) { return d->jump; });
+  const long jumps =
+      std::count_if(own.begin(), own.end(), [](const check::Discontinuity* d) { return d->jump; });
   const long kinks = static_cast<long>(own.size()) - jumps;
   std::string kinds = jumps > 0 ? count(jumps, "jump", "jumps") : "";
   if (kinks > 0) kinds += (kinds.empty() ? "" : ", ") + count(kinks, "kink", "kinks");
   table.row({number(own.front()->t) + " to " + number(own.back()->t), kinds, what});
 }
 
-std::string load_rows(const Model& model, const CheckReport& report) {
+std::string load_rows(const Model& model, const check::CheckReport& report) {
   if (report.discontinuities.empty()) return "loads: smooth, no breakpoints\n\n";
   Table table({"t" + unit(model.units.time), "", "of"}, {true, false, false});
   std::vector<std::string> shown;
-  for (const Discontinuity& d : report.discontinuities) {
-    if (std::find(shown.begin(), shown.end(), d.what) != shown.end()) continue;
-    shown.push_back(d.what);
-    if (shown.size() <= most_rows) add_breakpoints(table, report.discontinuities, d.what);
+  for (const check::Discontinuity& d : report.discontinuities) {
+    if (std::find(shown.begin(), shown.end(), d.description) != shown.end()) continue;
+    shown.push_back(d.description);
+    if (shown.size() <= most_table_rows) add_breakpoints(table, report.discontinuities, d.description);
   }
   return "breakpoints, where the integration stops and restarts:\n" + table.str() + more(shown.size()) + "\n";
 }
@@ -291,15 +294,15 @@ std::string reduction_lines(const Model& model) {
   const std::string give = unit(model.units.length + "/" + model.units.force);
   Table table({"static compliance", "all modes" + give, "left out" + give, "share"},
               {false, true, true, true});
-  for (std::size_t i = 0; i < r.shares.size() && i < most_rows; ++i) {
+  for (std::size_t i = 0; i < r.shares.size() && i < most_table_rows; ++i) {
     const ComplianceShare& s = r.shares[i];
-    table.row({s.what, number(s.compliance), number(s.residual),
+    table.row({s.label, number(s.compliance), number(s.residual),
                number(s.compliance > 0.0 ? s.residual / s.compliance : 0.0)});
   }
   return text + table.str() + more(r.shares.size()) + "\n";
 }
 
-std::string cost_lines(const Scene& scene, const Model& model, const CheckReport& report) {
+std::string cost_lines(const Scene& scene, const Model& model, const check::CheckReport& report) {
   const Units& u = model.units;
   const Method& method = report.method;
   const bool steps = name_of(method.engine).accuracy == Accuracy::step;
@@ -312,22 +315,22 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
     text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", to_string(method.engine),
                         scene.run.rtol, method.max_order, method.max_order_reason);
   if (method.automatic) text += "     engine " + method.engine_reason() + "\n";
-  const Cost& cost = report.cost;
+  const check::Cost& cost = report.cost;
   text += fmt::format("cost: {} variables in the time integration, highest frequency {:.4g} rad/{}\n",
                       cost.unknowns, cost.omega_max, u.time);
-  const Effort& effort = cost.effort;
+  const run::Effort& effort = cost.effort;
   const std::string measured =
       cost.trials.empty() ? ""
                           : fmt::format("expected run time, from the first steps of each engine: {}\n",
-                                        trial_text(cost.trials));
+                                        run::trial_text(cost.trials));
   std::string exact =
       cost.exact && cost.trials.empty()
-          ? fmt::format("      exact would take {} s (--engine exact)\n", about_seconds(*cost.exact))
+          ? fmt::format("      exact would take {} s (--engine exact)\n", run::about_seconds(*cost.exact))
           : "";
   if (!method.flow.empty()) {
     exact += fmt::format("      flow {} ({}): estimated {} s by series", method.flow, method.flow_reason,
-                         about_seconds(effort.by_series));
-    exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s", about_seconds(effort.by_modes)) : "";
+                         run::about_seconds(effort.by_series));
+    exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s", run::about_seconds(effort.by_modes)) : "";
     exact += " (rule of thumb)\n";
   }
   if (!(effort.steps > 0.0))
@@ -349,7 +352,7 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
 
 }  // namespace
 
-std::string check_text(const Scene& scene, const Model& model, const CheckReport& report) {
+std::string check_text(const Scene& scene, const Model& model, const check::CheckReport& report) {
   return head(scene, model, report) + body_lines(scene) + mesh_lines(scene) + "\n" +
          contact_rows(model, report) + hanger_rows(model) + warning_lines(report) +
          free_motion_lines(report) + frequency_rows(model, report) + load_factor_lines(report) +
@@ -377,7 +380,7 @@ std::vector<double> cutoffs_of(const std::string& text) {
   std::vector<double> list;
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
-    const std::optional<double> value = parse_number(word);
+    const std::optional<double> value = base::parse_number(word);
     if (!value || !(*value > 0.0))
       throw UsageError(
           fmt::format("--reduction: found \"{}\", expected frequencies > 0, such as 50,100", word));
@@ -392,10 +395,10 @@ ExitCode check_scene(const CheckOptions& options) {
   const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
   print_patterns(options.scene, options.settings);
-  CheckReport report = check(scene, model);
-  measure_cost(scene, model, cutoffs_of(options.reduction), report);
+  check::CheckReport report = check::check(scene, model);
+  check::measure_cost(scene, model, cutoffs_of(options.reduction), report);
   if (options.json) {
-    print(check_json(scene, model, report));
+    print(check::check_json(scene, model, report));
     return ExitCode::done;
   }
   print(check_text(scene, model, report));

@@ -7,7 +7,8 @@
 
 namespace signorini::cli {
 
-[[nodiscard]] std::string check_text(const Scene& scene, const Model& model, const CheckReport& report);
+[[nodiscard]] std::string check_text(const Scene& scene, const Model& model,
+                                     const check::CheckReport& report);
 
 /// The columns of history.csv with their units, one per line.
 [[nodiscard]] std::string column_text(const Model& model);

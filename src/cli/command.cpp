@@ -22,7 +22,7 @@ std::optional<std::string> engine_of(const Override& change, const std::vector<s
   const std::string name = change.path.substr(0, colon);
   if (std::find(engines.begin(), engines.end(), name) == engines.end())
     throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the engines{}", change.path, change.value,
-                                 name, suggestion(name, engines)));
+                                 name, base::suggestion(name, engines)));
   return name;
 }
 
@@ -43,7 +43,7 @@ void print_warnings(const OutputOptions& options, const std::vector<std::string>
 }
 
 void print_unchecked(const std::filesystem::path& directory) {
-  if (const std::string why = why_unchecked(directory); !why.empty()) print_note(why);
+  if (const std::string why = base::why_unchecked(directory); !why.empty()) print_note(why);
 }
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings) {
@@ -70,12 +70,12 @@ void print_patterns(const std::string& scene, const std::vector<std::string>& se
                     const std::string& option, const std::vector<std::string>& given) {
   const auto note = [&](const std::vector<Override>& before, const std::string& path,
                         const std::string& text) {
-    if (const std::string met = tables_met_in(scene, before, path); !met.empty())
+    if (const std::string met = scene::tables_met_in(scene, before, path); !met.empty())
       print_note(text + ": " + met);
   };
   std::vector<Override> before;
   for (Override& change : overrides_of(settings)) {
-    const std::string text = text_of(change);
+    const std::string text = scene::text_of(change);
     if (const std::size_t colon = change.path.find(':'); colon < change.path.find('.'))
       change.path.erase(0, colon + 1);  // setting for one engine
     if (option.empty()) note(before, change.path, text);
@@ -102,7 +102,7 @@ std::vector<Override> overrides_for(const std::vector<std::string>& settings,
   for (const Override& change : overrides_of(settings)) {
     const std::optional<std::string> only = engine_of(change, engines);
     const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
-    if (path == "run.engine") throw UsageError(text_of(change) + ": --engines says which engines run");
+    if (path == "run.engine") throw UsageError(scene::text_of(change) + ": --engines says which engines run");
     if (!only || *only == engine) changes.push_back({path, change.value});
   }
   return changes;
@@ -125,7 +125,7 @@ bool lies_in(const fs::path& folder, const fs::path& file) {
 }  // namespace
 
 void check_folder(const fs::path& path, const OwnedFolder& folder, bool force, const std::string& scene) {
-  check_output_directory(path, {folder.what, folder.marker}, force);
+  base::check_output_directory(path, {folder.what, folder.marker}, force);
   std::error_code error;
   const bool holds_results = fs::exists(path / folder.marker, error);
   if (holds_results && !scene.empty() && lies_in(path, scene))
@@ -135,10 +135,10 @@ void check_folder(const fs::path& path, const OwnedFolder& folder, bool force, c
 }
 
 void begin_folder(const fs::path& path, const OwnedFolder& folder) {
-  make_directory(path);
+  base::make_directory(path);
   std::error_code error;
   for (const std::string& name : folder.files) fs::remove(path / name, error);
-  write_file(path / folder.marker, "{}\n");
+  result::write_file(path / folder.marker, "{}\n");
 }
 
 void leave_folder(const fs::path& path, const OwnedFolder& folder) {

@@ -22,27 +22,27 @@ namespace signorini::cli {
 
 // Output of `compare`: the runs, then the differences of each one from the reference.
 
-[[nodiscard]] std::string compare_text(const ComparisonReport& report);
+[[nodiscard]] std::string compare_text(const compare::ComparisonReport& report);
 /// Only the tables, for papers.
-[[nodiscard]] std::string compare_tables(const ComparisonReport& report, TableStyle style);
+[[nodiscard]] std::string compare_tables(const compare::ComparisonReport& report, TableStyle style);
 
 namespace {
 
 std::string count(const std::optional<long>& value) { return value ? std::to_string(*value) : ""; }
 
-std::string relative(const RunFigures& run, const char* name) {
+std::string relative(const compare::RunFigures& run, const char* name) {
   const auto found = run.audit.find(name);
   return found == run.audit.end() ? "" : fmt::format("{:.1e}", found->second);
 }
 
-std::string run_table(const ComparisonReport& report, TableStyle style = TableStyle::plain) {
-  const RunFacts& facts = report.runs.front().figures.facts;
+std::string run_table(const compare::ComparisonReport& report, TableStyle style = TableStyle::plain) {
+  const result::RunFacts& facts = report.runs.front().figures.facts;
   const std::string energy = " [" + facts.units.force + " " + facts.units.length + "]";
   Table table({"run", "outcome", "events", "wall [s]", "steps", "factorisations", "friction loss" + energy,
                "balance", "|T| > T_U", "equilibrium"},
               {false, false, true, true, true, true, true, true, true, true});
-  for (const ComparedRun& compared : report.runs) {
-    const RunFigures& run = compared.figures;
+  for (const compare::ComparedRun& compared : report.runs) {
+    const compare::RunFigures& run = compared.figures;
     table.row({run.name, run.facts.outcome, std::to_string(changes_in(run.events_by_type)),
                run.wall_time ? fmt::format("{:.3f}", *run.wall_time) : "", count(run.steps),
                count(run.factorisations), run.friction ? fmt::format("{:.9g}", *run.friction) : "",
@@ -52,7 +52,7 @@ std::string run_table(const ComparisonReport& report, TableStyle style = TableSt
     table.row({name, "refused", "", "", "", "", "", "", "", ""});
   std::string text = table.str(style);
   if (style != TableStyle::plain) return text;
-  for (const ComparedRun& compared : report.runs)
+  for (const compare::ComparedRun& compared : report.runs)
     if (!compared.figures.reason.empty())
       text += fmt::format("  {}: {} at t = {:.9g}: {}\n", compared.figures.name,
                           compared.figures.facts.outcome, compared.figures.t, compared.figures.reason);
@@ -61,36 +61,37 @@ std::string run_table(const ComparisonReport& report, TableStyle style = TableSt
 }
 
 /// Note if one of the two runs did not reach its end, or has a different end.
-std::string up_to(const ComparisonReport& report, std::size_t i) {
-  const RunFigures &a = report.runs.front().figures, &b = report.runs[i + 1].figures;
+std::string up_to(const compare::ComparisonReport& report, std::size_t i) {
+  const compare::RunFigures &a = report.runs.front().figures, &b = report.runs[i + 1].figures;
   if (a.done() && b.done() && a.t == b.t) return "";
   return fmt::format(" up to t = {:.9g}", report.comparisons[i].t_end);
 }
 
-std::string sequence(const ComparisonReport& report, std::size_t i) {
-  const Alignment& alignment = report.comparisons[i].alignment;
+std::string sequence(const compare::ComparisonReport& report, std::size_t i) {
+  const compare::Alignment& alignment = report.comparisons[i].alignment;
   const std::size_t pairs = alignment.pairs.size();
-  std::string text = alignment.split
-                         ? fmt::format("{} alike, then they part at t = {:.9g}: {}; {} from there on",
-                                       count_of(pairs, "event"), alignment.split->t,
-                                       split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
-                                       count_of(alignment.split->unaligned, "event"))
-                         : fmt::format("the same, {}", count_of(pairs, "event")) + up_to(report, i);
+  std::string text =
+      alignment.split
+          ? fmt::format("{} alike, then they part at t = {:.9g}: {}; {} from there on",
+                        base::count_of(pairs, "event"), alignment.split->t,
+                        compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
+                        base::count_of(alignment.split->unaligned, "event"))
+          : fmt::format("the same, {}", base::count_of(pairs, "event")) + up_to(report, i);
   if (alignment.swapped > 0)
     text += fmt::format("; {} swapped with events of other contacts closer than their uncertainties",
                         alignment.swapped);
   return text;
 }
 
-std::string place(const Greatest& greatest, std::vector<std::string>& cells) {
+std::string place(const compare::Greatest& greatest, std::vector<std::string>& cells) {
   cells.push_back(fmt::format("{:.3g}", greatest.value));
   cells.push_back(greatest.value == 0.0 ? "" : fmt::format("{:.9g}", greatest.t));
   return greatest.where;
 }
 
-std::string difference_table(const ComparisonReport& report, std::size_t i,
+std::string difference_table(const compare::ComparisonReport& report, std::size_t i,
                              TableStyle style = TableStyle::plain) {
-  const Comparison& c = report.comparisons[i];
+  const compare::Comparison& c = report.comparisons[i];
   const Units& units = report.runs.front().figures.facts.units;
   const bool split = c.alignment.split.has_value();
   const std::string at = "at t [" + units.time + "]";
@@ -102,7 +103,7 @@ std::string difference_table(const ComparisonReport& report, std::size_t i,
   }
   if (c.common_times == 0 && c.event_time.count == 0) return "";
   Table table(std::move(header), std::move(right));
-  for (const Quantity& q : quantities(c, units)) {
+  for (const compare::Quantity& q : compare::quantities(c, units)) {
     if (q.deviation->count == 0) continue;
     std::string name = q.name;
     if (!name.starts_with("response:")) std::replace(name.begin(), name.end(), '_', ' ');
@@ -118,21 +119,21 @@ std::string difference_table(const ComparisonReport& report, std::size_t i,
 
 }  // namespace
 
-std::string compare_tables(const ComparisonReport& report, TableStyle style) {
+std::string compare_tables(const compare::ComparisonReport& report, TableStyle style) {
   std::string text = run_table(report, style);
   for (std::size_t i = 0; i < report.comparisons.size(); ++i)
     text += "\n" + difference_table(report, i, style);
   return text;
 }
 
-std::string compare_text(const ComparisonReport& report) {
-  const RunFigures& reference = report.runs.front().figures;
+std::string compare_text(const compare::ComparisonReport& report) {
+  const compare::RunFigures& reference = report.runs.front().figures;
   std::string text = reference.facts.title.empty() ? "" : reference.facts.title + "\n\n";
   text += run_table(report);
   for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
     text += fmt::format("\n{} against {}\n", report.comparisons[i].name, reference.name);
     text += "  sequence: " + sequence(report, i) + "\n";
-    if (const std::string rows = rows_compared(report.comparisons[i]); !rows.empty())
+    if (const std::string rows = compare::rows_compared(report.comparisons[i]); !rows.empty())
       text += "  rows compared: " + rows + "\n";
     for (const std::string& note : report.comparisons[i].notes) text += "  note: " + note + "\n";
     text += difference_table(report, i);
@@ -197,42 +198,42 @@ const OwnedFolder& compare_folder() {
 
 void begin(const fs::path& path) {
   begin_folder(path, compare_folder());
-  begin_comparison_plots(path);
+  compare::begin_comparison_plots(path);
 }
 
 struct Outcomes {
-  ComparisonReport report;
+  compare::ComparisonReport report;
   bool interrupted = false, stopped = false;
 };
 
-void run_engine(const CompareOptions& options, const fs::path& path, const PreparedRun& run,
+void run_engine(const CompareOptions& options, const fs::path& path, const study::PreparedRun& run,
                 const std::vector<std::string>& command_line, Outcomes& outcomes) {
   const std::string& engine = options.engines[outcomes.report.runs.size() + outcomes.report.refused.size()];
-  RunDirectory directory(path / engine, run.scene, run.model, {options.force, command_line});
+  result::RunDirectory directory(path / engine, run.scene, run.model, {options.force, command_line});
   Report report;
   try {
-    Live live(directory, run.model, run.scene.run.t_end, !options.quiet);
+    ProgressDisplay live(directory, run.model, run.scene.run.t_end, !options.quiet);
     report = run.keep(directory, live).certified.report;
   } catch (const SceneError& error) {
-    if (options.force) remove_run(path / engine);  // an earlier run could be mistaken for a new one
+    if (options.force) result::remove_run(path / engine);  // an earlier run could be mistaken for a new one
     outcomes.report.refused.emplace_back(engine, error.what());
     return;
   }
   print_warnings(options, report.warnings, engine + ": ");
   outcomes.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
   outcomes.stopped = outcomes.stopped || report.outcome.kind == Outcome::Kind::stopped;
-  outcomes.report.runs.push_back(read_compared_run(path / engine, engine));
+  outcomes.report.runs.push_back(compare::read_compared_run(path / engine, engine));
 }
 
 Outcomes run_engines(const CompareOptions& options, const fs::path& path,
                      const std::vector<std::string>& command_line) {
-  std::vector<PreparedRun> runs;  // scenes that cannot be built are refused before anything is written
+  std::vector<study::PreparedRun> runs;  // scenes that cannot be built are refused before anything is written
   for (const std::string& engine : options.engines)
-    runs.push_back(
-        prepare_run(scene_for(options, engine), runs.empty() ? std::nullopt : runs.front().scene.reduction));
+    runs.push_back(study::prepare_run(scene_for(options, engine),
+                                      runs.empty() ? std::nullopt : runs.front().scene.reduction));
   begin(path);
   Outcomes outcomes;
-  for (const PreparedRun& run : runs) {
+  for (const study::PreparedRun& run : runs) {
     run_engine(options, path, run, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
     if (outcomes.report.runs.empty()) {  // no reference for the others
@@ -255,9 +256,9 @@ std::vector<std::string> names_of(const std::vector<std::string>& directories) {
   return names;
 }
 
-void check_units(const ComparisonReport& report) {
+void check_units(const compare::ComparisonReport& report) {
   const Units& first = report.runs.front().figures.facts.units;
-  for (const ComparedRun& run : report.runs) {
+  for (const compare::ComparedRun& run : report.runs) {
     const Units& units = run.figures.facts.units;
     if (units.force == first.force && units.length == first.length && units.time == first.time) continue;
     throw FileError(
@@ -270,9 +271,9 @@ void check_units(const ComparisonReport& report) {
 Outcomes read_directories(const CompareOptions& options, const fs::path& path) {
   Outcomes outcomes;
   for (const std::string& name : names_of(options.sources))
-    outcomes.report.runs.push_back(read_compared_run(name, name));
+    outcomes.report.runs.push_back(compare::read_compared_run(name, name));
   if (!options.quiet)
-    for (const ComparedRun& run : outcomes.report.runs) print_unchecked(run.figures.directory);
+    for (const compare::ComparedRun& run : outcomes.report.runs) print_unchecked(run.figures.directory);
   check_units(outcomes.report);
   begin(path);
   return outcomes;
@@ -314,20 +315,20 @@ fs::path output_directory(const CompareOptions& options) {
 }
 
 /// Refuses limits for outputs that no run has, before any run starts.
-void check_outputs(const std::vector<Limit>& limits, const std::vector<OutputSpec>& outputs) {
+void check_outputs(const std::vector<compare::Limit>& limits, const std::vector<OutputSpec>& outputs) {
   const std::string response = "response:";
   std::vector<std::string> names;
   for (const OutputSpec& output : outputs) names.push_back(output.name);
-  for (const Limit& limit : limits) {
+  for (const compare::Limit& limit : limits) {
     const std::string name = limit.name.starts_with(response) ? limit.name.substr(response.size()) : "";
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
       throw UsageError(fmt::format("--limit {}: no [[output]] is called \"{}\"{}", limit.name, name,
-                                   suggestion(name, names)));
+                                   base::suggestion(name, names)));
   }
 }
 
 ExitCode compare(const CompareOptions& options, const std::vector<std::string>& command_line) {
-  const std::vector<Limit> limits = parse_limits(options.limits);
+  const std::vector<compare::Limit> limits = compare::parse_limits(options.limits);
   const TableStyle style = table_style_of(options.table, options);
   check_sources(options);
   if (by_engine(options)) check_outputs(limits, read_scene(options.sources.front()).outputs);
@@ -340,24 +341,24 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
     print_error("interrupted; the runs are kept in " + path.string());
     return ExitCode::interrupted;
   }
-  ComparisonReport& report = outcomes.report;
+  compare::ComparisonReport& report = outcomes.report;
   report.limits = limits;
   for (std::size_t i = 1; i < report.runs.size(); ++i) {
-    const ComparedRun& run = report.runs[i];
-    ComparisonSettings settings;
+    const compare::ComparedRun& run = report.runs[i];
+    compare::ComparisonSettings settings;
     settings.instant = options.instant;
     settings.folder = path / "plots";
-    settings.slug = run_slug(run.figures.name, i);
-    report.comparisons.push_back(compare_runs(report.runs.front(), run, settings));
+    settings.slug = compare::run_slug(run.figures.name, i);
+    report.comparisons.push_back(compare::compare_runs(report.runs.front(), run, settings));
     for (std::string& sentence :
-         exceeded(limits, report.runs.front().figures, run.figures, report.comparisons.back()))
+         compare::exceeded(limits, report.runs.front().figures, run.figures, report.comparisons.back()))
       report.exceeded.push_back(std::move(sentence));
   }
   if (!limits.empty())
     for (const auto& [name, reason] : report.refused)
       report.exceeded.push_back(name + ": refused the scene, so no limit is kept");
-  write_comparison(path, report);
-  if (options.json) print(comparison_json(report));
+  compare::write_comparison(path, report);
+  if (options.json) print(compare::comparison_json(report));
   if (style != TableStyle::plain) {
     print(compare_tables(report, style));
   } else if (options.tables()) {
@@ -365,7 +366,8 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
     print("\nresults: " + path.string() +
           "/ (compare.json, runs.csv, differences.csv, columns.csv, events.csv)\n");
   }
-  const std::string drawn = options.no_plots ? "" : draw_pictures(path, write_comparison_plots(path, report));
+  const std::string drawn =
+      options.no_plots ? "" : draw_pictures(path, compare::write_comparison_plots(path, report));
   if (options.tables() && style == TableStyle::plain) print(drawn);
   for (const std::string& sentence : report.exceeded) print_error("limit exceeded: " + sentence);
   if (!report.exceeded.empty()) return ExitCode::limit;

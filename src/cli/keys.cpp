@@ -21,17 +21,19 @@
 namespace signorini::cli {
 namespace {
 
-std::string path_of(const Key& key) {
+std::string path_of(const scene::Key& key) {
   if (key.table.empty()) return std::string(key.name);
   return fmt::format("{}.{}", key.table, key.name);
 }
 
-std::string default_of(const Key& key) { return key.fallback.empty() ? "-" : std::string(key.fallback); }
+std::string default_of(const scene::Key& key) {
+  return key.fallback.empty() ? "-" : std::string(key.fallback);
+}
 
 /// Tables in the order of their first key in the key table.
 std::vector<std::string_view> tables() {
   std::vector<std::string_view> names;
-  for (const Key& key : all_keys())
+  for (const scene::Key& key : scene::all_keys())
     if (std::find(names.begin(), names.end(), key.table) == names.end()) names.push_back(key.table);
   return names;
 }
@@ -45,18 +47,18 @@ std::string cell(std::string_view text) {
 
 std::string code(std::string_view text) { return text.empty() ? "" : fmt::format("`{}`", cell(text)); }
 
-std::string default_cell(const Key& key) {
+std::string default_cell(const scene::Key& key) {
   return key.fallback == "required" ? "required" : code(key.fallback);
 }
 
-std::string name_cell(const Key& key) { return key.name == "*" ? "any name" : code(key.name); }
+std::string name_cell(const scene::Key& key) { return key.name == "*" ? "any name" : code(key.name); }
 
 /// The table of the keys of one table.
 std::string key_table(std::string_view table) {
   std::string rows;
-  for (const Key& key : all_keys()) {
+  for (const scene::Key& key : scene::all_keys()) {
     if (key.table != table) continue;
-    rows += fmt::format("| {} | {} | {} | {} | {} |\n", name_cell(key), cell(describe_type(key)),
+    rows += fmt::format("| {} | {} | {} | {} | {} |\n", name_cell(key), cell(scene::describe_type(key)),
                         cell(key.unit), default_cell(key), cell(key.meaning));
   }
   return rows.empty() ? "" : "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n" + rows;
@@ -122,9 +124,9 @@ std::string key_list(const std::vector<std::string>& words) {
   for (const std::string_view table : tables()) {
     Table rows({"", "", "", "", ""}, {false, false, false, false, false});
     bool any = false;
-    for (const Key& key : all_keys()) {
+    for (const scene::Key& key : scene::all_keys()) {
       if (key.table != table) continue;
-      const std::vector<std::string> row = {path_of(key), describe_type(key), std::string(key.unit),
+      const std::vector<std::string> row = {path_of(key), scene::describe_type(key), std::string(key.unit),
                                             default_of(key), std::string(key.meaning)};
       if (!speaks_of(row, words)) continue;
       any = true;
@@ -132,13 +134,13 @@ std::string key_list(const std::vector<std::string>& words) {
     }
     if (any) text += rows.str();
   }
-  if (text == heading) throw UsageError("no key matches " + listed(words));
+  if (text == heading) throw UsageError("no key matches " + base::listed(words));
   return text;
 }
 
 std::string scene_reference() {
   constexpr std::string_view begin = "@keys ", end = "@\n";
-  std::string_view words = reference_texts().front().text;
+  std::string_view words = base::reference_texts().front().text;
   std::string text;
   std::vector<std::string_view> done;
   for (std::size_t at; (at = words.find(begin)) != std::string_view::npos;) {
@@ -178,7 +180,7 @@ void add_schema(Program& program) {
       "schema", "print a JSON Schema for scene files; editors use it for completion and checks");
   command->callback([&program] {
     program.action = [] {
-      print(scene_schema());
+      print(scene::scene_schema());
       return ExitCode::done;
     };
   });

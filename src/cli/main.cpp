@@ -37,7 +37,7 @@ std::vector<std::string> option_names(const CLI::App& command) {
 std::string meant(const std::string& given, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (given.size() > 3 && name.starts_with(given)) return "; did you mean \"" + name + "\"?";
-  return did_you_mean(given, names);
+  return base::did_you_mean(given, names);
 }
 
 /// Unexpected arguments of a command, in their order: options are reported before other arguments.
@@ -117,8 +117,8 @@ int main_program(int argc, char** argv) {
   std::vector<std::string> line = arguments(argc, argv);
   if (!line.empty() && !line[0].starts_with('-') &&
       std::find(names.begin(), names.end(), line[0]) == names.end()) {
-    throw UsageError(fmt::format("no command \"{}\"{}\nsee {} --help", line[0], suggestion(line[0], names),
-                                 app.get_name()));
+    throw UsageError(fmt::format("no command \"{}\"{}\nsee {} --help", line[0],
+                                 base::suggestion(line[0], names), app.get_name()));
   }
   std::reverse(line.begin(), line.end());  // CLI11 takes arguments from the back
   try {

@@ -42,8 +42,8 @@ bool has(const OptionText& option, std::string_view name) {
 /// Settings with paths that do not depend on the scene.
 std::vector<std::string> plain_settings() {
   std::vector<std::string> paths;
-  for (const Key& key : all_keys()) {
-    const bool table = key.type == KeyType::table || key.type == KeyType::tables;
+  for (const scene::Key& key : scene::all_keys()) {
+    const bool table = key.type == scene::KeyType::table || key.type == scene::KeyType::tables;
     if (table || key.name == "*" || key.table.empty() || key.table == "history" ||
         key.table.find_first_of("[*") != std::string_view::npos || key.table == "base_motion")
       continue;
@@ -68,11 +68,11 @@ std::vector<OptionText> options_of(const CLI::App& command) {
 Completion completion_of(const std::string& command, const OptionText& option) {
   using Kind = Completion::Kind;
   if (has(option, "--engine") || has(option, "--engines"))
-    return {Kind::words, choices_of(*find_key("run", "engine"))};
+    return {Kind::words, scene::choices_of(*scene::find_key("run", "engine"))};
   if (has(option, "--set") || has(option, "--vary")) return {Kind::settings, plain_settings()};
   if (command == "new" && has(option, "--from")) {
     Completion completion{Kind::words, {}};
-    for (const EmbeddedFile& file : scene_templates())
+    for (const base::EmbeddedFile& file : base::scene_templates())
       completion.words.push_back(std::filesystem::path(file.name).stem().string());
     return completion;
   }
@@ -144,7 +144,7 @@ const CLI::App* command_named(const CLI::App& app, const std::string& name) {
     if (command->get_name() == name) return command;
     names.push_back(command->get_name());
   }
-  throw UsageError(fmt::format("no command \"{}\"{}", name, suggestion(name, names)));
+  throw UsageError(fmt::format("no command \"{}\"{}", name, base::suggestion(name, names)));
 }
 
 /// Writes all pages, and prints their names.
@@ -153,7 +153,7 @@ void write_pages(const CLI::App& app, const fs::path& folder) {
   pages.insert(pages.begin(), nullptr);
   for (const CLI::App* command : pages) {
     const fs::path path = folder / (page_name(command) + ".1");
-    write_file(path, man_page(app, command));
+    result::write_file(path, man_page(app, command));
     print(path.string() + "\n");
   }
 }

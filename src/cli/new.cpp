@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> template_names() {
   std::vector<std::string> names;
-  for (const EmbeddedFile& file : scene_templates()) names.push_back(fs::path(file.name).stem().string());
+  for (const base::EmbeddedFile& file : base::scene_templates())
+    names.push_back(fs::path(file.name).stem().string());
   return names;
 }
 
@@ -61,16 +62,16 @@ ExitCode write_new_scene(const std::string& name, const std::string& from, bool 
   std::size_t k = 0;
   while (k < names.size() && names[k] != from) ++k;
   if (k == names.size())
-    throw UsageError(fmt::format("--from: found \"{}\"{}", from, suggestion(from, names)));
+    throw UsageError(fmt::format("--from: found \"{}\"{}", from, base::suggestion(from, names)));
   fs::path path = name;
   if (path.filename().empty())
     throw UsageError(fmt::format("NAME: found \"{}\", expected a file's name", name));
   if (path.extension() != ".toml") path += ".toml";
   const std::string stem = path.stem().string();
-  const bool makes_files = scene_templates()[k].text.find("@NAME@") != std::string_view::npos;
+  const bool makes_files = base::scene_templates()[k].text.find("@NAME@") != std::string_view::npos;
   if (makes_files && stem.find_first_of("\"\\ ") != std::string::npos)
     throw UsageError(fmt::format("NAME: found \"{}\", expected a name without blanks and quotes", name));
-  const std::string text = named(scene_templates()[k].text, stem);
+  const std::string text = named(base::scene_templates()[k].text, stem);
   std::vector<QuakeOptions> quakes = quakes_of(text, path.parent_path());
   std::vector<std::string> files{path.string()};
   for (QuakeOptions& options : quakes) {
@@ -80,7 +81,7 @@ ExitCode write_new_scene(const std::string& name, const std::string& from, bool 
   for (const std::string& file : files)
     if (!force && fs::exists(fs::symlink_status(file)))
       throw FileError(file, "file exists; use --force to replace it");
-  write_file(path, text);
+  result::write_file(path, text);
   for (const QuakeOptions& options : quakes) write_quake(options);
   for (const std::string& file : files) print(fmt::format("{}\n", file));
   print_note(fmt::format("signorini check {0}, and then signorini run {0}", path.string()));

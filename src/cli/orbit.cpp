@@ -67,7 +67,7 @@ class MarkWriter {
   }
   void write(BranchMark mark) const {
     mark.points += before_;
-    write_mark(path_, read_, over_, mark);
+    orbit_study::write_mark(path_, read_, over_, mark);
   }
 
  private:
@@ -110,7 +110,8 @@ void read_over(const std::string& text, BranchOptions& options) {
   const std::size_t colon = equals == std::string::npos ? equals : text.find(':', equals);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto value = [&](std::size_t begin, std::size_t end) {
-    return colon == std::string::npos ? none : parse_number(text.substr(begin, end - begin)).value_or(none);
+    return colon == std::string::npos ? none
+                                      : base::parse_number(text.substr(begin, end - begin)).value_or(none);
   };
   const double from = value(equals + 1, colon), to = value(colon + 1, text.size());
   if (equals == 0 || !(from < to || to < from))
@@ -123,18 +124,18 @@ void read_over(const std::string& text, BranchOptions& options) {
 ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptions over, const fs::path& path,
                   const OutputOptions& options, bool resume) {
   if (!resume) check_folder(path, branch_folder(), options.force, scene);
-  const Scene first = branch_reader(read, over.path, over.from)({});
+  const Scene first = orbit::branch_reader(read, over.path, over.from)({});
   std::vector<std::string> outputs;
   for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
   std::vector<BranchPoint> before;
   if (resume) {
-    over.resumed = read_mark(path, read, over);
-    before = read_branch(path, outputs.size(), over.resumed->points);
+    over.resumed = orbit_study::read_mark(path, read, over);
+    before = orbit_study::read_branch(path, outputs.size(), over.resumed->points);
   } else {
     begin_folder(path, branch_folder());
-    remove_mark(path);
+    orbit_study::remove_mark(path);
   }
-  BranchWriter writer(path, outputs);
+  orbit_study::BranchWriter writer(path, outputs);
   Interrupt interrupt;
   BranchWatch watch;
   for (const BranchPoint& point : before) writer.add(point);
@@ -143,17 +144,18 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   Branch branch = follow(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
   branch.points.insert(branch.points.begin(), before.begin(), before.end());
   if (branch.last && !branch.complete) marks.write(*branch.last);
-  const std::string json = branch_json(over, first.units, branch);
-  write_file(path / "branch.json", json);
+  const std::string json = orbit_study::branch_json(over, first.units, branch);
+  result::write_file(path / "branch.json", json);
   std::vector<std::string> labels;
   for (const OutputSpec& output : first.outputs) {
-    const std::string unit = unit_text(unit_of_output(output, first.outputs), first.units);
+    const std::string unit = unit_text(scene::unit_of_output(output, first.outputs), first.units);
     labels.push_back(output.name + (unit.empty() ? "" : " [" + unit + "]"));
   }
-  clear_plot_folder(path / "plots", is_picture_of_branch);
+  result::clear_plot_folder(path / "plots", orbit_study::is_picture_of_branch);
   const std::vector<fs::path> scripts =
-      options.no_plots ? std::vector<fs::path>()
-                       : branch_pictures(first.title, first.units, over, labels, branch).write(path);
+      options.no_plots
+          ? std::vector<fs::path>()
+          : orbit_study::branch_pictures(first.title, first.units, over, labels, branch).write(path);
   if (options.json) print(json);
   if (options.tables())
     print(branch_table(over, branch) +
@@ -294,28 +296,28 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   if (options.step || options.most_points || options.switches)
     throw UsageError("--step, --most-points, --switch: expected --over, whose branch they are of");
   if (options.resume) throw UsageError("--resume: expected --over, whose branch it continues");
-  check_run_directory(path, options.force);
+  result::check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);
   Interrupt interrupt;
   SearchWatch watch;
   const Orbit orbit = find_orbit(read, options.search, &watch);
   if (!orbit.found) return not_found(options, orbit);
-  const Scene scene = scene_beginning_in(orbit_scene(read, orbit), path);
+  const Scene scene = orbit_study::scene_beginning_in(orbit_scene(read, orbit), path);
   const Model model = build_model(scene);
-  RunDirectory directory(path, scene, model, {options.force, command_line, false, !options.no_plots});
+  result::RunDirectory directory(path, scene, model, {options.force, command_line, false, !options.no_plots});
   const CertifiedReport certified =
       simulate_certified(model, scene.run, directory, {{}, [] { return !Interrupt::asked(); }});
-  write_orbit(path, scene, model, orbit);
+  orbit_study::write_orbit(path, scene, model, orbit);
   directory.finish(certified);
   print_warnings(options, certified.report.warnings);
-  if (options.json) print(orbit_json(model, orbit));
+  if (options.json) print(orbit_study::orbit_json(model, orbit));
   if (options.tables()) print(text_of(scene, model, orbit, path));
   const bool done = certified.report.outcome.kind == Outcome::Kind::done;
   std::vector<fs::path> scripts;
   if (!options.no_plots && done) {
-    scripts = write_plots(path);
-    for (fs::path& more : orbit_pictures(path, scene.title, scene.units, orbit).write(path))
+    scripts = result::write_plots(path);
+    for (fs::path& more : orbit_study::orbit_pictures(path, scene.title, scene.units, orbit).write(path))
       scripts.push_back(std::move(more));
   }
   const std::string drawn =

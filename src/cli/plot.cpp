@@ -43,29 +43,30 @@ using Clock = std::chrono::steady_clock;
 constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell
 constexpr int no_end = 124;                       // exit code as in timeout
 constexpr std::chrono::seconds patience{60};      // a picture takes a second or two
-constexpr std::size_t most_said = 1 << 16;
-constexpr std::size_t most_contacts = 24;  // a sixth of a second each; a displacement picture covers this
-                                           // number of nodes
+constexpr std::size_t most_output = 1 << 16;
+constexpr std::size_t most_contact_pictures =
+    24;  // a sixth of a second each; a displacement picture covers this
+         // number of nodes
 
 struct Ended {
   int code = 0;
-  std::string said;
+  std::string output;
 };
 
 // Only async-signal-safe calls are allowed between fork and exec.
-[[noreturn]] void become_gnuplot(const char* folder, const char* script, int said) {
+[[noreturn]] void become_gnuplot(const char* folder, const char* script, int output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // no one would wait for the picture
   const int nothing = open("/dev/null", O_RDWR);
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
-  dup2(said, STDERR_FILENO);
+  dup2(output, STDERR_FILENO);
   if (chdir(folder) == 0) execlp("gnuplot", "gnuplot", "-d", script, static_cast<char*>(nullptr));
   _exit(errno == ENOENT ? no_program : no_reason);
 }
 
-/// Reads gnuplot's output, up to `most_said` bytes, until it closes its end; false if it takes too long or writes too
+/// Reads gnuplot's output, up to `most_output` bytes, until it closes its end; false if it takes too long or writes too
 /// much.
-bool listen(int end, Clock::time_point last, std::string& said) {
+bool listen(int end, Clock::time_point last, std::string& output) {
   std::array<char, 4096> buffer{};
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(last - Clock::now());
@@ -76,8 +77,8 @@ bool listen(int end, Clock::time_point last, std::string& said) {
     const ssize_t n = read(end, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return true;
-    said.append(buffer.data(), static_cast<std::size_t>(n));
-    if (said.size() > most_said) return false;
+    output.append(buffer.data(), static_cast<std::size_t>(n));
+    if (output.size() > most_output) return false;
   }
 }
 
@@ -107,17 +108,18 @@ Ended run_gnuplot(const std::filesystem::path& script) {
     return {no_reason, "no process"};
   }
   const auto last = Clock::now() + patience;
-  std::string said;
-  const bool silent = listen(ends[0], last, said);
+  std::string output;
+  const bool silent = listen(ends[0], last, output);
   close(ends[0]);
   if (silent)
-    if (const auto code = wait_for(child, last)) return {*code, said};
+    if (const auto code = wait_for(child, last)) return {*code, output};
   setpgid(child, child);  // if the child has not done so itself
   kill(-child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
-  return {no_end, said.size() > most_said ? "it said more than 64 kB and was ended"
-                                          : fmt::format("not done after {} s, and ended", patience.count())};
+  return {no_end, output.size() > most_output
+                      ? "it printed more than 64 kB and was stopped"
+                      : fmt::format("not done after {} s, and ended", patience.count())};
 }
 
 }  // namespace
@@ -126,7 +128,7 @@ std::vector<std::filesystem::path> first_ones(const std::vector<std::filesystem:
   std::vector<std::filesystem::path> first;
   std::size_t contacts = 0;
   for (const auto& script : scripts)
-    if (!script.filename().string().starts_with("contact-") || contacts++ < most_contacts)
+    if (!script.filename().string().starts_with("contact-") || contacts++ < most_contact_pictures)
       first.push_back(script);
   return first;
 }
@@ -138,7 +140,7 @@ Drawing draw(const std::vector<std::filesystem::path>& scripts) {
     const Ended ended = run_gnuplot(script);
     if (ended.code == no_program) return {Drawing::Kind::no_gnuplot, ""};
     if (ended.code == 0) continue;
-    if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + ended.said};
+    if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + ended.output};
     if (ended.code == no_end)
       return drawing;  // an error of the program, not of the picture: the next one would hang as well
   }
@@ -160,7 +162,7 @@ std::string draw_pictures(const std::filesystem::path& directory,
       first.size() == scripts.size()
           ? ""
           : fmt::format(", of the first {} contacts; gnuplot contact-NAME.gp there draws another's",
-                        most_contacts);
+                        most_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)
     return "pictures: no gnuplot on PATH; its scripts are in " + folder + later + "\n";
@@ -172,69 +174,69 @@ namespace fs = std::filesystem;
 
 namespace {
 
-PictureFiles pictures_of_sweep(const fs::path& directory, const PictureLook& look) {
-  const SweepDirectory swept(directory, read_sweep_spec(directory), false);
-  return sweep_pictures(swept.spec(), swept.rows(), look);
+result::PictureFiles pictures_of_sweep(const fs::path& directory, const result::PictureLook& look) {
+  const sweep::SweepDirectory swept(directory, sweep::read_sweep_spec(directory), false);
+  return sweep::sweep_pictures(swept.spec(), swept.rows(), look);
 }
 
-PictureFiles pictures_of_sensitivities(const fs::path& directory, const PictureLook& look) {
-  Sigmas sigmas;
-  const Sensitivities s = read_sensitivities(directory, sigmas);
-  return sensitivity_pictures(s, sigmas, look);
+result::PictureFiles pictures_of_sensitivities(const fs::path& directory, const result::PictureLook& look) {
+  sensitivity_study::Sigmas sigmas;
+  const Sensitivities s = sensitivity_study::read_sensitivities(directory, sigmas);
+  return sensitivity_study::sensitivity_pictures(s, sigmas, look);
 }
 
 /// Scripts for the runs of a comparison: in a folder with the engine's name, else in their own directories.
-std::vector<fs::path> comparison_scripts(const fs::path& directory, const PictureLook& look) {
+std::vector<fs::path> comparison_scripts(const fs::path& directory, const result::PictureLook& look) {
   const fs::path file = directory / "compare.json";
   std::ifstream stream(file, std::ios::binary);
-  ComparisonReport report;
+  compare::ComparisonReport report;
   try {
-    const Json json = parse_json(stream);
-    for (const Json& run : json.at("runs")) {
+    const base::Json json = base::parse_json(stream);
+    for (const base::Json& run : json.at("runs")) {
       const std::string name = run.at("name");
       if (run.at("outcome") == "refused") continue;
       std::error_code error;
       const bool here = fs::is_directory(directory / name, error);
       const fs::path place = here ? directory / name : fs::path(run.at("directory"));
-      report.runs.push_back(read_compared_run(place, name));
+      report.runs.push_back(compare::read_compared_run(place, name));
       print_unchecked(place);
     }
-  } catch (const Json::exception& error) {
+  } catch (const base::Json::exception& error) {
     throw FileError(file.string(), std::string("is no comparison: ") + error.what());
   }
   if (report.runs.empty()) throw FileError(file.string(), "has no runs");
-  begin_comparison_plots(directory);
+  compare::begin_comparison_plots(directory);
   for (std::size_t i = 1; i < report.runs.size(); ++i) {
-    ComparisonSettings settings;
+    compare::ComparisonSettings settings;
     settings.folder = directory / "plots";
-    settings.slug = run_slug(report.runs[i].figures.name, i);
-    report.comparisons.push_back(compare_runs(report.runs.front(), report.runs[i], settings));
+    settings.slug = compare::run_slug(report.runs[i].figures.name, i);
+    report.comparisons.push_back(compare::compare_runs(report.runs.front(), report.runs[i], settings));
   }
-  return write_comparison_plots(directory, report, look);
+  return compare::write_comparison_plots(directory, report, look);
 }
 
 }  // namespace
 
 bool ready_to_draw(const fs::path& directory) {
-  if (kind_of_results(directory) != "run") return true;
+  if (report::kind_of_results(directory) != "run") return true;
   print_unchecked(directory);
-  if (!lacks_picture_rows(directory)) {
-    check_run_files(directory);
+  if (!study::lacks_picture_rows(directory)) {
+    base::check_run_files(directory);
     return true;
   }
-  std::vector<std::string_view> others(result_files.begin(), result_files.end());
+  std::vector<std::string_view> others(base::result_files.begin(), base::result_files.end());
   std::erase_if(others, [](std::string_view file) {
-    return std::find(picture_rows.begin(), picture_rows.end(), file) != picture_rows.end();
+    return std::find(base::picture_rows.begin(), base::picture_rows.end(), file) != base::picture_rows.end();
   });
-  check_run_files(directory, others);
+  base::check_run_files(directory, others);
   print_note(directory.string() + ": pictures need a new computation, because the run used --no-plots");
-  return add_picture_rows(directory, [] { return !Interrupt::asked(); });
+  return study::add_picture_rows(directory, [] { return !Interrupt::asked(); });
 }
 
-std::vector<fs::path> write_any_plots(const fs::path& directory, const PlotWindow& window,
-                                      const PictureLook& look) {
-  const std::string kind = kind_of_results(directory);
-  if (kind == "run") return run_pictures(directory, window, look).write(directory);
+std::vector<fs::path> write_any_plots(const fs::path& directory, const result::PlotWindow& window,
+                                      const result::PictureLook& look) {
+  const std::string kind = report::kind_of_results(directory);
+  if (kind == "run") return result::run_pictures(directory, window, look).write(directory);
   if (window.from || window.to)
     throw UsageError(fmt::format("{}: {} is a {}, whose pictures have no part of a time to show",
                                  window.from ? "--from" : "--to", directory.string(), kind));
@@ -250,7 +252,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ExitCode plot(const fs::path& directory, const PlotWindow& window, const PictureLook& look) {
+ExitCode plot(const fs::path& directory, const result::PlotWindow& window, const result::PictureLook& look) {
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
@@ -272,7 +274,7 @@ ExitCode plot(const fs::path& directory, const PlotWindow& window, const Picture
 
 struct PlotOptions {
   std::string directory;
-  PlotWindow window;
+  result::PlotWindow window;
   std::optional<std::string> size, formats, language;
   bool no_title = false;
 };
@@ -300,11 +302,11 @@ void add_plot(Program& program) {
   command->add_flag("--no-title", options->no_title, "neither title nor subtitle");
   command->callback([&program, options] {
     program.action = [options] {
-      PictureLook look;
+      result::PictureLook look;
       look.title = !options->no_title;
-      if (options->size) read_size(*options->size, look);
-      if (options->formats) read_formats(*options->formats, look);
-      if (options->language) read_language(*options->language, look);
+      if (options->size) result::read_size(*options->size, look);
+      if (options->formats) result::read_formats(*options->formats, look);
+      if (options->language) result::read_language(*options->language, look);
       return plot(fs::path(options->directory), options->window, look);
     };
   });

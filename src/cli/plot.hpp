@@ -37,6 +37,7 @@ struct Drawing {
 
 /// Writes the scripts and returns them. Errors: FileError; UsageError for a time window on results without time.
 std::vector<std::filesystem::path> write_any_plots(const std::filesystem::path& directory,
-                                                   const PlotWindow& window, const PictureLook& look);
+                                                   const result::PlotWindow& window,
+                                                   const result::PictureLook& look);
 
 }  // namespace signorini::cli

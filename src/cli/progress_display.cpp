@@ -10,27 +10,28 @@
 
 namespace signorini::cli {
 
-Live::Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events)
-    : ForwardingRecorder(&next),
+ProgressDisplay::ProgressDisplay(Recorder& next, const Model& model, double t_end, bool show_progress,
+                                 bool keep_all_events)
+    : run::ForwardingRecorder(&next),
       model_(model),
       t_end_(t_end),
       show_progress_(show_progress && stderr_is_terminal()),
       keep_all_(keep_all_events),
       next_line_(std::chrono::steady_clock::now() + std::chrono::milliseconds(300)) {}
 
-Live::~Live() {
+ProgressDisplay::~ProgressDisplay() {
   if (line_shown_) progress_line("");
 }
 
-void Live::event(const Event& event) {
-  ForwardingRecorder::event(event);
+void ProgressDisplay::event(const Event& event) {
+  run::ForwardingRecorder::event(event);
   ++count_;
   if (keep_all_ || first_.size() < most_shown) first_.push_back(event);
   last_.push_back(event);
   if (last_.size() > shown_last) last_.pop_front();
 }
 
-void Live::advise(double t) {
+void ProgressDisplay::advise(double t) {
   constexpr double quiet_time = 2.0;  // s
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (s < quiet_time) return;
@@ -41,7 +42,7 @@ void Live::advise(double t) {
   print_note(note);
 }
 
-std::string Live::time_left(double t) {
+std::string ProgressDisplay::time_left(double t) {
   constexpr double settled = 1.0, window = 5.0;  // s
   const auto now = std::chrono::steady_clock::now();
   const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
@@ -50,11 +51,11 @@ std::string Live::time_left(double t) {
     pace_t_ = std::exchange(next_pace_t_, t);
   }
   if (seconds(start_) < settled || !(t > pace_t_)) return "";
-  return ", about " + duration_text(seconds(pace_from_) * (t_end_ - t) / (t - pace_t_)) + " left";
+  return ", about " + base::duration_text(seconds(pace_from_) * (t_end_ - t) / (t - pace_t_)) + " left";
 }
 
-bool Live::progress(double t) {
-  const bool go_on = ForwardingRecorder::progress(t) && !Interrupt::asked();
+bool ProgressDisplay::progress(double t) {
+  const bool go_on = run::ForwardingRecorder::progress(t) && !Interrupt::asked();
   if (advice_ && go_on && t > 0.0) advise(t);
   if (!show_progress_) return go_on;
   if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {
@@ -78,7 +79,7 @@ void end_or_note(int signal) {
     return;
   }
   constexpr char text[] = "error: interrupted\n";
-  [[maybe_unused]] const ssize_t told = write(STDERR_FILENO, text, sizeof text - 1);
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
   _exit(static_cast<int>(ExitCode::interrupted));
 }
 

@@ -41,12 +41,13 @@ class Interrupt {
   [[nodiscard]] static bool asked();
 };
 
-class Live : public ForwardingRecorder {
+class ProgressDisplay : public run::ForwardingRecorder {
  public:
-  Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events = false);
-  ~Live() override;
-  Live(const Live&) = delete;
-  Live& operator=(const Live&) = delete;
+  ProgressDisplay(Recorder& next, const Model& model, double t_end, bool show_progress,
+                  bool keep_all_events = false);
+  ~ProgressDisplay() override;
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   void event(const Event& event) override;
   bool progress(double t) override;

@@ -23,11 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-QuakeSpec quake_spec(const QuakeOptions& options) {
+quake::QuakeSpec quake_spec(const QuakeOptions& options) {
   const auto within = [](const char* option, double value, double least, double most) {
     if (!(value >= least && value <= most))
       throw UsageError(
-          fmt::format("--{}: found {}, expected {} to {}", option, shortest(value), least, most));
+          fmt::format("--{}: found {}, expected {} to {}", option, base::shortest(value), least, most));
   };
   within("pga", options.pga, 1e-6, 100.0);
   within("duration", options.duration, 1.0, 600.0);
@@ -40,8 +40,8 @@ QuakeSpec quake_spec(const QuakeOptions& options) {
   const double steps = options.duration / options.dt;
   if (std::abs(steps - std::round(steps)) > 1e-6 * steps || steps < 100.0 || steps > 100000.0)
     throw UsageError(fmt::format("--duration {}: expected 100 to 100000 steps of --dt {}, a whole number",
-                                 shortest(options.duration), shortest(options.dt)));
-  QuakeSpec spec;
+                                 base::shortest(options.duration), base::shortest(options.dt)));
+  quake::QuakeSpec spec;
   spec.pga = options.pga;
   spec.duration = options.duration;
   spec.dt = options.dt;
@@ -49,29 +49,29 @@ QuakeSpec quake_spec(const QuakeOptions& options) {
   spec.ground_frequency = options.ground_frequency;
   spec.ground_damping = options.ground_damping;
   if (options.spectrum) {
-    if (options.dt > least_matched / 4.0)
+    if (options.dt > quake::least_matched / 4.0)
       throw UsageError(fmt::format("--dt: found {}, expected at most {} with --spectrum",
-                                   shortest(options.dt), least_matched / 4.0));
-    spec.target = TargetSpectrum::read(*options.spectrum, options.pga);
+                                   base::shortest(options.dt), quake::least_matched / 4.0));
+    spec.target = quake::TargetSpectrum::read(*options.spectrum, options.pga);
   }
   return spec;
 }
 
 /// The command that reproduces these files.
 std::string quake_command(const QuakeOptions& options) {
-  std::string text =
-      fmt::format("signorini quake NAME --pga {} --duration {} --dt {} --seed {}", shortest(options.pga),
-                  shortest(options.duration), shortest(options.dt), options.seed);
+  std::string text = fmt::format("signorini quake NAME --pga {} --duration {} --dt {} --seed {}",
+                                 base::shortest(options.pga), base::shortest(options.duration),
+                                 base::shortest(options.dt), options.seed);
   if (options.spectrum) text += " --spectrum " + fs::path(*options.spectrum).filename().string();
-  return text + fmt::format(" --ground-frequency {} --ground-damping {}", shortest(options.ground_frequency),
-                            shortest(options.ground_damping));
+  return text + fmt::format(" --ground-frequency {} --ground-damping {}",
+                            base::shortest(options.ground_frequency), base::shortest(options.ground_damping));
 }
 
 std::string at2_text(const QuakeOptions& options, const std::vector<double>& a) {
   std::string text = fmt::format(
       "SYNTHETIC ACCELEROGRAM, NOT A RECORD\n{}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {}, DT= {} "
       "SEC\n",
-      quake_command(options), a.size(), shortest(options.dt));
+      quake_command(options), a.size(), base::shortest(options.dt));
   for (std::size_t i = 0; i < a.size(); ++i)
     text += fmt::format("{:>16.8E}{}", a[i], i % 5 == 4 || i + 1 == a.size() ? "\n" : "");
   return text;
@@ -80,33 +80,36 @@ std::string at2_text(const QuakeOptions& options, const std::vector<double>& a) 
 std::string csv_text(const QuakeOptions& options, const std::vector<double>& a) {
   std::string text = "# " + quake_command(options) + "\n# t in s, a in m/s^2\nt,a\n";
   for (std::size_t i = 0; i < a.size(); ++i)
-    text += fmt::format("{},{}\n", shortest(std::round(static_cast<double>(i) * options.dt * 1e9) / 1e9),
-                        shortest(a[i] * standard_gravity));
+    text +=
+        fmt::format("{},{}\n", base::shortest(std::round(static_cast<double>(i) * options.dt * 1e9) / 1e9),
+                    base::shortest(a[i] * scene::standard_gravity));
   return text;
 }
 
-std::string ground_text(const QuakeSpec& spec, const std::vector<double>& a) {
-  const GroundMotion ground = ground_motion(a, spec.dt);
+std::string ground_text(const quake::QuakeSpec& spec, const std::vector<double>& a) {
+  const quake::GroundMotion ground = quake::ground_motion(a, spec.dt);
   double pga = 0.0;
   for (const double value : a) pga = std::max(pga, std::abs(value));
   std::string text = fmt::format(
       "peak acceleration {:.4g} g, velocity {:.4g} m/s, displacement {:.4g} m; final velocity and "
       "displacement are 0\n",
-      pga, ground.velocity * standard_gravity, ground.displacement * standard_gravity);
+      pga, ground.velocity * scene::standard_gravity, ground.displacement * scene::standard_gravity);
   if (!spec.target) return text;
   double least = 1e300, greatest = 0.0;
   // Steps of 1 %, both ends included: narrower than any peak at 5 % damping.
-  const int last = static_cast<int>(std::ceil(std::log(greatest_matched / least_matched) / std::log(1.01)));
+  const int last =
+      static_cast<int>(std::ceil(std::log(quake::greatest_matched / quake::least_matched) / std::log(1.01)));
   for (int i = 0; i <= last; ++i) {
-    const double T =
-        least_matched * std::pow(greatest_matched / least_matched, static_cast<double>(i) / last);
-    const double quotient = pseudo_acceleration(a, spec.dt, T, spectrum_damping) / spec.target(T);
+    const double T = quake::least_matched *
+                     std::pow(quake::greatest_matched / quake::least_matched, static_cast<double>(i) / last);
+    const double quotient =
+        quake::pseudo_acceleration(a, spec.dt, T, quake::spectrum_damping) / spec.target(T);
     least = std::min(least, quotient);
     greatest = std::max(greatest, quotient);
   }
   return text +
          fmt::format("response spectrum, 5 % damping, {} s to {} s: {:.0f} % to {:.0f} % of the target\n",
-                     least_matched, greatest_matched, 100.0 * least, 100.0 * greatest);
+                     quake::least_matched, quake::greatest_matched, 100.0 * least, 100.0 * greatest);
 }
 
 }  // namespace
@@ -144,13 +147,13 @@ std::vector<std::string> quake_files(const QuakeOptions& options) {
 std::string write_quake(const QuakeOptions& options) {
   if (fs::path(options.name).filename().empty())
     throw UsageError(fmt::format("NAME: found \"{}\", expected a file's name", options.name));
-  const QuakeSpec spec = quake_spec(options);
+  const quake::QuakeSpec spec = quake_spec(options);
   for (const std::string& file : quake_files(options))
     if (!options.force && fs::exists(fs::symlink_status(file)))
       throw FileError(file, "file exists; use --force to replace it");
-  const std::vector<double> a = quake(spec);
-  write_file(quake_files(options)[0], at2_text(options, a));
-  write_file(quake_files(options)[1], csv_text(options, a));
+  const std::vector<double> a = quake::quake(spec);
+  result::write_file(quake_files(options)[0], at2_text(options, a));
+  result::write_file(quake_files(options)[1], csv_text(options, a));
   return options.quiet ? "" : ground_text(spec, a);
 }
 

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 std::string check_of(const Scene& scene) {
   try {
     const Model model = build_model(scene);
-    return check_text(scene, model, check(scene, model));
+    return check_text(scene, model, check::check(scene, model));
   } catch (const Error& error) {
     return error.what();
   }
@@ -33,19 +33,19 @@ std::string check_of(const Scene& scene) {
 
 /// Another file of that name is somebody's.
 void check_page(const fs::path& page) {
-  check_output_file(page, "page of Signorini", "<meta name=\"generator\" content=\"Signorini");
+  base::check_output_file(page, "page of Signorini", "<meta name=\"generator\" content=\"Signorini");
 }
 
 ExitCode report(const fs::path& directory, const fs::path& given) {
-  const bool run = kind_of_results(directory) == "run";
+  const bool run = report::kind_of_results(directory) == "run";
   const fs::path page = given.empty() ? directory / "report.html" : given;
   check_page(page);
   if (run) {
     if (!ready_to_draw(directory)) return ExitCode::interrupted;
     const Scene scene = read_scene((directory / "run.toml").string());
-    write_file(page, run_page(directory, scene, check_of(scene)));
+    result::write_file(page, report::run_page(directory, scene, check_of(scene)));
   } else {
-    write_file(page, results_page(directory));
+    result::write_file(page, report::results_page(directory));
   }
   print(page.string() + "\n");
   return ExitCode::done;
@@ -53,18 +53,18 @@ ExitCode report(const fs::path& directory, const fs::path& given) {
 
 /// Several runs: writes FILE, and the same as a table in FILE with .csv.
 ExitCode report_cases(const std::vector<std::string>& directories, const fs::path& given) {
-  const std::vector<LoadCase> cases =
-      read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));
+  const std::vector<report::LoadCase> cases =
+      report::read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));
   const fs::path page = given.empty() ? "cases.html" : given;
   for (const std::string& directory : directories) print_unchecked(directory);
-  for (const std::string& doubt : load_case_doubts(cases)) print_warning(doubt);
+  for (const std::string& doubt : report::load_case_warnings(cases)) print_warning(doubt);
   fs::path table = page;
   table.replace_extension(".csv");
   if (table == page) throw UsageError(page.string() + ": is the name of the table, too; expected FILE.html");
   check_page(page);
-  check_output_file(table, "table of load cases", "item,quantity,unit");
-  write_file(page, load_cases_page(cases));
-  write_file(table, load_cases_csv(cases));
+  base::check_output_file(table, "table of load cases", "item,quantity,unit");
+  result::write_file(page, report::load_cases_page(cases));
+  result::write_file(table, report::load_cases_csv(cases));
   print(page.string() + "\n" + table.string() + "\n");
   return ExitCode::done;
 }
@@ -111,14 +111,14 @@ ExitCode write_frames(const FrameOptions& options) {
   if (options.count < 1 || options.count > most)
     throw UsageError(fmt::format("--frames: found {}, expected 1 to {}", options.count, most));
   const fs::path directory = options.directory;
-  if (kind_of_results(directory) != "run") throw FileError(directory.string(), "holds no run");
+  if (report::kind_of_results(directory) != "run") throw FileError(directory.string(), "holds no run");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
   const Scene scene = read_scene((directory / "run.toml").string());
-  const Json data = run_data(scene, directory);
+  const base::Json data = report::run_data(scene, directory);
   const auto count = static_cast<std::size_t>(options.count);
-  const std::vector<double> times = frame_times(data, count, options.events);
-  std::string written = write_paraview(directory, data, times).string() + "\n";
-  if (const auto bodies = write_paraview_bodies(directory, scene)) written += bodies->string() + "\n";
+  const std::vector<double> times = report::frame_times(data, count, options.events);
+  std::string written = report::write_paraview(directory, data, times).string() + "\n";
+  if (const auto bodies = report::write_paraview_bodies(directory, scene)) written += bodies->string() + "\n";
   print(written);
   return ExitCode::done;
 }

@@ -72,8 +72,8 @@ std::string reduction_line(const Model& model) {
 }
 
 /// Results of the run; `events`: table of events; pictures: the run has the data for pictures.
-std::string told(const Scene& scene, const Model& model, const CertifiedReport& certified,
-                 const std::string& events, const fs::path& path, bool pictures) {
+std::string certificate_text(const Scene& scene, const Model& model, const CertifiedReport& certified,
+                             const std::string& events, const fs::path& path, bool pictures) {
   const Report& report = certified.report;
   const std::string tables =
       stacked({support_table(model, report), response_table(model, report), start_table(model), events,
@@ -90,19 +90,20 @@ std::string told(const Scene& scene, const Model& model, const CertifiedReport& 
 }
 
 /// Suggestion for a quicker setting if a run is expected to take `seconds` in all. Empty: none, or no large gain.
-std::string what_is_quicker(const Scene& scene, const Model& model, double seconds) {
+std::string quicker_choices(const Scene& scene, const Model& model, double seconds) {
   constexpr double time_of_trial = 0.2;  // s
-  const Engine own = choose_engine(model, scene.run).engine;
+  const Engine own = run::choose_engine(model, scene.run).engine;
   std::vector<double> cutoffs;
   if (!scene.reduction) {
     const auto modes =
-        lowest_frequencies(model.mass, model.damping, model.stiffness,
-                           hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true)), 1)
+        modes::lowest_frequencies(
+            model.mass, model.damping, model.stiffness,
+            modes::hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true)), 1)
             .modes;
-    const double cutoff = modes.empty() ? 0.0 : cutoff_to_try(modes.front().omega, model.omega_max);
+    const double cutoff = modes.empty() ? 0.0 : run::cutoff_to_try(modes.front().omega, model.omega_max);
     if (cutoff > 0.0) cutoffs.push_back(cutoff);
   }
-  return quicker(trials(scene, model, own, cutoffs, time_of_trial), own, seconds);
+  return run::quicker(run::trials(scene, model, own, cutoffs, time_of_trial), own, seconds);
 }
 
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
@@ -112,24 +113,25 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const TableStyle style = table_style_of(options.table, options);
   const bool plain = style == TableStyle::plain;
   const fs::path path = directory_of(options);
-  const PreparedRun prepared = prepare_run(options.scene, changes, [] { return !Interrupt::asked(); });
+  const study::PreparedRun prepared =
+      study::prepare_run(options.scene, changes, [] { return !Interrupt::asked(); });
   const Scene& scene = prepared.scene;
   const Model& model = prepared.model;
   if (!options.quiet) print_patterns(options.scene, options.settings);
-  const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
+  const auto trace = options.trace ? std::make_unique<result::TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;
   if (trace) listener = [&](const Round& round) { trace->write(round); };
-  RunDirectory directory(path, scene, model,
-                         {options.force, command_line, options.instants, !options.no_plots});
+  result::RunDirectory directory(path, scene, model,
+                                 {options.force, command_line, options.instants, !options.no_plots});
 
-  KeptRun kept;
+  study::KeptRun kept;
   const CertifiedReport& certified = kept.certified;
   const Report& report = certified.report;
   std::string events;
   {
-    Live live(directory, model, scene.run.t_end, !options.quiet, !plain);
+    ProgressDisplay live(directory, model, scene.run.t_end, !options.quiet, !plain);
     if (!options.quiet && stderr_is_terminal())
-      live.when_long([&](double seconds) { return what_is_quicker(scene, model, seconds); });
+      live.when_long([&](double seconds) { return quicker_choices(scene, model, seconds); });
     kept = prepared.keep(directory, live, CertifyOptions{listener, [] { return !Interrupt::asked(); }});
     if (options.tables() || !plain)
       events = event_table(live, model, certified.certificate ? &*certified.certificate : nullptr, style);
@@ -142,11 +144,11 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
                    start_table(model, style), events, contact_table(model, report, style),
                    audit_table(model, report.audit, style)}));
   } else if (options.tables()) {
-    print(told(scene, model, certified, events, path, !options.no_plots));
+    print(certificate_text(scene, model, certified, events, path, !options.no_plots));
   }
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
   const std::string drawn =
-      pictures ? draw_pictures(path, write_plots(path), " (signorini plot draws them later)") : "";
+      pictures ? draw_pictures(path, result::write_plots(path), " (signorini plot draws them later)") : "";
   if (options.tables() && plain) print(drawn);
   return conclude(report.outcome, scene.units, path);
 }

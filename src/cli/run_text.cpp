@@ -40,8 +40,8 @@ class EventTable {
   /// `row`: index among all events, from 0.
   void add(const Event& e, std::size_t row) {
     const bool certain = certificate_ == nullptr || certificate_->certain(row);
-    if (!certain && !told_) table_.line("  --- not certain from here on: " + certificate_->reason);
-    told_ = told_ || !certain;
+    if (!certain && !printed_) table_.line("  --- not certain from here on: " + certificate_->reason);
+    printed_ = printed_ || !certain;
     std::vector<std::string> cells = {fmt::format("{:.9g}", e.t), name_of(model_, e.contact),
                                       to_string(e.type)};
     if (e.contact < 0) {
@@ -71,7 +71,7 @@ class EventTable {
   const Model& model_;
   const Certificate* certificate_;
   Table table_;
-  bool told_ = false;
+  bool printed_ = false;
 };
 
 std::string events_by_type(const Report& report) {
@@ -143,15 +143,16 @@ std::string start_table(const Model& model, TableStyle style) {
   return style == TableStyle::plain ? title + "\n" + table.str() : table.str(style);
 }
 
-std::string event_table(const Live& live, const Model& model, const Certificate* certificate,
+std::string event_table(const ProgressDisplay& live, const Model& model, const Certificate* certificate,
                         TableStyle style) {
   EventTable table(model, certificate);
   const auto& first = live.first_events();
   const bool all = live.event_count() == static_cast<long>(first.size());
-  const std::size_t shown = all ? first.size() : Live::shown_first;
+  const std::size_t shown = all ? first.size() : ProgressDisplay::shown_first;
   for (std::size_t i = 0; i < shown; ++i) table.add(first[i], i);
   if (!all) {
-    const long left_out = live.event_count() - static_cast<long>(Live::shown_first + Live::shown_last);
+    const long left_out =
+        live.event_count() - static_cast<long>(ProgressDisplay::shown_first + ProgressDisplay::shown_last);
     table.line(fmt::format("... {} more; all {} are in events.csv", left_out, live.event_count()));
     std::size_t row = static_cast<std::size_t>(live.event_count()) - live.last_events().size();
     for (const Event& e : live.last_events()) table.add(e, row++);
@@ -180,7 +181,7 @@ std::string support_table(const Model& model, const Report& report, TableStyle s
               {false, true, true, true, true, true, true, true, true, true, true, true});
   for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k) {
     const SupportLoad& load = report.supports[k];
-    const auto reaction = static_reaction(model, k);
+    const auto reaction = statics::static_reaction(model, k);
     std::vector<std::string> cells{model.contacts[k].name,
                                    reaction ? beside(*reaction == 0.0 ? 0.0 : -*reaction, greatest) : ""};
     for (const Turn& turn : {load.least_N, load.greatest_N, load.least_T, load.greatest_T}) {
@@ -267,25 +268,25 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
         return contact.takes_impulses() && !contact.capture_velocity;
       }))
     text += fmt::format("contacts that rebound slower than {} {}/{} stay closed (capture_velocity)\n",
-                        number(tolerance_of(model, run).capture_velocity()), model.units.length,
+                        number(engine::tolerance_of(model, run).capture_velocity()), model.units.length,
                         model.units.time);
   text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", method_of(report.method), times(c.steps, "step"),
                       times(c.restarts, "restart"), report.wall_time);
-  const Engine closed_form = engine_for(EngineRole::closed_form);
+  const Engine closed_form = run::engine_for(run::EngineRole::closed_form);
   if (report.method.automatic && report.method.engine != closed_form)
     return text + fmt::format("why {}: {}\n", to_string(report.method.engine), report.method.reason);
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
   // Only if it would be quicker than the run: estimated from its first steps, if a trial is worth its time.
-  std::optional<double> exact = exact_instead(model, chosen);
+  std::optional<double> exact = run::exact_instead(model, chosen);
   constexpr double long_run = 1.0, share = 0.02;  // s; fraction of the run's duration
   if (exact && report.wall_time > long_run) {
-    exact = seconds_by_trial(model, run, closed_form, share * report.wall_time);
+    exact = run::seconds_by_trial(model, run, closed_form, share * report.wall_time);
     if (*exact == 0.0) exact.reset();
   }
   if (exact && *exact < report.wall_time)
-    text +=
-        fmt::format("{0} would take {1} s (--engine {0})\n", to_string(closed_form), about_seconds(*exact));
+    text += fmt::format("{0} would take {1} s (--engine {0})\n", to_string(closed_form),
+                        run::about_seconds(*exact));
   return text;
 }
 
@@ -312,7 +313,7 @@ std::string certification(const Model& model, const CertifiedReport& run) {
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
     text += fmt::format("the order of {} of neighbouring events of different contacts is not certified\n",
-                        count_of(c.unordered, "pair"));
+                        base::count_of(c.unordered, "pair"));
   return text;
 }
 

@@ -15,8 +15,8 @@ namespace signorini::cli {
 
 /// One row per event; if there are many, the first and the last ones. N and T are values just before the event. A
 /// certificate, or null, adds the error of each time, and the end of the certain sequence.
-[[nodiscard]] std::string event_table(const Live& live, const Model& model, const Certificate* certificate,
-                                      TableStyle style = TableStyle::plain);
+[[nodiscard]] std::string event_table(const ProgressDisplay& live, const Model& model,
+                                      const Certificate* certificate, TableStyle style = TableStyle::plain);
 
 /// One row per contact: N at rest, extremes of N and T with their times, residual slip, friction loss. Styles for
 /// papers list all contacts, events and outputs.

@@ -79,11 +79,12 @@ class Stoppable : public Recorder {
 };
 
 /// The requested parameters, those with a sigma included, and one sigma per parameter.
-Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& paths) {
-  Sigmas sigmas(paths.size(), 0.0);
+sensitivity_study::Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& paths) {
+  sensitivity_study::Sigmas sigmas(paths.size(), 0.0);
   for (const std::string& text : options.sigmas) {
     const std::size_t equals = text.find('=');
-    const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+    const auto value =
+        equals == std::string::npos ? std::nullopt : base::parse_number(text.substr(equals + 1));
     if (equals == 0 || !value || !(*value >= 0.0) || !std::isfinite(*value))
       throw UsageError(fmt::format("--sigma {}: expected path=value, the value a standard deviation", text));
     const std::string path = text.substr(0, equals);
@@ -95,7 +96,7 @@ Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& 
     }
     sigmas[static_cast<std::size_t>(place - paths.begin())] = *value;
   }
-  return options.sigmas.empty() ? Sigmas{} : sigmas;
+  return options.sigmas.empty() ? sensitivity_study::Sigmas{} : sigmas;
 }
 
 std::string shown_rate(double x) { return std::isfinite(x) ? number(x) : "-"; }
@@ -113,7 +114,8 @@ std::string first_events(const Sensitivities& s) {
   for (std::size_t i = 0; i < s.events.size() && shown < most_events; ++i) {
     if (s.events[i].contact < 0) continue;
     std::vector<std::string> cells{std::to_string(i + 1), fmt::format("{:.9g}", s.events[i].t),
-                                   contact_of(s, s.events[i]), to_string(s.events[i].type)};
+                                   sensitivity_study::contact_of(s, s.events[i]),
+                                   to_string(s.events[i].type)};
     for (std::size_t p = 0; p < keys; ++p) cells.push_back(shown_rate(s.event_rates[i][p].t));
     table.row(std::move(cells));
     ++shown;
@@ -131,16 +133,18 @@ void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
     if (std::isfinite(rate) && (most == s.events.size() || rate > std::abs(s.event_rates[most][p].t)))
       most = i;
   }
-  const std::string path = key_with_unit(s.parameters[p].path, s.units);
+  const std::string path = study::key_with_unit(s.parameters[p].path, s.units);
   if (most < s.events.size()) {
     const Event& event = s.events[most];
     const double rate = s.event_rates[most][p].t;
-    table.row({path, fmt::format("t of event {}", most + 1), contact_of(s, event), number(event.t),
-               s.units.time, shown_rate(rate), shown_rate(elasticity(s.parameters[p].value, event.t, rate))});
+    table.row({path, fmt::format("t of event {}", most + 1), sensitivity_study::contact_of(s, event),
+               number(event.t), s.units.time, shown_rate(rate),
+               shown_rate(sensitivity_study::elasticity(s.parameters[p].value, event.t, rate))});
   }
   for (const Response& r : s.responses)
-    table.row({path, r.name, contact_of(s, r), number(r.value), unit_of(r, s.units), shown_rate(r.rates[p]),
-               shown_rate(elasticity(s.parameters[p].value, r.value, r.rates[p]))});
+    table.row({path, r.name, sensitivity_study::contact_of(s, r), number(r.value),
+               sensitivity_study::unit_of(r, s.units), shown_rate(r.rates[p]),
+               shown_rate(sensitivity_study::elasticity(s.parameters[p].value, r.value, r.rates[p]))});
 }
 
 std::string swap_text(const Sensitivities& s) {
@@ -153,7 +157,7 @@ std::string swap_text(const Sensitivities& s) {
   return text;
 }
 
-std::string summary_of(const Sensitivities& s, const Sigmas& sigmas) {
+std::string summary_of(const Sensitivities& s, const sensitivity_study::Sigmas& sigmas) {
   Table table({"parameter p", "x", "contact", "value", "unit", "dx/dp", "p/x dx/dp"},
               {false, false, false, true, false, true, true});
   for (std::size_t p = 0; p < s.parameters.size(); ++p) add_parameter(s, p, table);
@@ -163,11 +167,12 @@ std::string summary_of(const Sensitivities& s, const Sigmas& sigmas) {
       text +=
           fmt::format("{}: known until {}: {}\n", parameter.path, number(parameter.until), parameter.reason);
   if (sigmas.empty()) return text;
-  const Spread spreads = spread(s, sigmas);
+  const sensitivity_study::Spread spreads = sensitivity_study::spread(s, sigmas);
   Table figures({"x", "contact", "value", "sigma", "unit"}, {false, false, true, true, false});
   for (std::size_t i = 0; i < s.responses.size(); ++i)
-    figures.row({s.responses[i].name, contact_of(s, s.responses[i]), number(s.responses[i].value),
-                 shown_rate(spreads.responses[i]), unit_of(s.responses[i], s.units)});
+    figures.row({s.responses[i].name, sensitivity_study::contact_of(s, s.responses[i]),
+                 number(s.responses[i].value), shown_rate(spreads.responses[i]),
+                 sensitivity_study::unit_of(s.responses[i], s.units)});
   text += "\n" + figures.str() + "\n";
   for (std::size_t p = 0; p < sigmas.size(); ++p)
     if (sigmas[p] > 0.0)
@@ -202,13 +207,13 @@ ExitCode code_of(const Outcome& outcome) {
 }
 
 void write_events(const fs::path& path, const Model& model, const Sensitivities& s) {
-  write_file(path / "events.csv", event_table(model).text(s.events));
+  result::write_file(path / "events.csv", result::event_table(model).text(s.events));
 }
 
 ExitCode run(const SensitivityOptions& options) {
   const std::vector<Override> changes = overrides_of(options.settings);
   std::vector<std::string> paths = options.parameters;
-  const Sigmas sigmas = take_sigmas(options, paths);
+  const sensitivity_study::Sigmas sigmas = take_sigmas(options, paths);
   if (paths.empty()) throw UsageError("expected --parameter PATH or --sigma PATH=VALUE");
   const fs::path path = directory_of(options, "-sensitivity");
   check_folder(path, sensitivity_folder(), options.force, options.scene);
@@ -223,13 +228,14 @@ ExitCode run(const SensitivityOptions& options) {
   const Sensitivities s = sensitivities(read, paths, &recorder, {options.losses, options.discrete});
   interrupt.reset();
   begin_folder(path, sensitivity_folder());
-  remove_sensitivity_plots(path);
+  sensitivity_study::remove_sensitivity_plots(path);
   write_events(path, build_model(read({})), s);
-  write_sensitivities(path, s, sigmas);
-  const std::string json = sensitivity_json(s, sigmas);
-  write_file(path / "sensitivity.json", json);
+  sensitivity_study::write_sensitivities(path, s, sigmas);
+  const std::string json = sensitivity_study::sensitivity_json(s, sigmas);
+  result::write_file(path / "sensitivity.json", json);
   const std::string drawn =
-      options.no_plots ? "" : draw_pictures(path, sensitivity_pictures(s, sigmas).write(path));
+      options.no_plots ? ""
+                       : draw_pictures(path, sensitivity_study::sensitivity_pictures(s, sigmas).write(path));
   if (options.json) print(json);
   if (options.tables()) {
     if (!s.title.empty()) print(s.title + "\n\n");
@@ -324,8 +330,8 @@ ExitCode run_fit(const FitOptions& options) {
   const bool interrupted = Interrupt::asked();
   interrupt.reset();
   begin_folder(path, fit_folder());
-  write_fit(path, result, measured);
-  if (options.json) print(fit_json(result, measured));
+  sensitivity_study::write_fit(path, result, measured);
+  if (options.json) print(sensitivity_study::fit_json(result, measured));
   if (options.tables())
     print(text_of(result, measured) + "results: " + path.string() + "/ (fit.json, residuals.csv)\n");
   if (interrupted) {

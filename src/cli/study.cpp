@@ -20,24 +20,24 @@ namespace signorini::cli {
 
 // Output of `study`: a table of runs, the cheapest for each accuracy, and failures.
 
-[[nodiscard]] std::string study_text(const WorkReport& report);
+[[nodiscard]] std::string study_text(const speed::WorkReport& report);
 /// Only the table, for papers.
-[[nodiscard]] std::string study_table(const WorkReport& report, TableStyle style);
+[[nodiscard]] std::string study_table(const speed::WorkReport& report, TableStyle style);
 
-std::string study_table(const WorkReport& report, TableStyle style) {
-  WorkTable content = work_table(report);
+std::string study_table(const speed::WorkReport& report, TableStyle style) {
+  speed::WorkTable content = speed::work_table(report);
   Table table(std::move(content.header), std::move(content.right));
   for (auto& row : content.rows) table.row(std::move(row));
   return table.str(style);
 }
 
-std::string study_text(const WorkReport& report) {
+std::string study_text(const speed::WorkReport& report) {
   std::string text = report.title.empty() ? "" : report.title + "\n";
-  text += work_circumstances(report) + "\n" + work_reference(report) + "\n\n";
+  text += speed::work_circumstances(report) + "\n" + speed::work_reference(report) + "\n\n";
   text += study_table(report, TableStyle::plain) + "\n";
-  for (const std::string& sentence : work_conclusions(report)) text += sentence + "\n";
+  for (const std::string& sentence : speed::work_conclusions(report)) text += sentence + "\n";
   for (const std::string& note : report.notes) text += "  note: " + note + "\n";
-  for (const std::string& failure : work_failures(report)) text += "  " + failure + "\n";
+  for (const std::string& failure : speed::work_failures(report)) text += "  " + failure + "\n";
   return text;
 }
 
@@ -120,7 +120,7 @@ void refuse_key(const std::string& option, const std::string& path) {
 /// Settings of an engine; the reference may have its own.
 std::vector<Override> settings_for(const StudyOptions& options, const std::string& engine) {
   std::vector<std::string> engines = options.engines;
-  for (const Engine reference : WorkStudy::references) engines.emplace_back(to_string(reference));
+  for (const Engine reference : speed::WorkStudy::references) engines.emplace_back(to_string(reference));
   return overrides_for(options.settings, engines, engine);
 }
 
@@ -136,13 +136,14 @@ void check_settings(const StudyOptions& options) {
 }
 
 /// An invalid engine or varied key is an invalid command line, reported before anything is written.
-void try_engines(const StudyOptions& options, const std::vector<Vary>& varied) {
+void try_engines(const StudyOptions& options, const std::vector<sweep::ParameterRange>& varied) {
   for (const std::string& engine : options.engines) {
     std::vector<Override> changes = settings_for(options, engine);
     changes.insert(changes.begin(), engine_override(engine));
-    if (const std::string key = accuracy_key(engine); key == accuracy_key(Accuracy::step))
+    if (const std::string key = speed::accuracy_key(engine); key == accuracy_key(Accuracy::step))
       changes.insert(changes.begin(), {key, "1e-3"});
-    for (const Vary& vary : varied) changes.push_back(override_of(vary, vary.values.front()));
+    for (const sweep::ParameterRange& vary : varied)
+      changes.push_back(sweep::override_of(vary, vary.values.front()));
     try {
       (void)read_scene(options.scene, changes);
     } catch (const SceneError&) {  // for a single engine or value: becomes a row
@@ -150,32 +151,32 @@ void try_engines(const StudyOptions& options, const std::vector<Vary>& varied) {
   }
 }
 
-WorkRequest request_of(const StudyOptions& options, const std::vector<std::string>& command_line) {
-  WorkRequest request;
+speed::WorkRequest request_of(const StudyOptions& options, const std::vector<std::string>& command_line) {
+  speed::WorkRequest request;
   request.scene = options.scene;
   request.settings = [&options](const std::string& engine) { return settings_for(options, engine); };
   request.ranges.engines = options.engines;
-  request.ranges.rtol = parse_decades("--rtol", options.rtol);
+  request.ranges.rtol = speed::parse_decades("--rtol", options.rtol);
   for (const double value : request.ranges.rtol)
     if (!(value >= 1e-14 && value < 1.0))
       throw UsageError(
           fmt::format("--rtol {}: found {:g}, expected numbers >= 1e-14 and < 1", options.rtol, value));
   check_settings(options);
-  std::vector<Vary> varied;
-  for (const std::string& text : options.varied) varied.push_back(parse_vary(text));
-  for (const Vary& vary : varied) {
+  std::vector<sweep::ParameterRange> varied;
+  for (const std::string& text : options.varied) varied.push_back(sweep::parse_vary(text));
+  for (const sweep::ParameterRange& vary : varied) {
     refuse_key("--vary " + vary.path, vary.path);
     for (const std::string& value : vary.values)
       if (std::count(vary.values.begin(), vary.values.end(), value) > 1)
         throw UsageError("--vary " + vary.path + ": " + value + " stands twice");
   }
-  request.ranges.varied = points(varied);
+  request.ranges.varied = sweep::points(varied);
   if (!varied.empty()) request.ranges.varied.insert(request.ranges.varied.begin(), std::vector<Override>());
   request.repeats = static_cast<std::size_t>(options.repeats);
   request.directory = options.directory.value_or(fs::path(options.scene).stem().string() + "-study");
   request.limits = {options.time_limit, [] { return !Interrupt::asked(); }, command_line};
   try_engines(options, varied);
-  check_overlaps(options.scene, varied, {});
+  sweep::check_overlaps(options.scene, varied, {});
   return request;
 }
 
@@ -203,27 +204,27 @@ void clear_runs(const fs::path& path) {
     const std::string name = folder.filename().string();
     const bool numbered = name.size() > 4 && name[3] == '-' && name.find_first_not_of("0123456789") == 3;
     if ((!numbered && name != "again") || !fs::exists(folder / "summary.json", error)) continue;
-    remove_run(folder);
+    result::remove_run(folder);
     fs::remove(folder, error);  // only if the folder is empty now
   }
   fs::remove(runs, error);
 }
 
-void run_all(WorkStudy& study, const WorkRequest& request, const ProgressLine& progress) {
+void run_all(speed::WorkStudy& study, const speed::WorkRequest& request, const ProgressLine& progress) {
   progress.say("reference");
   study.find_reference();
   if (study.report().interrupted) return;
-  std::vector<WorkPoint> plan = work_points(request.ranges);
+  std::vector<speed::WorkPoint> plan = speed::work_points(request.ranges);
   const auto& series = study.series();
   if (series && std::any_of(plan.begin(), plan.end(),
-                            [&](const WorkPoint& point) { return point.engine == series->engine; }))
+                            [&](const speed::WorkPoint& point) { return point.engine == series->engine; }))
     plan.insert(plan.begin(), *series);
   for (std::size_t i = 0; i < plan.size() && !study.report().interrupted; ++i) {
     progress.say(fmt::format("{} ({} of {})", plan[i].name(), i + 1, plan.size()));
     study.add(plan[i]);
-    write_work(request.directory, study.report());
+    speed::write_work(request.directory, study.report());
   }
-  study.time_all([&](const WorkRow& row, std::size_t round) {
+  study.time_all([&](const speed::WorkRow& row, std::size_t round) {
     progress.say(fmt::format("timing {} (round {} of {})", row.point.name(), round, request.repeats));
   });
 }
@@ -231,19 +232,19 @@ void run_all(WorkStudy& study, const WorkRequest& request, const ProgressLine& p
 ExitCode study(const StudyOptions& options, const std::vector<std::string>& command_line) {
   check(options);
   const TableStyle style = table_style_of(options.table, options);
-  WorkRequest request = request_of(options, command_line);
+  speed::WorkRequest request = request_of(options, command_line);
   if (!options.quiet) {
     print_patterns(options.scene, options.settings);
     print_patterns(options.scene, options.settings, "--vary", options.varied);
   }
   const fs::path path = request.directory;
   check_folder(path, study_folder(), options.force, options.scene);
-  if (options.dt) request.ranges.dt = parse_decades("--dt", *options.dt);
-  WorkStudy work(request);
-  if (!options.dt) request.ranges.dt = usual_steps(work.report().t_end);
+  if (options.dt) request.ranges.dt = speed::parse_decades("--dt", *options.dt);
+  speed::WorkStudy work(request);
+  if (!options.dt) request.ranges.dt = speed::usual_steps(work.report().t_end);
   begin_folder(path, study_folder());
   clear_runs(path);
-  remove_work_plots(path);
+  speed::remove_work_plots(path);
   {
     const Interrupt interrupt;
     const ProgressLine progress(!options.quiet);
@@ -254,17 +255,17 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
         clear_runs(path);
         leave_folder(path, study_folder());
       } else {
-        write_work(path, work.report());
+        speed::write_work(path, work.report());
       }
       throw;
     }
   }
-  const WorkReport& report = work.report();
-  write_work(path, report);
+  const speed::WorkReport& report = work.report();
+  speed::write_work(path, report);
   const bool pictures = !options.no_plots && !report.interrupted;
-  const std::string drawn = pictures ? draw_pictures(path, write_work_plots(path, report)) : "";
-  if (!drawn.empty()) write_work(path, report);  // now with the picture
-  if (options.json) print(work_json(report));
+  const std::string drawn = pictures ? draw_pictures(path, speed::write_work_plots(path, report)) : "";
+  if (!drawn.empty()) speed::write_work(path, report);  // now with the picture
+  if (options.json) print(speed::work_json(report));
   if (style != TableStyle::plain)
     print(study_table(report, style));
   else if (options.tables())

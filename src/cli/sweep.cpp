@@ -49,9 +49,9 @@ std::optional<std::string> environment(const char* name) {
 }
 
 /// Varied keys, then sampled ones, which vary fastest.
-void vary_keys(const SweepOptions& options, SweepSpec& spec) {
+void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
   for (const std::string& text : options.varied) {
-    spec.vary.push_back(parse_vary(text));
+    spec.vary.push_back(sweep::parse_vary(text));
     spec.vary.back().group = options.together ? 1 : 0;
   }
   if (options.together && options.varied.size() < 2)
@@ -60,7 +60,7 @@ void vary_keys(const SweepOptions& options, SweepSpec& spec) {
     if (options.samples.empty())
       throw UsageError(std::string(option) + ": has no meaning without --sample PATH=DISTRIBUTION");
   };
-  SampleSpec sample;
+  sweep::SampleSpec sample;
   if (options.sample_count) {
     needs_samples("--samples");
     if (*options.sample_count < 1)
@@ -78,16 +78,17 @@ void vary_keys(const SweepOptions& options, SweepSpec& spec) {
     throw UsageError("--sequence " + options.sequence + ": expected random or sobol");
   if (options.sequence == "sobol") {
     needs_samples("--sequence");
-    sample.sequence = Sequence::sobol;
+    sample.sequence = sweep::Sequence::sobol;
   }
   if (options.samples.empty()) return;
-  for (Vary& vary : draw_samples(options.samples, sample)) spec.vary.push_back(std::move(vary));
+  for (sweep::ParameterRange& vary : sweep::draw_samples(options.samples, sample))
+    spec.vary.push_back(std::move(vary));
   spec.sampling =
-      fmt::format("{} {}, seed {}", count_of(sample.count, "sample"), options.sequence, sample.seed);
+      fmt::format("{} {}, seed {}", base::count_of(sample.count, "sample"), options.sequence, sample.seed);
 }
 
 /// Sets how runs continue each other, before any scene is read.
-void carry_on(const SweepOptions& options, SweepSpec& spec) {
+void carry_on(const SweepOptions& options, sweep::SweepSpec& spec) {
   if (options.back && !options.carry)
     throw UsageError("--back: has no meaning without --carry, which lets runs go on from each other");
   if (!options.carry) return;
@@ -100,7 +101,7 @@ void carry_on(const SweepOptions& options, SweepSpec& spec) {
   spec.carry = {true, options.back};
   if (!options.back) return;
   const int group = spec.vary.back().group;
-  for (Vary& vary : spec.vary) {
+  for (sweep::ParameterRange& vary : spec.vary) {
     if (&vary != &spec.vary.back() && (group == 0 || vary.group != group)) continue;
     const std::vector<std::string> there = vary.values;
     vary.values.insert(vary.values.end(), there.rbegin(), there.rend());
@@ -108,9 +109,10 @@ void carry_on(const SweepOptions& options, SweepSpec& spec) {
 }
 
 /// Sets the points of a stroboscopic sweep.
-void specify_strobe(const SweepOptions& options, const Scene& scene, const Model& model, SweepSpec& spec) {
-  const Strobe strobe = parse_strobe(options.strobe, scene, model);
-  spec.strobe = {options.strobe, strobe.period, options.settle, strobe_columns(model)};
+void specify_strobe(const SweepOptions& options, const Scene& scene, const Model& model,
+                    sweep::SweepSpec& spec) {
+  const sweep::StroboscopicMap strobe = sweep::parse_strobe(options.strobe, scene, model);
+  spec.strobe = {options.strobe, strobe.period, options.settle, sweep::strobe_columns(model)};
   const double t_end = scene.run.t_end;
   if (options.settle && !(*options.settle >= 0.0 && *options.settle < t_end))
     throw UsageError(fmt::format("--settle {:g}: expected 0 to t_end, {:g}", *options.settle, t_end));
@@ -135,9 +137,9 @@ std::string text_of_state(const Scene& scene) {
   for (const SavedState::Own& own : state.own)
     text += fmt::format("{}={},{} ", own.contact, own.state, own.memory);
   if (state.frozen) {
-    for (const FrozenForces::Element& e : state.frozen->elements)
+    for (const Prestress::Element& e : state.frozen->elements)
       text += fmt::format("{}-{}={},{} ", e.from, e.to, e.at_from, e.at_to);
-    for (const FrozenForces::Body& body : state.frozen->bodies)
+    for (const Prestress::Body& body : state.frozen->bodies)
       text += fmt::format("{}={} ", body.name, body.stiffness);
   }
   if (state.scales)
@@ -146,7 +148,7 @@ std::string text_of_state(const Scene& scene) {
 }
 
 struct Specified {
-  SweepSpec spec;
+  sweep::SweepSpec spec;
   std::string text;  ///< text of the scene file
 };
 
@@ -154,35 +156,35 @@ struct Specified {
 /// an invalid command line, a value that is invalid in some rows is a row.
 Specified specify(const SweepOptions& options) {
   Specified specified;
-  SweepSpec& spec = specified.spec;
+  sweep::SweepSpec& spec = specified.spec;
   spec.scene = options.scene;
   spec.settings = options.settings;
   vary_keys(options, spec);
   carry_on(options, spec);
   if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
-  if (options.share) spec.share = parse_share(*options.share, environment);
-  specified.text = scene_text(options.scene);
+  if (options.share) spec.share = sweep::parse_share(*options.share, environment);
+  specified.text = scene::scene_text(options.scene);
   constexpr std::size_t most_tried = 200;  // limit of trial rows, one of which should be valid
   std::optional<Error> first;
   std::size_t tried = 0;
-  for (const auto& point : points(spec.vary)) {
+  for (const auto& point : sweep::points(spec.vary)) {
     if (tried++ == most_tried) break;
     std::vector<Override> changes = overrides_of(options.settings);
     changes.insert(changes.end(), point.begin(), point.end());
     try {
       const Scene scene = parse_scene(specified.text, options.scene, changes);
-      spec.fingerprint = fingerprint_of(scene.resolved + text_of_state(scene));
+      spec.fingerprint = base::fingerprint_of(scene.resolved + text_of_state(scene));
       spec.title = scene.title;
       spec.units = scene.units;
       if (options.responses.empty() && options.strobe.empty()) return specified;
       const Model model = build_model(scene);
       if (!options.strobe.empty()) specify_strobe(options, scene, model, spec);
       for (const std::string& response : options.responses) {
-        const ResponseQuery query = parse_query(response, model);
+        const sweep::ResponseQuery query = sweep::parse_query(response, model);
         if (std::find(spec.responses.begin(), spec.responses.end(), response) != spec.responses.end())
           throw UsageError("--response " + response + ": asked for twice");
         spec.responses.push_back(response);
-        spec.response_units.push_back(unit_of(query, model));
+        spec.response_units.push_back(sweep::unit_of(query, model));
       }
       return specified;
     } catch (const Error& error) {
@@ -193,12 +195,13 @@ Specified specify(const SweepOptions& options) {
 }
 
 std::size_t jobs_of(const SweepOptions& options) {
-  if (!options.jobs) return ranks(environment) > 1 ? 1 : processors();  // a launcher has filled the machine
+  if (!options.jobs)
+    return sweep::ranks(environment) > 1 ? 1 : base::processors();  // a launcher has filled the machine
   if (*options.jobs < 1) throw UsageError(fmt::format("--jobs {}: expected at least 1", *options.jobs));
   return static_cast<std::size_t>(*options.jobs);
 }
 
-fs::path output_directory(const SweepOptions& options, const Share& share) {
+fs::path output_directory(const SweepOptions& options, const sweep::Share& share) {
   if (options.directory) {
     if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
     return *options.directory;
@@ -210,7 +213,7 @@ fs::path output_directory(const SweepOptions& options, const Share& share) {
 /// The table on disk, rewritten at most twice a second, so that a long table does not cost more than its runs.
 class Progress {
  public:
-  Progress(const SweepDirectory& directory, std::size_t all, bool line)
+  Progress(const sweep::SweepDirectory& directory, std::size_t all, bool line)
       : directory_(directory),
         all_(all),
         there_(directory.rows().size()),
@@ -230,8 +233,8 @@ class Progress {
       directory_.write_table();
     }
     if (line_)
-      progress_line(fmt::format("{} of {}, {} running{}", directory_.rows().size(), count_of(all_, "run"),
-                                running, time_left(now)));
+      progress_line(fmt::format("{} of {}, {} running{}", directory_.rows().size(),
+                                base::count_of(all_, "run"), running, time_left(now)));
   }
 
  private:
@@ -240,10 +243,11 @@ class Progress {
     if (done == 0) return "";
     const double s = std::chrono::duration<double>(now - start_).count();
     return ", about " +
-           duration_text(s * static_cast<double>(all_ - there_ - done) / static_cast<double>(done)) + " left";
+           base::duration_text(s * static_cast<double>(all_ - there_ - done) / static_cast<double>(done)) +
+           " left";
   }
 
-  const SweepDirectory& directory_;
+  const sweep::SweepDirectory& directory_;
   std::size_t all_, there_, written_ = 0;  // there: rows from before this process
   bool line_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -251,7 +255,7 @@ class Progress {
 };
 
 /// Computes a row for every task, unless interrupted. False: interrupted.
-bool run_rows(SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& options) {
+bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& options) {
   int file_error = 0;
   const auto ended = [&](const WorkerEnd& end) {
     if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
@@ -278,19 +282,20 @@ bool run_rows(SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& 
     }
     throw Error(ExitCode::file,
                 fmt::format("the sweep stopped where a file could not be written; {} kept in {}",
-                            count_of(directory.rows().size(), "row"), directory.path().string()));
+                            base::count_of(directory.rows().size(), "row"), directory.path().string()));
   }
   return whole;
 }
 
-void conclude(const SweepOptions& options, const SweepDirectory& directory) {
+void conclude(const SweepOptions& options, const sweep::SweepDirectory& directory) {
   directory.write_results();
-  const std::vector<Sampled> answers = sampled_answers(directory.spec(), directory.rows());
+  const std::vector<sweep::Sampled> answers = sweep::sampled_answers(directory.spec(), directory.rows());
   if (!answers.empty()) {
-    write_file(directory.path() / "quantiles.csv", quantile_table(directory.spec(), answers));
-    write_file(directory.path() / "exceedance.csv", exceedance_table(directory.spec(), answers));
+    result::write_file(directory.path() / "quantiles.csv", sweep::quantile_table(directory.spec(), answers));
+    result::write_file(directory.path() / "exceedance.csv",
+                       sweep::exceedance_table(directory.spec(), answers));
   }
-  if (options.json) print(sweep_json(directory.spec(), directory.rows()));
+  if (options.json) print(sweep::sweep_json(directory.spec(), directory.rows()));
   const TableStyle style = table_style(options.table);
   if (style != TableStyle::plain) {
     print(sweep_text(directory.spec(), directory.rows(), style));
@@ -307,25 +312,26 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
       options.no_plots
           ? ""
           : draw_pictures(directory.path(),
-                          sweep_pictures(directory.spec(), directory.rows()).write(directory.path()));
+                          sweep::sweep_pictures(directory.spec(), directory.rows()).write(directory.path()));
   if (options.tables() && style == TableStyle::plain) print(drawn);
   std::size_t failed = 0;
   for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;
   if (failed > 0 && !options.quiet)
     print_note(fmt::format("{} of {} did not reach the end; the column reason of {} says why", failed,
-                           count_of(directory.rows().size(), "run"),
+                           base::count_of(directory.rows().size(), "run"),
                            (directory.path() / "sweep.csv").string()));
 }
 
 /// Checks the first and the last row: a varied key may change the period of the loads.
-void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec, const std::string& text) {
-  const auto all = points(spec.vary);
+void print_strobe_doubt(const SweepOptions& options, const sweep::SweepSpec& spec, const std::string& text) {
+  const auto all = sweep::points(spec.vary);
   for (const auto* point : {&all.front(), &all.back()}) {
     std::vector<Override> changes = overrides_of(options.settings);
     changes.insert(changes.end(), point->begin(), point->end());
     try {
       const Scene scene = parse_scene(text, options.scene, changes);
-      const std::string doubt = strobe_doubt(parse_strobe(options.strobe, scene, build_model(scene)), scene);
+      const std::string doubt =
+          sweep::strobe_doubt(sweep::parse_strobe(options.strobe, scene, build_model(scene)), scene);
       if (!doubt.empty()) return print_note(doubt);
     } catch (const Error&) {  // a refused row has its own message
     }
@@ -334,17 +340,17 @@ void print_strobe_doubt(const SweepOptions& options, const SweepSpec& spec, cons
 
 ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& command_line) {
   const auto [spec, text] = specify(options);
-  check_overlaps(options.scene, spec.vary, overrides_of(options.settings));
+  sweep::check_overlaps(options.scene, spec.vary, overrides_of(options.settings));
   if (!options.quiet) {
     print_patterns(options.scene, options.settings);
     print_patterns(options.scene, options.settings, "--vary", options.varied);
-    for (const Vary& vary : spec.vary)
+    for (const sweep::ParameterRange& vary : spec.vary)
       if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
   if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec, text);
   (void)jobs_of(options);  // reports invalid values before anything is written
-  SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
-  RowTask common{options.scene, text, overrides_of(options.settings), 0, {}, {}, command_line};
+  sweep::SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
+  sweep::RowTask common{options.scene, text, overrides_of(options.settings), 0, {}, {}, command_line};
   common.responses = options.responses;
   common.strobe = options.strobe;
   common.settle = options.settle;
@@ -353,13 +359,13 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   if (kept > 0 && options.keep && !options.quiet)
     print_note("--keep: rows that are there already keep what they have; --force computes them again");
   if (kept > 0 && !options.quiet)
-    print_note(fmt::format("{} of {} there already, {} to go", count_of(kept, "row"),
+    print_note(fmt::format("{} of {} there already, {} to go", base::count_of(kept, "row"),
                            directory.spec().carry.on ? directory.points().size() : kept + tasks.rows(),
                            tasks.rows()));
   if (!run_rows(directory, tasks, options)) {
     directory.write_table();
     print_error(fmt::format("interrupted; {} of {} kept in {}, the same command goes on",
-                            directory.rows().size(), count_of(kept + tasks.rows(), "row"),
+                            directory.rows().size(), base::count_of(kept + tasks.rows(), "row"),
                             directory.path().string()));
     return ExitCode::interrupted;
   }
@@ -382,17 +388,17 @@ ExitCode merge(const SweepOptions& options) {
         "--merge: joins sweeps that are there; expected neither SCENE nor --vary, --sample, --response, "
         "--strobe, --carry, --set, --share");
   std::vector<fs::path> from(options.merge.begin(), options.merge.end());
-  SweepSpec spec = read_sweep_spec(from.front());
+  sweep::SweepSpec spec = sweep::read_sweep_spec(from.front());
   spec.share = {};
   for (const fs::path& path : from) {
-    const std::string differs = difference(spec, read_sweep_spec(path));
+    const std::string differs = sweep::difference(spec, sweep::read_sweep_spec(path));
     if (!differs.empty()) throw FileError(path.string(), "is no share of the same sweep: " + differs);
     std::error_code error;
     if (fs::equivalent(path, *options.directory, error))
       throw UsageError("--merge: " + path.string() + " is the directory to write, too");
   }
-  SweepDirectory directory(*options.directory, spec, options.force);
-  const std::vector<std::size_t> missing = merge_sweeps(from, directory);
+  sweep::SweepDirectory directory(*options.directory, spec, options.force);
+  const std::vector<std::size_t> missing = sweep::merge_sweeps(from, directory);
   conclude(options, directory);
   if (missing.empty()) return ExitCode::done;
   constexpr std::size_t most_named = 10;
@@ -401,7 +407,7 @@ ExitCode merge(const SweepOptions& options) {
     list += (i > 0 ? ", " : "") + std::to_string(missing[i] + 1);
   if (missing.size() > most_named) list += ", ...";
   print_error(fmt::format("{} of {} missing ({}); the sweep itself with -o {} computes them", missing.size(),
-                          count_of(directory.points().size(), "row"), list, directory.path().string()));
+                          base::count_of(directory.points().size(), "row"), list, directory.path().string()));
   return ExitCode::stopped;
 }
 

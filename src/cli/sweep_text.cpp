@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_contacts = 3, most_responses = 6, most_answers = 12, most_rows = 60,
                       first_rows = 40, last_rows = 10;
 
-std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
+std::vector<std::string> cells_of(const sweep::SweepRow& row, std::size_t responses,
                                   const std::vector<std::string>& contacts) {
   std::vector<std::string> cells = row.values;
   cells.push_back(row.outcome);
@@ -24,9 +24,10 @@ std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
                                                                                 : "");
   if (responses > 0) return cells;
   for (const std::string& name : contacts) {
-    const SweepRow::Contact* contact = contact_of(row, name);
-    for (const double SweepRow::Contact::*figure :
-         {&SweepRow::Contact::tangential, &SweepRow::Contact::N, &SweepRow::Contact::friction})
+    const sweep::SweepRow::Contact* contact = sweep::contact_of(row, name);
+    for (const double sweep::SweepRow::Contact::*figure :
+         {&sweep::SweepRow::Contact::tangential, &sweep::SweepRow::Contact::N,
+          &sweep::SweepRow::Contact::friction})
       cells.push_back(contact ? number(contact->*figure) : "");
   }
   return cells;
@@ -37,12 +38,13 @@ std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
 namespace {
 
 /// The contacts with the largest compression in any run, in model order.
-std::vector<std::string> shown_contacts(const std::vector<std::string>& contacts, const SweepRows& rows) {
+std::vector<std::string> shown_contacts(const std::vector<std::string>& contacts,
+                                        const sweep::SweepRows& rows) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     double greatest = 0.0;
     for (const auto& [index, row] : rows)
-      if (const SweepRow::Contact* contact = contact_of(row, contacts[k]))
+      if (const sweep::SweepRow::Contact* contact = sweep::contact_of(row, contacts[k]))
         greatest = std::max(greatest, contact->N);
     order.emplace_back(-greatest, k);
   }
@@ -56,10 +58,10 @@ std::vector<std::string> shown_contacts(const std::vector<std::string>& contacts
 
 }  // namespace
 
-std::string sweep_text(const SweepSpec& spec, const SweepRows& rows, TableStyle style) {
-  const std::vector<std::string> all = contact_names(rows), contacts = shown_contacts(all, rows);
+std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& rows, TableStyle style) {
+  const std::vector<std::string> all = sweep::contact_names(rows), contacts = shown_contacts(all, rows);
   std::vector<std::string> header;
-  for (const Vary& vary : spec.vary) header.push_back(vary.path);
+  for (const sweep::ParameterRange& vary : spec.vary) header.push_back(vary.path);
   header.insert(header.end(), {"outcome", "events"});
   for (std::size_t i = 0; i < std::min(spec.responses.size(), most_responses); ++i)
     header.push_back(spec.responses[i] +
@@ -104,10 +106,11 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows, TableStyle 
   return text;
 }
 
-std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& answers, TableStyle style) {
+std::string quantile_text(const sweep::SweepSpec& spec, const std::vector<sweep::Sampled>& answers,
+                          TableStyle style) {
   constexpr double shown[] = {0.05, 0.5, 0.95, 0.99};
   std::vector<std::string> header{fmt::format("quantiles of {}", spec.sampling)};
-  for (const Vary& vary : spec.vary)
+  for (const sweep::ParameterRange& vary : spec.vary)
     if (!vary.sampled) header.push_back(vary.path);
   header.emplace_back("n");
   for (const double p : shown) header.push_back(fmt::format("{:g} %", 100.0 * p));
@@ -115,17 +118,17 @@ std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& ans
   right[0] = false;
   Table table(std::move(header), std::move(right));
   for (std::size_t i = 0; i < answers.size() && i < most_answers; ++i) {
-    const Sampled& s = answers[i];
+    const sweep::Sampled& s = answers[i];
     if (s.sorted.empty()) continue;
     const std::string& unit = spec.response_units[s.query];
     std::vector<std::string> cells{spec.responses[s.query] + (unit.empty() ? "" : " [" + unit + "]")};
     cells.insert(cells.end(), s.values.begin(), s.values.end());
     cells.push_back(std::to_string(s.sorted.size()));
     for (const double p : shown) {
-      const Quantile q = quantile(s.sorted, p, independent(spec));
+      const sweep::Quantile q = sweep::quantile(s.sorted, p, sweep::independent(spec));
       const auto end = [](const std::optional<double>& x) { return x ? number(*x) : std::string("?"); };
       cells.push_back(number(q.value) +
-                      (independent(spec) ? " (" + end(q.low) + " to " + end(q.high) + ")" : ""));
+                      (sweep::independent(spec) ? " (" + end(q.low) + " to " + end(q.high) + ")" : ""));
     }
     table.row(std::move(cells));
   }
@@ -133,7 +136,7 @@ std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& ans
   if (style != TableStyle::plain) return text;
   if (answers.size() > most_answers)
     text += fmt::format("  ... {} more; all are in quantiles.csv\n", answers.size() - most_answers);
-  if (independent(spec)) text += "  in brackets: 95 % confidence, whatever the distribution\n";
+  if (sweep::independent(spec)) text += "  in brackets: 95 % confidence, whatever the distribution\n";
   return text;
 }
 

@@ -10,11 +10,12 @@ namespace signorini::cli {
 
 /// The first and the last of many rows, the first of many contacts; sweep.csv has all. Styles for papers have all rows,
 /// without the reasons of failed ones.
-[[nodiscard]] std::string sweep_text(const SweepSpec& spec, const SweepRows& rows,
+[[nodiscard]] std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& rows,
                                      TableStyle style = TableStyle::plain);
 
 /// Quantiles of the results with their intervals; if there are many combinations of keys, the first ones.
-[[nodiscard]] std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& answers,
+[[nodiscard]] std::string quantile_text(const sweep::SweepSpec& spec,
+                                        const std::vector<sweep::Sampled>& answers,
                                         TableStyle style = TableStyle::plain);
 
 }  // namespace signorini::cli

@@ -38,11 +38,11 @@ fs::path directory_of(const VerifyOptions& options) {
 
 std::string two_digits(double value) { return fmt::format("{:.2g}", value); }
 
-std::string text_of(const Verification& result) {
+std::string text_of(const verify::Verification& result) {
   Table table(
       {"quantity", "number", "order", "largest error bar", "largest difference", "allowed", "unit", "at t"},
       {false, true, true, true, true, true, false, true});
-  for (const VerifiedKind& kind : result.kinds) {
+  for (const verify::VerifiedKind& kind : result.kinds) {
     if (kind.compared == 0) continue;
     table.row({kind.name, std::to_string(kind.compared),
                kind.order ? fmt::format("{:.2f}", *kind.order) : "-", two_digits(kind.greatest_bar),
@@ -56,19 +56,19 @@ std::string text_of(const Verification& result) {
     text += fmt::format(
         "convergence test of the paper: with the step doubled to {:g} displacements change by less than {:g} "
         "of the greatest\n",
-        *result.paper_dt, paper_change);
+        *result.paper_dt, verify::paper_change);
   text += result.witness + "\n";
-  return text + fmt::format("{}: {}\n", to_string(result.verdict), result.sentence);
+  return text + fmt::format("{}: {}\n", verify::to_string(result.verdict), result.sentence);
 }
 
-ExitCode code_of(const Verification& result) {
+ExitCode code_of(const verify::Verification& result) {
   if (result.interrupted) return ExitCode::interrupted;
   switch (result.verdict) {
-    case Agreement::agree:
+    case verify::Agreement::agree:
       return ExitCode::done;
-    case Agreement::differ:
+    case verify::Agreement::differ:
       return ExitCode::limit;
-    case Agreement::undecided:
+    case verify::Agreement::undecided:
       return ExitCode::stopped;
   }
   return ExitCode::bug;
@@ -79,29 +79,30 @@ ExitCode run(const VerifyOptions& options) {
   changes.push_back({"run.engine", "ida"});
   const fs::path path = directory_of(options);
   check_folder(path, verify_folder(), options.force, options.scene);
-  const auto [scene, model] = prepare_run(options.scene, changes);
+  const auto [scene, model] = study::prepare_run(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);
-  VerifyRequest request;
+  verify::VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;
   request.go_on = [] { return !Interrupt::asked(); };
   std::optional<Interrupt> interrupt(std::in_place);
-  const Verification result = verify(model, model, request);
+  const verify::Verification result = verify::verify(model, model, request);
   interrupt.reset();
   begin_folder(path, verify_folder());
-  begin_verify_plot(path);
-  write_verification(path, model, result);
+  verify::begin_verify_plot(path);
+  verify::write_verification(path, model, result);
   const bool pictures = !options.no_plots && !result.interrupted;
-  const std::string drawn = pictures ? draw_pictures(path, write_verify_plot(path, model, result)) : "";
-  if (options.json) print(verify_json(model, result));
+  const std::string drawn =
+      pictures ? draw_pictures(path, verify::write_verify_plot(path, model, result)) : "";
+  if (options.json) print(verify::verify_json(model, result));
   if (options.tables()) {
     if (!scene.title.empty()) print(scene.title + "\n\n");
     print(text_of(result) + "results: " + path.string() + "/ (verify.json, events.csv)\n" + drawn);
   }
   if (result.interrupted) {
     print_error("interrupted; what was computed is kept in " + path.string());
-  } else if (result.verdict != Agreement::agree) {
-    print_error(fmt::format("{}: {}", to_string(result.verdict), result.sentence));
+  } else if (result.verdict != verify::Agreement::agree) {
+    print_error(fmt::format("{}: {}", verify::to_string(result.verdict), result.sentence));
   }
   return code_of(result);
 }

@@ -174,7 +174,7 @@ struct Worker {
   Descriptor tasks, reports;
   std::deque<std::size_t> given;  // the first one is in progress
   std::string heard;              // bytes of an incomplete report
-  std::string told;               // output of the current task
+  std::string reported;           // output of the current task
 };
 
 class Pool {
@@ -275,11 +275,11 @@ class Pool {
       std::memcpy(&head, w.heard.data() + done, sizeof head);
       if (w.heard.size() - done - sizeof head < head.length) break;
       done += sizeof head;
-      w.told.append(w.heard, done, static_cast<std::size_t>(head.length));
+      w.reported.append(w.heard, done, static_cast<std::size_t>(head.length));
       done += static_cast<std::size_t>(head.length);
       if (head.code == Head::not_done) continue;
       ends.push_back({static_cast<std::size_t>(head.task), static_cast<int>(head.code), 0,
-                      std::exchange(w.told, std::string())});
+                      std::exchange(w.reported, std::string())});
       if (!w.given.empty()) w.given.pop_front();
     }
     w.heard.erase(0, done);
@@ -291,7 +291,7 @@ class Pool {
     const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // it ended between two tasks
     if (!w.given.empty() && !clean) {
       ends.push_back({w.given.front(), WIFEXITED(status) ? WEXITSTATUS(status) : 1,
-                      WIFSIGNALED(status) ? WTERMSIG(status) : 0, std::move(w.told)});
+                      WIFSIGNALED(status) ? WTERMSIG(status) : 0, std::move(w.reported)});
       w.given.pop_front();
     }
     queue.insert(queue.begin(), w.given.begin(), w.given.end());
@@ -336,9 +336,9 @@ std::vector<std::string> values_of(const std::vector<Override>& point) {
 
 }  // namespace
 
-SweepTasks::SweepTasks(SweepDirectory& directory, RowTask common, bool keep)
+SweepTasks::SweepTasks(sweep::SweepDirectory& directory, sweep::RowTask common, bool keep)
     : directory_(directory), common_(std::move(common)), keep_(keep) {
-  const SweepSpec& spec = directory.spec();
+  const sweep::SweepSpec& spec = directory.spec();
   if (spec.carry.on) length_ = spec.vary.back().values.size();
   for (std::size_t first = 0; first < directory.points().size(); first += length_) {
     bool missing = false;
@@ -349,8 +349,8 @@ SweepTasks::SweepTasks(SweepDirectory& directory, RowTask common, bool keep)
   }
 }
 
-RowTask SweepTasks::task(std::size_t index) const {
-  RowTask task = common_;
+sweep::RowTask SweepTasks::task(std::size_t index) const {
+  sweep::RowTask task = common_;
   const auto& point = directory_.points()[index];
   task.index = index;
   task.values = values_of(point);
@@ -360,18 +360,18 @@ RowTask SweepTasks::task(std::size_t index) const {
 }
 
 std::string SweepTasks::work(std::size_t first, const Tell& tell) const {
-  if (!directory_.spec().carry.on) return row_line(compute_row(task(first)));
+  if (!directory_.spec().carry.on) return sweep::row_line(sweep::compute_row(task(first)));
   std::optional<SavedState> carried;
   const std::size_t last = first + length_ - 1;
-  for (std::size_t i = first; i < last; ++i) tell(row_line(compute_row(task(i), carried)));
-  return row_line(compute_row(task(last), carried));
+  for (std::size_t i = first; i < last; ++i) tell(sweep::row_line(sweep::compute_row(task(i), carried)));
+  return sweep::row_line(sweep::compute_row(task(last), carried));
 }
 
 void SweepTasks::take(const WorkerEnd& end) {
   if (!end.report.empty()) directory_.add(end.report);
-  const auto told = static_cast<std::size_t>(std::count(end.report.begin(), end.report.end(), '\n'));
-  for (std::size_t i = end.task + told; i < end.task + length_; ++i) {
-    SweepRow row;
+  const auto reported = static_cast<std::size_t>(std::count(end.report.begin(), end.report.end(), '\n'));
+  for (std::size_t i = end.task + reported; i < end.task + length_; ++i) {
+    sweep::SweepRow row;
     row.index = i;
     row.values = values_of(directory_.points()[i]);
     row.outcome = "crashed";

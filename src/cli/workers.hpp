@@ -45,7 +45,7 @@ using Work = std::function<std::string(std::size_t task, const Tell&)>;
 class SweepTasks {
  public:
   /// common: settings of all rows. keep: also keep the run of each row. directory: must outlive the object.
-  SweepTasks(SweepDirectory& directory, RowTask common, bool keep);
+  SweepTasks(sweep::SweepDirectory& directory, sweep::RowTask common, bool keep);
 
   /// Missing tasks, by the index of their first row.
   [[nodiscard]] const std::vector<std::size_t>& list() const { return list_; }
@@ -57,10 +57,10 @@ class SweepTasks {
   void take(const WorkerEnd& end);
 
  private:
-  [[nodiscard]] RowTask task(std::size_t index) const;
+  [[nodiscard]] sweep::RowTask task(std::size_t index) const;
 
-  SweepDirectory& directory_;
-  RowTask common_;
+  sweep::SweepDirectory& directory_;
+  sweep::RowTask common_;
   bool keep_;
   std::size_t length_ = 1;
   std::vector<std::size_t> list_;

@@ -6,7 +6,7 @@
 #include "base/unit.hpp"
 #include "signorini/contact.hpp"
 
-namespace signorini {
+namespace signorini::contact {
 
 /// Visits the forms on the displacements: along the normal, along the tangent, and of the body beside a sliding point.
 template <class AnyContact, class Visit>
@@ -45,4 +45,4 @@ void visit_constants(Contact& contact, const Visit& visit) {
   if (auto law = contact.law->with_constants(visit)) contact.law = std::move(law);
 }
 
-}  // namespace signorini
+}  // namespace signorini::contact

@@ -6,10 +6,10 @@
 
 #include "signorini/contact.hpp"
 
-namespace signorini {
+namespace signorini::contact {
 
 /// One entry per contact, in the order of Model::contacts.
-using Mode = std::vector<ContactState>;
+using ContactStates = std::vector<ContactState>;
 
 /// State that represents all states with the same rows: all open states of the built-in laws have the same rows.
 [[nodiscard]] constexpr State state_of_rows(State state) {
@@ -17,7 +17,7 @@ using Mode = std::vector<ContactState>;
 }
 
 /// States of a mode, which determine the matrix of its system; anchors are constants of rows and do not.
-[[nodiscard]] inline std::vector<State> states_of(const Mode& mode) {
+[[nodiscard]] inline std::vector<State> states_of(const ContactStates& mode) {
   std::vector<State> states(mode.size());
   for (std::size_t k = 0; k < mode.size(); ++k) states[k] = state_of_rows(mode[k].state);
   return states;
@@ -38,4 +38,4 @@ inline constexpr std::size_t guards_per_contact = 3;
 [[nodiscard]] constexpr std::size_t contact_of_guard(std::size_t slot) { return slot / guards_per_contact; }
 [[nodiscard]] constexpr std::size_t guard_within(std::size_t slot) { return slot % guards_per_contact; }
 
-}  // namespace signorini
+}  // namespace signorini::contact

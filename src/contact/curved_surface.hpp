@@ -8,7 +8,7 @@
 
 #include "signorini/contact.hpp"
 
-namespace signorini {
+namespace signorini::contact {
 
 /// Restoring force F along the tangent; the force on the body is -F. Zero if the surface is not curved. Unit: force.
 [[nodiscard]] inline double bowl_force(const Contact& contact, double N, double ut) {
@@ -21,8 +21,8 @@ namespace signorini {
 
 /// ( N_K - N_0 ) / R: stiffness in K beyond the spring N_0 / R of the scene's contact, which gives N_0; 0 if the
 /// surface is not curved.
-[[nodiscard]] inline double beyond_spring(const ContactSpec& said, const Contact& contact) {
-  return contact.bowl ? (contact.bowl->carried - said.bowl->carried) / contact.bowl->radius : 0.0;
+[[nodiscard]] inline double beyond_spring(const ContactSpec& in_scene, const Contact& contact) {
+  return contact.bowl ? (contact.bowl->carried - in_scene.bowl->carried) / contact.bowl->radius : 0.0;
 }
 
-}  // namespace signorini
+}  // namespace signorini::contact

@@ -5,7 +5,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::contact {
 namespace {
 
 /// E_k from E_0 ... E_(k-1) and g_0 ... g_k; E = exp(g) times a constant.
@@ -108,8 +108,9 @@ void set_limit(const Contact& contact, ContactMotion& m) {
   const Friction& f = contact.friction;
   if (!f.by_force()) return;
   m.limit = friction_limit(f, -m.N);
-  m.limit_rate = friction_limit_slope(f, -m.N) *
-                 (contact.normal_force_given() ? m.pressing_rate : -contact.normal_stiffness * m.vn);
+  m.limit_rate =
+      friction_limit_slope(f, -m.N) *
+      (contact.normal_force_given() ? m.applied_normal_force_rate : -contact.normal_stiffness * m.vn);
 }
 
 LimitSeries::LimitSeries(const Friction& friction, double x0)
@@ -174,4 +175,4 @@ std::optional<double> massless_slip_rate(const Friction& friction, double pull, 
   return x;
 }
 
-}  // namespace signorini
+}  // namespace signorini::contact

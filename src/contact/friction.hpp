@@ -25,7 +25,7 @@
 #include "signorini/contact.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::contact {
 
 // Friction whose coefficient depends on the normal force.
 //
@@ -120,25 +120,25 @@ class FrictionRecursion {
   [[nodiscard]] double first() const { return first_; }
   /// Takes coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). pressing(i): N_i.
   template <class Pressing>
-  [[nodiscard]] double next(double rate, const Pressing& pressing) {
+  [[nodiscard]] double next(double rate, const Pressing& applied) {
     extend(rate);
-    return known(pressing);
+    return known(applied);
   }
   /// The same sum if ut' is an unknown of level k: without its contribution. take_rate() then gives coefficient k of
   /// ut'.
   template <class Pressing>
-  [[nodiscard]] double without_rate(const Pressing& pressing) {
+  [[nodiscard]] double without_rate(const Pressing& applied) {
     extend(0.0);
-    return known(pressing);
+    return known(applied);
   }
   void take_rate(double rate);
 
  private:
   template <class Pressing>
-  [[nodiscard]] double known(const Pressing& pressing) const {
+  [[nodiscard]] double known(const Pressing& applied) const {
     const std::size_t k = varying_.size() - 1;
     double known = 0.0;
-    for (std::size_t j = 1; j <= k; ++j) known += varying_[j] * pressing(k - j);
+    for (std::size_t j = 1; j <= k; ++j) known += varying_[j] * applied(k - j);
     return s_ * known;
   }
 
@@ -159,12 +159,12 @@ class FrictionTangent {
   /// Takes coefficient k of ut' and of its derivative with respect to p, for k = 0, 1, ...; returns s sum_(j = 1..k)
   /// f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j). pressing(i): N_i; moved(i): N_p,i.
   template <class Pressing, class Moved>
-  [[nodiscard]] double next(double rate, double moved_rate, const Pressing& pressing, const Moved& moved) {
+  [[nodiscard]] double next(double rate, double moved_rate, const Pressing& applied, const Moved& moved) {
     extend(rate, moved_rate);
     const std::size_t k = e_.size() - 1;
     double sum = 0.0;
     for (std::size_t j = 1; j <= k; ++j) sum += (static_ - kinetic_) * e_[j] * moved(k - j);
-    for (std::size_t j = 0; j <= k; ++j) sum += by_p_[j] * pressing(k - j);
+    for (std::size_t j = 0; j <= k; ++j) sum += by_p_[j] * applied(k - j);
     return s_ * sum;
   }
 
@@ -199,4 +199,4 @@ inline constexpr double saturated = 1e-8;
 [[nodiscard]] std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
                                                        double pressed);
 
-}  // namespace signorini
+}  // namespace signorini::contact

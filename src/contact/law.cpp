@@ -17,12 +17,16 @@ const char* to_string(State state) {
       return "slip+";
     case State::slip_minus:
       return "slip-";
-    case State::held_plus:
-    case State::held_minus:
+    case State::static_limit_plus:
+    case State::static_limit_minus:
       break;  // impossible: kind_of() never returns these
   }
   return "?";
 }
+
+}  // namespace signorini
+
+namespace signorini::contact {
 
 const char* to_string(Guard guard) {
   switch (guard) {
@@ -62,13 +66,21 @@ const char* to_string(Law law) {
   return "?";
 }
 
+}  // namespace signorini::contact
+
+namespace signorini {
+
 int slip_sign(State state) {
   const State kind = kind_of(state);
   return kind == State::slip_plus ? 1 : kind == State::slip_minus ? -1 : 0;
 }
 
+}  // namespace signorini
+
+namespace signorini::contact {
+
 Unit unit_of(const Form& form) {
-  if (form.N != 0.0 || form.T != 0.0 || form.pressing != 0.0) return unit::force;
+  if (form.N != 0.0 || form.T != 0.0 || form.applied_normal_force != 0.0) return unit::force;
   if (form.gap != 0.0 || form.ut != 0.0) return unit::length;
   if (form.vn != 0.0 || form.vt != 0.0) return unit::velocity;
   return unit::acceleration;
@@ -79,6 +91,10 @@ Unit unit_of(const GuardForm& guard) {
   const Unit a = unit_of(guard.products->front().a), b = unit_of(guard.products->front().b);
   return {a.force + b.force, a.length + b.length, a.time + b.time};
 }
+
+}  // namespace signorini::contact
+
+namespace signorini {
 
 namespace {
 
@@ -141,6 +157,10 @@ bool GuardForm::operator==(const GuardForm& other) const {
   return is_linear() || products == other.products || *products == *other.products;
 }
 
+}  // namespace signorini
+
+namespace signorini::contact {
+
 Rows rows(const Contact& contact, const ContactState& state) { return contact.law->rows(contact, state); }
 
 std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const ContactState& state) {
@@ -166,4 +186,4 @@ Violations violations(const Contact& contact, State state, const ContactMotion& 
   return contact.law->violations(contact, state, m);
 }
 
-}  // namespace signorini
+}  // namespace signorini::contact

@@ -52,6 +52,10 @@ enum class Guard : unsigned char {
   own_2,
   own_3
 };
+
+}  // namespace signorini
+
+namespace signorini::contact {
 [[nodiscard]] const char* to_string(Guard guard);
 /// True for a guard of the friction limit, on either side.
 [[nodiscard]] constexpr bool is_friction_limit(Guard guard) {
@@ -62,6 +66,10 @@ enum class Guard : unsigned char {
 
 /// Unit of a form's value, derived from its first term.
 [[nodiscard]] Unit unit_of(const Form& form);
+
+}  // namespace signorini::contact
+
+namespace signorini {
 
 /// G = form + sum a b over its products; engines and decisions evaluate guards only through these functions. Motions
 /// are given as time derivatives 0, 1, ..., and so are the sizes that count as zero in them.
@@ -96,19 +104,35 @@ struct GuardForm {
                                             std::size_t k) const;
 };
 
+}  // namespace signorini
+
+namespace signorini::contact {
+
 /// Unit of a guard's value.
 [[nodiscard]] Unit unit_of(const GuardForm& guard);
+
+}  // namespace signorini::contact
+
+namespace signorini {
 
 /// The two rows (residuals) of a contact.
 struct Rows {
   Form normal, tangent;
 };
 
+}  // namespace signorini
+
+namespace signorini::contact {
+
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
 [[nodiscard]] std::array<GuardForm, guards_per_contact> guards(const Contact& contact,
                                                                const ContactState& state);
 /// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
+
+}  // namespace signorini::contact
+
+namespace signorini {
 
 // The next state of a contact after one of its guards has failed.
 //
@@ -132,6 +156,10 @@ struct MotionJet {
   std::array<ContactMotion, orders> motion, noise;
 };
 
+}  // namespace signorini
+
+namespace signorini::contact {
+
 /// State that slips in a direction; state of a contact that bears a load and does not slip.
 [[nodiscard]] State slip_along(double direction);
 [[nodiscard]] State state_at_rest(const Contact& contact);
@@ -141,6 +169,10 @@ struct MotionJet {
 /// The next state of one contact; `failed` is a guard of `now`, `jet` is the motion in state `now`.
 [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                       const MotionJet& jet);
+
+}  // namespace signorini::contact
+
+namespace signorini {
 
 // The amount by which a contact violates its own conditions.
 //
@@ -157,6 +189,10 @@ struct Violations {
   double direction = 0.0;    ///< -T p', in slip; power
 };
 
+}  // namespace signorini
+
+namespace signorini::contact {
+
 [[nodiscard]] Violations violations(const Contact& contact, State state, const ContactMotion& m);
 
-}  // namespace signorini
+}  // namespace signorini::contact

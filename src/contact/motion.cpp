@@ -2,7 +2,7 @@
 
 #include <unordered_map>
 
-namespace signorini {
+namespace signorini::contact {
 
 Eigen::MatrixXd form_columns(const std::vector<const Combination*>& forms,
                              const std::function<double(int)>& weight) {
@@ -17,4 +17,4 @@ Eigen::MatrixXd form_columns(const std::vector<const Combination*>& forms,
   return h;
 }
 
-}  // namespace signorini
+}  // namespace signorini::contact

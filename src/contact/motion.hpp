@@ -12,7 +12,7 @@
 
 #include "signorini/contact.hpp"
 
-namespace signorini {
+namespace signorini::contact {
 
 /// ut for a displacement u; ut' for a velocity.
 template <class U>
@@ -71,4 +71,4 @@ inline void leave_out_borrowed(const Contact& contact, State state, ContactMotio
 [[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<const Combination*>& forms,
                                            const std::function<double(int)>& weight = {});
 
-}  // namespace signorini
+}  // namespace signorini::contact

@@ -1,6 +1,6 @@
 #include "contact/work.hpp"
 
-namespace signorini {
+namespace signorini::contact {
 
 ContactWork work_on(const Contact& contact, State state, double N, double T, const ContactPath& path) {
   return contact.law->work(contact, state, N, T, path);
@@ -30,4 +30,4 @@ double stored_energy(const Contact& contact, State state, const ContactMotion& m
   return contact.law->stored_energy(contact, state, m);
 }
 
-}  // namespace signorini
+}  // namespace signorini::contact

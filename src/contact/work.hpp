@@ -21,8 +21,12 @@ struct ContactPath {
 /// For a user-defined law `friction` is the whole work, stored or dissipated, and the path's slip is d ut. Unit:
 /// energy; pressing: force * time. If the path holds rates, the works are powers.
 struct ContactWork {
-  double friction = 0.0, surface = 0.0, damping = 0.0, pressing = 0.0;
+  double friction = 0.0, surface = 0.0, damping = 0.0, applied_normal_force = 0.0;
 };
+
+}  // namespace signorini
+
+namespace signorini::contact {
 
 /// Work of the forces N, T on the path, for a contact in this state.
 [[nodiscard]] ContactWork work_on(const Contact& contact, State state, double N, double T,
@@ -42,4 +46,4 @@ struct ContactWork {
 [[nodiscard]] double shear_energy(const Contact& contact, double T);
 [[nodiscard]] double stored_energy(const Contact& contact, State state, const ContactMotion& m);
 
-}  // namespace signorini
+}  // namespace signorini::contact

@@ -15,7 +15,7 @@
 #include "decide/massless_jump.hpp"
 #include "motion/state_systems.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 /// Derivatives of a guard at its zero, from the motion in the mode that ends there.
@@ -30,7 +30,7 @@ Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
 /// state made it jump below zero.
 bool is_pushed(const Failure& f, const Instant& instant, const ContactMotion& before,
                const ContactMotion& noise) {
-  return f.sign.order == 0 && !instant.has_fired(f.contact, f.guard) &&
+  return f.sign.order == 0 && !instant.has_triggered(f.contact, f.guard) &&
          f.form.value(before) > unlucky * f.form.rounding(&before, &noise, 0);
 }
 
@@ -56,7 +56,7 @@ std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& block
 }
 
 /// Refusal for a mode without a system: dependent rows of its contacts, or a singular structure.
-Refusal no_system(const Model& model, const Mode& mode) {
+Refusal no_system(const Model& model, const contact::ContactStates& mode) {
   std::vector<std::size_t> held;
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (!mode[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
@@ -78,7 +78,7 @@ Refusal no_system(const Model& model, const Mode& mode) {
 }
 
 /// Stiffnesses that make the forces unique. Only sliders may have a tangential_stiffness without a normal one.
-std::string what_makes_unique(const Model& model, const std::vector<std::size_t>& contacts) {
+std::string springs_for_uniqueness(const Model& model, const std::vector<std::size_t>& contacts) {
   const bool sliders = std::any_of(contacts.begin(), contacts.end(),
                                    [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
   const bool others = std::any_of(contacts.begin(), contacts.end(),
@@ -90,17 +90,19 @@ std::string what_makes_unique(const Model& model, const std::vector<std::size_t>
 
 }  // namespace
 
-std::vector<Fired> resting(const Decision& decision) {
-  std::vector<Fired> result;
+std::vector<TriggeredGuard> resting(const Decision& decision) {
+  std::vector<TriggeredGuard> result;
   for (std::size_t i = 0; i < decision.guards.size(); ++i) {
     const GuardStart& guard = decision.guards[i];
-    const bool limit = is_friction_limit(guard.kind);
-    if (limit && guard.at_zero && guard.leading < 0) result.push_back({contact_of_guard(i), guard.kind});
+    const bool limit = contact::is_friction_limit(guard.kind);
+    if (limit && guard.at_zero && guard.leading < 0)
+      result.push_back({contact::contact_of_guard(i), guard.kind});
   }
   return result;
 }
 
-Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, bool whole_jets)
+ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_rounds, double capture_velocity,
+                                       bool whole_jets)
     : model_(systems.model()),
       systems_(systems),
       jets_(systems),
@@ -118,26 +120,28 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity, 
 }
 
 /// Computes the motion in a mode. False: its rows are dependent.
-bool Decider::evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& course) {
-  systems_.tell_held(mode, forcing, course.instant.t);
+bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::ContactStates& mode,
+                                  SolverState& course) {
+  systems_.mark_static_limits(mode, forcing, course.instant.t);
   Decision& d = course.decision;
   const Instant& instant = course.instant;
   d.system = systems_.of(mode);
   if (!d.system) return false;
   d.u = instant.u;
   d.v = instant.v;
-  course.held = near_ ? Eigen::VectorXd() : hold(model_, *d.system, forcing, instant.t, d.u, d.v);
-  JetMaker::Told told;
+  course.held = near_ ? Eigen::VectorXd() : motion::hold(model_, *d.system, forcing, instant.t, d.u, d.v);
+  motion::JetMaker::Enough enough;
   if (each_alone_ && !course.found.sliders)
-    told = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
-      return told_by(guards_.of(c, mode[c]), c, jet, orders, instant, course.found.known[c], unlucky);
+    enough = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
+      return decided_by(guards_.of(c, mode[c]), c, jet, orders, instant, course.found.known[c], unlucky);
     };
-  std::optional<NearJets::Made> near;
+  std::optional<motion::LocalDerivatives::Made> near;
   if (near_) {
     const bool same = course.open && course.forcing == &forcing && course.blur == instant.blur &&
                       d.u == d.jet.u.col(0) && d.v == d.jet.u.col(1);
-    near = near_->make(d.system, forcing, instant.t, d.u, d.v, course.jets, told,
-                       same ? std::optional<NearJets::Beside>({d.jet, *course.open}) : std::nullopt);
+    near = near_->make(
+        d.system, forcing, instant.t, d.u, d.v, course.jets, enough,
+        same ? std::optional<motion::LocalDerivatives::Beside>({d.jet, *course.open}) : std::nullopt);
     course.forcing = &forcing;
     course.blur = instant.blur;
   }
@@ -146,7 +150,7 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& cours
     d.jet = std::move(near->jet);
     course.open = std::move(near->open);
   } else {
-    d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
+    d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, enough);
   }
   d.u = d.jet.u.col(0);
   d.v = d.jet.u.col(1);
@@ -154,16 +158,18 @@ bool Decider::evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& cours
   return !forces_are_noise(model_, course.jets) || forces_are_unique(systems_, mode);
 }
 
-std::vector<BodySlide> Decider::slides(const Forcing& forcing, const Decision& decision) const {
-  std::vector<BodySlide> result;
+std::vector<motion::BodySlide> ContactStateSolver::slides(const motion::Forcing& forcing,
+                                                          const Decision& decision) const {
+  std::vector<motion::BodySlide> result;
   result.reserve(model_.contacts.size());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    result.push_back(slide_of(model_.contacts[k], k, forcing, decision.jet.t, decision.u, decision.v));
+    result.push_back(
+        motion::slide_of(model_.contacts[k], k, forcing, decision.jet.t, decision.u, decision.v));
   return result;
 }
 
 /// Computes the motion just before, in the old mode under the old forcing, and the states that follow from the forcing.
-Refusal Decider::begin(const Forcing& before, DecisionCourse& course) {
+Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& course) {
   Instant& instant = course.instant;
   Decision& d = course.decision;
   if (!evaluate(before, instant.mode, course)) return no_system(model_, instant.mode);
@@ -190,12 +196,12 @@ Refusal Decider::begin(const Forcing& before, DecisionCourse& course) {
   return {};
 }
 
-bool Decider::held_by_others(std::size_t c, const DecisionCourse& course) const {
+bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& course) const {
   return systems_.may_share(c) && systems_.held_by_others(c, course.mode, course.after, course.instant.t);
 }
 
 /// Finds the guards that fail in the evaluated mode. before: it is the mode of the motion up to the instant.
-void Decider::look(DecisionCourse& course, bool before) {
+void ContactStateSolver::look(SolverState& course, bool before) {
   course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known,
                            course.so_far, course.open ? *course.open : every_);
   std::erase_if(course.failed, [&](const Failure& f) {
@@ -205,9 +211,10 @@ void Decider::look(DecisionCourse& course, bool before) {
   });
   if (!listener_) return;
   Round round{course.instant.t, course.decision.rounds, {}, {}, course.found.hit, course.mode, {}};
-  for (const Fired& f : course.instant.fired) round.fired.push_back({f.contact, to_string(f.guard)});
+  for (const TriggeredGuard& f : course.instant.triggered)
+    round.triggered.push_back({f.contact, contact::to_string(f.guard)});
   for (const Failure& f : course.failed)
-    round.failed.push_back({f.contact, to_string(f.guard), f.sign.order, f.sign.excess});
+    round.failed.push_back({f.contact, contact::to_string(f.guard), f.sign.order, f.sign.excess});
   for (std::size_t c = 0; c < course.found.known.size(); ++c)
     if (course.found.known[c].touches) round.touching.push_back(c);
   listener_(round);
@@ -215,7 +222,7 @@ void Decider::look(DecisionCourse& course, bool before) {
 
 /// Keeps a contact that stops on the way of massless parts where it stopped, not where it started. This is done once
 /// per contact, since the way is a different one afterwards.
-void Decider::stop_there(const Failure& f, DecisionCourse& course) const {
+void ContactStateSolver::stop_there(const Failure& f, SolverState& course) const {
   std::vector<std::size_t>& before = course.slid;
   if (!stops_on_way(model_.contacts[f.contact], f, course.mode[f.contact].state,
                     {course.instant.u, course.decision.u}, course.jets[f.contact].noise[0].ut) ||
@@ -227,8 +234,8 @@ void Decider::stop_there(const Failure& f, DecisionCourse& course) const {
 }
 
 /// Gives their next states to contacts that are decided separately. Returns the blocks that must be decided together.
-std::vector<Block> Decider::react(DecisionCourse& course) const {
-  Findings& found = course.found;
+std::vector<Block> ContactStateSolver::react(SolverState& course) const {
+  ImpactResult& found = course.found;
   std::vector<bool> jointly(blocks_.all.size(), false);
   std::vector<std::size_t> turning;
   const MasslessWay way{course.comes_from(), course.decision.u};
@@ -249,7 +256,7 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
       course.decision.crossings.insert_or_assign(c, crossing(f.form, course.jets[c]));
     course.decision.visited[c] = true;
     if (found.sliders) jointly[blocks_.of[c]] = true;
-    const bool slips = is_friction_limit(f.guard);
+    const bool slips = contact::is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
     if (!contact.takes_impulses() && !joins) {
       // Its slip rate is zero up to rounding, so it is zero in any next state.
@@ -257,15 +264,15 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
       stop_there(f, course);
-      course.mode[c] = next_state(contact, course.mode[c], f.guard, course.jets[c]);
+      course.mode[c] = contact::next_state(contact, course.mode[c], f.guard, course.jets[c]);
       if (touched(c))  // elastic first; its limit decides about slip
-        course.mode[c] = {state_at_rest(contact), course.jets[c].motion[0].ut + course.touched->ut};
+        course.mode[c] = {contact::state_at_rest(contact), course.jets[c].motion[0].ut + course.touched->ut};
       continue;
     }
     jointly[blocks_.of[c]] = true;
     // The contact was expected to leave, but g' is zero in the resulting mode; or its gap closed with g' zero.
     if (f.guard == Guard::closing && f.sign.order > 1 &&
-        (found.known[c].touches || course.instant.has_fired(c, Guard::closing)))
+        (found.known[c].touches || course.instant.has_triggered(c, Guard::closing)))
       found.stays[c] = true;
     // It was at its static limit, which is now exceeded.
     if (slips && found.decided[c]) (held_by_others(c, course) ? found.bears_limit : found.kinetic)[c] = true;
@@ -284,9 +291,9 @@ std::vector<Block> Decider::react(DecisionCourse& course) const {
 }
 
 /// Stops sliders that reverse: the slip rate left by the location of the event would otherwise persist.
-void Decider::stop(const std::vector<std::size_t>& turning, DecisionCourse& course) const {
+void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverState& course) const {
   if (turning.empty()) return;
-  const ModeSystemPtr system = systems_.of(course.mode);
+  const motion::StateSystemPtr system = systems_.of(course.mode);
   if (!system) return;
   std::vector<Fixed> fixed;
   for (std::size_t i = 0; i < turning.size(); ++i)
@@ -298,17 +305,17 @@ void Decider::stop(const std::vector<std::size_t>& turning, DecisionCourse& cour
 }
 
 /// Records the crossings of gaps that closed together with others, up to rounding.
-void Decider::note_hits(DecisionCourse& course) const {
+void ContactStateSolver::note_hits(SolverState& course) const {
   Decision& d = course.decision;
   if (d.rounds > 1) return;
   for (std::size_t c = 0; c < d.impulses.size(); ++c)
     if (d.impulses[c].hit)
       d.crossings.try_emplace(
-          c, crossing(guards(model_.contacts[c], course.instant.mode[c])[0], course.jets[c]));
+          c, crossing(contact::guards(model_.contacts[c], course.instant.mode[c])[0], course.jets[c]));
 }
 
 /// Proposes the next mode from the guards that failed in the last one.
-Refusal Decider::propose(DecisionCourse& course) {
+Refusal ContactStateSolver::propose(SolverState& course) {
   Decision& d = course.decision;
   const std::vector<Block> jointly = react(course);
   course.found.hit = false;
@@ -331,8 +338,8 @@ Refusal Decider::propose(DecisionCourse& course) {
 
 /// Proposes the next mode and computes its motion. A slider that stops beside sticking contacts need not stick: if the
 /// rows are dependent, they are decided together.
-Refusal Decider::try_next(DecisionCourse& course) {
-  const Mode last = course.mode;
+Refusal ContactStateSolver::try_next(SolverState& course) {
+  const contact::ContactStates last = course.mode;
   if (Refusal why = propose(course)) return why;
   if (evaluate(course.after, course.mode, course)) return {};
   if (!course.found.hit && !std::exchange(course.found.sliders, true)) {
@@ -345,15 +352,15 @@ Refusal Decider::try_next(DecisionCourse& course) {
   }
   Refusal why = dependent_rows(contacts_of(course.failed));
   why.reason += fmt::format(" (after {}); {} makes them so", names_of(model_, course.failed),
-                            what_makes_unique(model_, why.contacts));
+                            springs_for_uniqueness(model_, why.contacts));
   return why;
 }
 
-Refusal Decider::go(const Forcing& before, DecisionCourse& course) {
+Refusal ContactStateSolver::go(const motion::Forcing& before, SolverState& course) {
   if (Refusal why = begin(before, course)) return why;
   course.seen.push_back(course.mode);
   look(course, true);
-  if (course.failed.empty() && !course.instant.fired.empty() && !course.instant.jump) {
+  if (course.failed.empty() && !course.instant.triggered.empty() && !course.instant.jump) {
     course.make_blurred();  // the engine located a zero of a guard: its positive value may be rounding
     look(course, true);
   }
@@ -371,8 +378,8 @@ Refusal Decider::go(const Forcing& before, DecisionCourse& course) {
 }
 
 /// True if the contact sticks at its limit from this instant on, for a time that no derivative determines.
-bool Decider::rests_at_limit(const DecisionCourse& course, std::size_t c, const GuardStart& guard) {
-  const bool limit = is_friction_limit(guard.kind);
+bool ContactStateSolver::rests_at_limit(const SolverState& course, std::size_t c, const GuardStart& guard) {
+  const bool limit = contact::is_friction_limit(guard.kind);
   const bool asked =
       course.instant.start || course.instant.jump || course.decision.visited[c] || course.found.decided[c];
   return limit && asked && guard.at_zero && guard.leading < 0 &&
@@ -381,22 +388,23 @@ bool Decider::rests_at_limit(const DecisionCourse& course, std::size_t c, const 
 
 /// True if the contact stops at its static limit, up to rounding, and kinetic friction is lower. Beyond the limit it
 /// slips immediately, by much more than rounding. At a start the loads lead to the limit, not beyond it.
-bool Decider::meets_static_limit(const DecisionCourse& course, std::size_t c, const GuardStart& guard) const {
+bool ContactStateSolver::meets_static_limit(const SolverState& course, std::size_t c,
+                                            const GuardStart& guard) const {
   const bool asked = course.decision.visited[c] || course.found.decided[c];
-  return model_.contacts[c].friction.drops() && is_friction_limit(guard.kind) && asked &&
+  return model_.contacts[c].friction.drops() && contact::is_friction_limit(guard.kind) && asked &&
          !course.instant.start && guard.at_zero && guard.leading > 0 &&
          std::abs(course.jets[c].motion[0].T) > guard.noise;
 }
 
 /// True if all its guards are positive at order 0.
-bool Decider::clearly_holds(const DecisionCourse& course, std::size_t c) {
+bool ContactStateSolver::clearly_holds(const SolverState& course, std::size_t c) {
   return course.open && !std::binary_search(course.open->begin(), course.open->end(), c);
 }
 
 /// For a guard that is not clearly positive: determines whether it starts at zero, and the order of its first nonzero
 /// derivative.
-void Decider::look_at_start(DecisionCourse& course, std::size_t c, const GuardForm& guard,
-                            GuardStart& start) const {
+void ContactStateSolver::look_at_start(SolverState& course, std::size_t c, const GuardForm& guard,
+                                       GuardStart& start) const {
   Decision& d = course.decision;
   const MotionJet& jet = course.jets[c];
   const Known known = course.found.known[c].of(guard.kind);
@@ -420,7 +428,7 @@ void Decider::look_at_start(DecisionCourse& course, std::size_t c, const GuardFo
 }
 
 /// Fills in the data about the new mode that engine and log need.
-void Decider::finish(DecisionCourse& course) {
+void ContactStateSolver::finish(SolverState& course) {
   Decision& d = course.decision;
   d.consistent = true;
   course.found.capture(course.held);
@@ -429,7 +437,7 @@ void Decider::finish(DecisionCourse& course) {
   d.unresolved = course.found.unresolved;
   d.slides_after = slides(course.after, d);
   d.after.reserve(course.mode.size());
-  d.guards.reserve(guard_count(course.mode.size()));
+  d.guards.reserve(contact::guard_count(course.mode.size()));
   for (std::size_t c = 0; c < course.mode.size(); ++c) {
     const MotionJet& jet = course.jets[c];
     const ContactMotion& now = jet.motion[0];
@@ -454,11 +462,11 @@ void Decider::finish(DecisionCourse& course) {
 
 /// Enumeration may give the same result as release(): a contact at its limit of friction opens, and its force drops to
 /// zero.
-void Decider::note_left(const DecisionCourse& course, Decision& d) const {
+void ContactStateSolver::note_left(const SolverState& course, Decision& d) const {
   const Instant& now = course.instant;
   if (now.jump || now.start || !d.released.empty()) return;
-  for (const Fired& f : now.fired) {
-    const bool limit = is_friction_limit(f.guard);
+  for (const TriggeredGuard& f : now.triggered) {
+    const bool limit = contact::is_friction_limit(f.guard);
     if (limit && !now.mode[f.contact].is_open() && d.mode[f.contact].is_open() && d.jumped[f.contact] &&
         carries_massless(model_, model_.contacts[f.contact]))
       d.released.push_back(f.contact);
@@ -467,27 +475,28 @@ void Decider::note_left(const DecisionCourse& course, Decision& d) const {
 
 /// Refuses a slipping contact whose slip rate is zero with all its derivatives if sticking contacts hold it: its own
 /// row is then dependent on theirs, and its force need not stay at the limit.
-Refusal Decider::held_at_rest(const DecisionCourse& course) const {
+Refusal ContactStateSolver::held_at_rest(const SolverState& course) const {
   const Decision& d = course.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
     const GuardStart& guard = d.guards[slot];
-    const std::size_t c = contact_of_guard(slot);
+    const std::size_t c = contact::contact_of_guard(slot);
     const bool rests = guard.kind == Guard::sliding && guard.at_zero && guard.leading < 0;
     if (!rests || !model_.contacts[c].sticks_rigidly()) continue;
-    Mode sticking = d.mode;
+    contact::ContactStates sticking = d.mode;
     sticking[c].state = State::stick;
     if (systems_.of(sticking)) continue;
     Refusal why = dependent_rows({c});
     why.reason += fmt::format(" ('{}' slips no more); {} makes them so", model_.contacts[c].name,
-                              what_makes_unique(model_, why.contacts));
+                              springs_for_uniqueness(model_, why.contacts));
     return why;
   }
   return {};
 }
 
-Decider::Attempt Decider::attempt(const Instant& instant, const Forcing& before, const Forcing& after) {
+ContactStateSolver::Attempt ContactStateSolver::attempt(const Instant& instant, const motion::Forcing& before,
+                                                        const motion::Forcing& after) {
   const std::size_t count = model_.contacts.size();
-  DecisionCourse course{instant, after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
+  SolverState course{instant, after, {}, {}, {}, {}, {}, {}, ImpactResult(count), {}};
   course.jets = std::move(room_);
   course.decision.visited.assign(count, false);
   course.decision.jumped.assign(count, false);
@@ -501,7 +510,8 @@ Decider::Attempt Decider::attempt(const Instant& instant, const Forcing& before,
   return {std::move(course.decision), course.found.grounded, course.found.slowest};
 }
 
-Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) {
+Decision ContactStateSolver::decide(Instant instant, const motion::Forcing& before,
+                                    const motion::Forcing& after) {
   Attempt first = attempt(instant, before, after);
   const Refusal::Kind kind = first.decision.refusal.kind;
   if (kind == Refusal::Kind::none) return std::move(first.decision);
@@ -523,17 +533,19 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   return std::move(resting.decision);
 }
 
-Refusal Decider::standstill(const Decision& last, std::vector<std::size_t> contacts, std::string reason) {
+Refusal ContactStateSolver::standstill(const Decision& last, std::vector<std::size_t> contacts,
+                                       std::string reason) {
   const double condition = Enumeration(systems_, jets_).condition(contacts, last.mode);
   return {Refusal::Kind::standstill, std::move(reason), std::move(contacts), condition, last.forgiven};
 }
 
-Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) {
-  DecisionCourse course{instant, forcing, {}, {}, {}, {}, {}, {}, Findings(mode.size()), {}};
+Decision ContactStateSolver::adopt(const Instant& instant, const contact::ContactStates& mode,
+                                   const motion::Forcing& forcing) {
+  SolverState course{instant, forcing, {}, {}, {}, {}, {}, {}, ImpactResult(mode.size()), {}};
   Decision& d = course.decision;
   d.visited.assign(mode.size(), false);
   d.jumped.assign(mode.size(), false);
-  Mode taken = mode;
+  contact::ContactStates taken = mode;
   if (!evaluate(forcing, taken, course)) {
     d.refusal = no_system(model_, mode);
     return std::move(d);
@@ -549,4 +561,4 @@ Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing&
   return std::move(d);
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

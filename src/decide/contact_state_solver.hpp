@@ -14,22 +14,24 @@
 #include "decide/cycle_fallback.hpp"
 #include "motion/local_derivatives.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Friction limits that are zero with all their derivatives, from now until they are found to fail.
-[[nodiscard]] std::vector<Fired> resting(const Decision& decision);
+[[nodiscard]] std::vector<TriggeredGuard> resting(const Decision& decision);
 
-class Decider {
+class ContactStateSolver {
  public:
   /// capture_velocity: for rigid contacts without a value of their own. whole_jets: Decision::jet is used beyond
   /// accelerations and the rates of forces.
-  Decider(ModeSystems& systems, int max_rounds, double capture_velocity, bool whole_jets = true);
+  ContactStateSolver(motion::StateSystems& systems, int max_rounds, double capture_velocity,
+                     bool whole_jets = true);
 
   /// Decides the states just after an instant. `before`, `after`: the forcing on both sides of it.
-  [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after);
+  [[nodiscard]] Decision decide(Instant instant, const motion::Forcing& before, const motion::Forcing& after);
   /// Adopts the states of `mode` from an engine that finds states and no instants: computes their forces and
   /// accelerations, which are the same before and after.
-  [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing);
+  [[nodiscard]] Decision adopt(const Instant& instant, const contact::ContactStates& mode,
+                               const motion::Forcing& forcing);
 
   /// Reason for ending a run whose events take no time, after the decision `last`.
   [[nodiscard]] Refusal standstill(const Decision& last, std::vector<std::size_t> contacts,
@@ -44,43 +46,45 @@ class Decider {
     bool grounded = false;  // Findings::grounded
     double slowest = 0.0;
   };
-  [[nodiscard]] Attempt attempt(const Instant& instant, const Forcing& before, const Forcing& after);
-  [[nodiscard]] bool evaluate(const Forcing& forcing, Mode& mode, DecisionCourse& course);
-  [[nodiscard]] Refusal begin(const Forcing& before, DecisionCourse& course);
-  void look(DecisionCourse& course, bool before);
-  void stop_there(const Failure& f, DecisionCourse& course) const;
-  [[nodiscard]] std::vector<Block> react(DecisionCourse& course) const;
-  void stop(const std::vector<std::size_t>& turning, DecisionCourse& course) const;
-  void note_hits(DecisionCourse& course) const;
-  [[nodiscard]] Refusal propose(DecisionCourse& course);
-  [[nodiscard]] Refusal try_next(DecisionCourse& course);
-  [[nodiscard]] bool held_by_others(std::size_t c, const DecisionCourse& course) const;
-  [[nodiscard]] Refusal go(const Forcing& before, DecisionCourse& course);
-  [[nodiscard]] static bool rests_at_limit(const DecisionCourse& course, std::size_t c,
-                                           const GuardStart& guard);
-  [[nodiscard]] bool meets_static_limit(const DecisionCourse& course, std::size_t c,
+  [[nodiscard]] Attempt attempt(const Instant& instant, const motion::Forcing& before,
+                                const motion::Forcing& after);
+  [[nodiscard]] bool evaluate(const motion::Forcing& forcing, contact::ContactStates& mode,
+                              SolverState& course);
+  [[nodiscard]] Refusal begin(const motion::Forcing& before, SolverState& course);
+  void look(SolverState& course, bool before);
+  void stop_there(const Failure& f, SolverState& course) const;
+  [[nodiscard]] std::vector<Block> react(SolverState& course) const;
+  void stop(const std::vector<std::size_t>& turning, SolverState& course) const;
+  void note_hits(SolverState& course) const;
+  [[nodiscard]] Refusal propose(SolverState& course);
+  [[nodiscard]] Refusal try_next(SolverState& course);
+  [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& course) const;
+  [[nodiscard]] Refusal go(const motion::Forcing& before, SolverState& course);
+  [[nodiscard]] static bool rests_at_limit(const SolverState& course, std::size_t c, const GuardStart& guard);
+  [[nodiscard]] bool meets_static_limit(const SolverState& course, std::size_t c,
                                         const GuardStart& guard) const;
-  [[nodiscard]] static bool clearly_holds(const DecisionCourse& course, std::size_t c);
-  void look_at_start(DecisionCourse& course, std::size_t contact, const GuardForm& guard,
+  [[nodiscard]] static bool clearly_holds(const SolverState& course, std::size_t c);
+  void look_at_start(SolverState& course, std::size_t contact, const GuardForm& guard,
                      GuardStart& start) const;
-  void finish(DecisionCourse& course);
-  void note_left(const DecisionCourse& course, Decision& decision) const;
-  [[nodiscard]] Refusal held_at_rest(const DecisionCourse& course) const;
-  [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
+  void finish(SolverState& course);
+  void note_left(const SolverState& course, Decision& decision) const;
+  [[nodiscard]] Refusal held_at_rest(const SolverState& course) const;
+  [[nodiscard]] std::vector<motion::BodySlide> slides(const motion::Forcing& forcing,
+                                                      const Decision& decision) const;
 
   const Model& model_;
-  ModeSystems& systems_;
-  JetMaker jets_;
-  std::optional<NearJets> near_;          // nullopt: jets use the whole structure
-  const std::vector<std::size_t> every_;  // all contacts
+  motion::StateSystems& systems_;
+  motion::JetMaker jets_;
+  std::optional<motion::LocalDerivatives> near_;  // nullopt: jets use the whole structure
+  const std::vector<std::size_t> every_;          // all contacts
   int max_rounds_;
-  Touching touching_;
+  RigidContactSolver touching_;
   GuardsInForce guards_;
   ContactBlocks blocks_;
-  CircleExit circles_;
+  CycleFallback circles_;
   bool each_alone_ = false;      // contacts are decided separately, except if modes repeat
   std::vector<MotionJet> room_;  // memory of the last decision, reused by the next one
   RoundListener listener_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::decide

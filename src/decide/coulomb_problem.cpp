@@ -8,7 +8,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 using Kind = CoulombItem::Kind;
@@ -107,7 +107,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
         H(at + 2, at) = H(at + 2, at + 1) = -1.0;
         if (item.kind == Kind::pressed) {
           // The given l is part of b already; only its cone enters here.
-          h[at + 2] = f * item.pressing * s.unit[ni];
+          h[at + 2] = f * item.applied_normal_force * s.unit[ni];
         }
         at += 3;
         break;
@@ -117,7 +117,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   const VectorXd q = G * s.b + h;
   const double size_of_q = q.cwiseAbs().maxCoeff();
   if (!(size_of_q > 0.0)) return VectorXd::Zero(n);
-  const auto z = solve_complementarity(M, q / size_of_q, cover_of(size, way));
+  const auto z = base::solve_complementarity(M, q / size_of_q, cover_of(size, way));
   if (!z) return std::nullopt;
   return VectorXd(F * *z * size_of_q);
 }
@@ -173,7 +173,7 @@ Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vect
       respond(ti);
     } else {
       no_force(ti);
-      if (item.kind == Kind::pressed) e.c[ti] = -sign * f * item.pressing * s.unit[ni];
+      if (item.kind == Kind::pressed) e.c[ti] = -sign * f * item.applied_normal_force * s.unit[ni];
       if (own_normal && sign != 0) e.A(ti, ni) = sign * f;
     }
   }
@@ -190,7 +190,7 @@ struct Attempt {
 Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
                 const std::vector<bool>& kinetic) {
   const Equations e = equations_of(p, s, states, kinetic);
-  Attempt result{some_solution(e.A, e.c)};
+  Attempt result{base::some_solution(e.A, e.c)};
   const VectorXd& x = result.force;
   const VectorXd r = s.b + s.W * x;
   double miss = (e.A * x - e.c).cwiseAbs().maxCoeff();
@@ -204,7 +204,7 @@ Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<Try>
       must_not_be_negative(item.sign * (states[i] == Try::stick ? x[ti] : r[ti]));
       continue;
     }
-    const double l = item.kind == Kind::pressed ? item.pressing * s.unit[ni] : x[ni];
+    const double l = item.kind == Kind::pressed ? item.applied_normal_force * s.unit[ni] : x[ni];
     must_not_be_negative(l);
     if (item.kind != Kind::pressed) must_not_be_negative(r[ni]);
     if (states[i] == Try::stick && item.kind != Kind::normal) must_not_be_negative(f * l - std::abs(x[ti]));
@@ -240,7 +240,7 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
     if (item.kind != Kind::pressed && !complementary(x[normal_place(i)], r[normal_place(i)])) return false;
     if (item.kind == Kind::normal) continue;
     const double l =
-        item.kind == Kind::pressed ? item.pressing * s.unit[normal_place(i)] : x[normal_place(i)];
+        item.kind == Kind::pressed ? item.applied_normal_force * s.unit[normal_place(i)] : x[normal_place(i)];
     const double most = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i] * l;
     const int sign = item.kind == Kind::sliding ? item.sign : rt > zero ? 1 : rt < -zero ? -1 : 0;
     const bool good = sign == 0 ? std::abs(xt) <= most + zero : std::abs(xt + sign * most) <= zero;
@@ -251,7 +251,7 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
 
 /// Factor by which a residual of a combination, relative to its size, may change the solution.
 double amplification(const MatrixXd& equations) {
-  const VectorXd values = singular_values(equations);
+  const VectorXd values = base::singular_values(equations);
   return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
 }
 
@@ -264,7 +264,7 @@ bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, 
     const CoulombItem& item = p.items[i];
     if (kinetic[i] || item.static_friction == item.kinetic_friction) continue;
     if (item.kind != Kind::frictional && item.kind != Kind::pressed) continue;
-    const double l = item.kind == Kind::pressed ? item.pressing : x[normal_place(i)];
+    const double l = item.kind == Kind::pressed ? item.applied_normal_force : x[normal_place(i)];
     if (l > zero && std::abs(r[tangent_place(i)]) > zero) kinetic[i] = changed = true;
   }
   return changed;
@@ -348,7 +348,7 @@ bool may_have_many(const CoulombProblem& p) {
       nt(i, j) = s.W(normal_place(i), tangent_place(j)) * p.items[at].static_friction * s.ratio[at];
     }
   const MatrixXd symmetric = 0.5 * (s.W + s.W.transpose());
-  const double least = symmetric_eigenvalues(symmetric)[0];
+  const double least = base::symmetric_eigenvalues(symmetric)[0];
   return !(least > 2.0 * nt.norm());
 }
 
@@ -380,7 +380,7 @@ Acting acting(const CoulombProblem& p, const CoulombSolution& s) {
     const double f = item.friction(s.kinetic[i]);
     const bool presses = item.kind != Kind::pressed && item.kind != Kind::limit && l > 0.0;
     const bool sticks = item.kind == Kind::limit     ? k != 0.0
-                        : item.kind == Kind::pressed ? std::abs(k) < f * item.pressing
+                        : item.kind == Kind::pressed ? std::abs(k) < f * item.applied_normal_force
                                                      : item.kind == Kind::frictional && std::abs(k) < f * l;
     if (presses) result.add(n, p.W.col(n) + (sticks ? 0.0 : k / l) * p.W.col(t));
     if (sticks) result.add(t, p.W.col(t));
@@ -405,15 +405,15 @@ CoulombReading::CoulombReading(const CoulombProblem& p, const CoulombSolution& s
   }
   const Acting act = acting(p, s);
   if (act.rows.empty()) return;
-  const Eigen::MatrixXd inverse = pseudo_inverse(act.columns(act.rows, Eigen::all));
+  const Eigen::MatrixXd inverse = base::pseudo_inverse(act.columns(act.rows, Eigen::all));
   const Eigen::VectorXd forces = inverse.cwiseAbs() * noise(act.rows);
   for (std::size_t i = 0; i < act.rows.size(); ++i)
     force_noise_[act.rows[i]] = std::max(force_noise_[act.rows[i]], forces[static_cast<Eigen::Index>(i)]);
   response_noise_ += act.columns.cwiseAbs() * forces;
 }
 
-double CoulombReading::pressing(std::size_t i) const {
-  return item(i).kind == Kind::pressed ? item(i).pressing : force(normal_place(i));
+double CoulombReading::applied_normal_force(std::size_t i) const {
+  return item(i).kind == Kind::pressed ? item(i).applied_normal_force : force(normal_place(i));
 }
 
 double CoulombReading::friction(std::size_t i) const { return item(i).friction(solution_.kinetic[i]); }
@@ -427,7 +427,7 @@ bool CoulombReading::is_zero_response(Eigen::Index row) const {
 bool CoulombReading::is_inside_cone(std::size_t i) const {
   const Eigen::Index n = normal_place(i), t = tangent_place(i);
   const double f = friction(i);
-  return f * pressing(i) - std::abs(force(t)) > zero_force(t) + f * zero_force(n);
+  return f * applied_normal_force(i) - std::abs(force(t)) > zero_force(t) + f * zero_force(n);
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-namespace signorini {
+namespace signorini::decide {
 
 // Index of a listed contact in vectors that contain l, k or rn, rt of each contact in turn.
 //
@@ -52,8 +52,8 @@ struct CoulombItem {
     limit,       ///< slides along sign at its limit, as W assumes; k = +sign d, d >= 0, if it sticks
   } kind = Kind::normal;
   double static_friction = 0.0, kinetic_friction = 0.0;
-  double pressing = 0.0;  ///< pressed: l
-  int sign = 0;           ///< sliding, limit
+  double applied_normal_force = 0.0;  ///< pressed: l
+  int sign = 0;                       ///< sliding, limit
 
   [[nodiscard]] double friction(bool slips) const { return slips ? kinetic_friction : static_friction; }
 };
@@ -109,7 +109,7 @@ class CoulombReading {
   [[nodiscard]] double force(Eigen::Index row) const { return solution_.force[row]; }
   [[nodiscard]] double response(Eigen::Index row) const { return solution_.response[row]; }
   /// Compression of item i, and its coefficient of friction in the solution.
-  [[nodiscard]] double pressing(std::size_t i) const;
+  [[nodiscard]] double applied_normal_force(std::size_t i) const;
   [[nodiscard]] double friction(std::size_t i) const;
 
   [[nodiscard]] double zero_force(Eigen::Index row) const;
@@ -124,4 +124,4 @@ class CoulombReading {
   Eigen::VectorXd force_noise_, response_noise_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::decide

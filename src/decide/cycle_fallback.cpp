@@ -6,14 +6,14 @@
 
 #include "decide/massless_jump.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Tries all combinations of states of a block, if no other method finds a consistent one.
-Refusal CircleExit::enumerate(std::size_t block, DecisionCourse& course) {
+Refusal CycleFallback::enumerate(std::size_t block, SolverState& course) {
   Enumeration enumeration(systems_, jets_);
   std::vector<Enumeration::Choice> choices;
-  for (const Participant& who : course.found.participants)
-    if (blocks_.of[who.contact] == block) choices.push_back(enumeration.choice(who));
+  for (const Participant& participant : course.found.participants)
+    if (blocks_.of[participant.contact] == block) choices.push_back(enumeration.choice(participant));
   for (const std::size_t c : blocks_.all[block]) {
     const Contact& contact = model_.contacts[c];
     if (contact.takes_impulses() || !course.decision.visited[c]) continue;
@@ -47,7 +47,7 @@ Refusal CircleExit::enumerate(std::size_t block, DecisionCourse& course) {
 
 /// Lets massless parts leave the failing contact if no combination of states is consistent. False: they cannot, or
 /// already have.
-bool CircleExit::release(std::size_t block, DecisionCourse& course) {
+bool CycleFallback::release(std::size_t block, SolverState& course) {
   std::vector<std::size_t> circling;
   for (const Failure& f : course.failed)
     if (blocks_.of[f.contact] == block) circling.push_back(f.contact);
@@ -60,7 +60,7 @@ bool CircleExit::release(std::size_t block, DecisionCourse& course) {
   before.push_back(c);
   course.instant.u = std::move(*u);
   const Contact& contact = model_.contacts[c];
-  course.mode[c] = {let_go(contact, contact.gap_at(course.instant.u)), 0.0};
+  course.mode[c] = {contact::let_go(contact, contact.gap_at(course.instant.u)), 0.0};
   course.found.known[c] = {};
   course.seen.clear();
   return true;
@@ -69,7 +69,7 @@ bool CircleExit::release(std::size_t block, DecisionCourse& course) {
 /// Continues a decision whose modes repeat, in three steps. First, zeros are blurred: one sample of rounding, and the
 /// clock, may have separated them too sharply. Second, sliders are decided together with the other contacts. Third,
 /// rounding cannot decide, and all combinations are weighed.
-Refusal CircleExit::leave(DecisionCourse& course) {
+Refusal CycleFallback::leave(SolverState& course) {
   if (course.make_blurred()) {
     course.seen.clear();
     return {};
@@ -93,7 +93,7 @@ void leave_pushed_for_later(const Model& model, const std::vector<bool>& visited
                             const std::vector<std::size_t>& block_of, std::vector<Failure>& failed) {
   const auto does_not_stick = [&](const Failure& f) {
     const Contact& contact = model.contacts[f.contact];
-    return visited[f.contact] && is_friction_limit(f.guard) && f.sign.order == 0 &&
+    return visited[f.contact] && contact::is_friction_limit(f.guard) && f.sign.order == 0 &&
            contact.sticks_rigidly() && !contact.takes_impulses();
   };
   std::vector<std::size_t> blocks;
@@ -105,4 +105,4 @@ void leave_pushed_for_later(const Model& model, const std::vector<bool>& visited
   });
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -14,11 +14,12 @@
 #include "model/assembly/parts.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Groups of contacts that are decided together, and the block of each contact.
 struct ContactBlocks {
-  explicit ContactBlocks(const Model& model) : all(coupled_contacts(model)), of(model.contacts.size()) {
+  explicit ContactBlocks(const Model& model)
+      : all(assembly::coupled_contacts(model)), of(model.contacts.size()) {
     for (std::size_t b = 0; b < all.size(); ++b)
       for (const std::size_t c : all[b]) of[c] = b;
   }
@@ -26,22 +27,22 @@ struct ContactBlocks {
   std::vector<std::size_t> of;
 };
 
-class CircleExit {
+class CycleFallback {
  public:
   /// All arguments must outlive the object.
-  CircleExit(ModeSystems& systems, JetMaker& jets, const ContactBlocks& blocks)
+  CycleFallback(motion::StateSystems& systems, motion::JetMaker& jets, const ContactBlocks& blocks)
       : model_(systems.model()), systems_(systems), jets_(jets), blocks_(blocks) {}
 
   /// Takes the next step. A refusal means that there is none.
-  [[nodiscard]] Refusal leave(DecisionCourse& course);
+  [[nodiscard]] Refusal leave(SolverState& course);
 
  private:
-  [[nodiscard]] Refusal enumerate(std::size_t block, DecisionCourse& course);
-  [[nodiscard]] bool release(std::size_t block, DecisionCourse& course);
+  [[nodiscard]] Refusal enumerate(std::size_t block, SolverState& course);
+  [[nodiscard]] bool release(std::size_t block, SolverState& course);
 
   const Model& model_;
-  ModeSystems& systems_;
-  JetMaker& jets_;
+  motion::StateSystems& systems_;
+  motion::JetMaker& jets_;
   const ContactBlocks& blocks_;
 };
 
@@ -59,4 +60,4 @@ class CircleExit {
 void leave_pushed_for_later(const Model& model, const std::vector<bool>& visited,
                             const std::vector<std::size_t>& block_of, std::vector<Failure>& failed);
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -12,7 +12,7 @@
 #include "motion/jet.hpp"
 #include "signorini/trace.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Value of a guard just after the decision.
 struct GuardStart {
@@ -47,12 +47,12 @@ struct AtLimit {
 struct Decision {
   bool consistent = false;
   Refusal refusal;  ///< reason if there are no consistent states
-  Mode mode;
-  ModeSystemPtr system;  ///< system of `mode`; engines continue with it
+  contact::ContactStates mode;
+  motion::StateSystemPtr system;  ///< system of `mode`; engines continue with it
   Vector u, v;
-  Jet jet;
+  motion::Jet jet;
   std::vector<ContactMotion> before, after;  ///< one entry per contact
-  std::vector<BodySlide> slides_before, slides_after;
+  std::vector<motion::BodySlide> slides_before, slides_after;
   std::vector<GuardStart> guards;             ///< guards_per_contact entries per contact
   GuardForms forms;                           ///< forms of these guards, including absent ones
   std::map<std::size_t, Crossing> crossings;  ///< of visited contacts
@@ -82,7 +82,7 @@ struct Decision {
 
   /// Guard after the decision.
   [[nodiscard]] const GuardForm& guard(std::size_t slot) const {
-    return forms[contact_of_guard(slot)][guard_within(slot)];
+    return forms[contact::contact_of_guard(slot)][contact::guard_within(slot)];
   }
   /// Form of a linear guard.
   [[nodiscard]] const Form& form(std::size_t slot) const { return guard(slot).form; }
@@ -93,4 +93,4 @@ struct Decision {
   }
 };
 
-}  // namespace signorini
+}  // namespace signorini::decide

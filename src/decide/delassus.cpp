@@ -11,9 +11,10 @@
 #include "decide/coulomb_problem.hpp"
 #include "linear/redundant_rows.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
-Delassus delassus(const Model& model, const ModeSystem& system, const std::vector<std::size_t>& contacts) {
+Delassus delassus(const Model& model, const motion::StateSystem& system,
+                  const std::vector<std::size_t>& contacts) {
   const auto n = static_cast<Eigen::Index>(model.size());
   const Eigen::Index m = place_count(contacts.size());
   Delassus d{Eigen::MatrixXd(n, m), Eigen::MatrixXd(m, m)};
@@ -24,7 +25,7 @@ Delassus delassus(const Model& model, const ModeSystem& system, const std::vecto
     (is_normal_place(j) ? contact.normal : contact.tangent).add_to(x, 1.0);
     system.solve(x.data(), work.data());
     for (Eigen::Index i = 0; i < n; ++i)
-      d.effect(i, j) = system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive ? x[i] : 0.0;
+      d.effect(i, j) = system.kinds()[static_cast<std::size_t>(i)] == linear::DofKind::massive ? x[i] : 0.0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Contact& other = model.contacts[contacts[i]];
       d.W(normal_place(i), j) = other.normal.dot(d.effect.col(j));
@@ -34,7 +35,7 @@ Delassus delassus(const Model& model, const ModeSystem& system, const std::vecto
   return d;
 }
 
-Eigen::VectorXd with_reactions(const Model& model, const ModeSystem& system,
+Eigen::VectorXd with_reactions(const Model& model, const motion::StateSystem& system,
                                const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return {};
   Vector x = Vector::Zero(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
@@ -68,16 +69,16 @@ Eigen::VectorXd settle(const Delassus& d, const std::vector<Fixed>& fixed, Vecto
     miss[i] = f.value - f.form->dot(v);
   }
   Eigen::VectorXd impulses = Eigen::VectorXd::Zero(d.W.rows());
-  impulses(rows) = least_squares(W, miss);
+  impulses(rows) = base::least_squares(W, miss);
   v += effect * impulses(rows);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const Fixed& f = fixed[i];
     const bool both = i + 1 < fixed.size() && is_normal_place(f.row) &&
                       fixed[i + 1].row == tangent_place(contact_of_place(f.row));
     if (both)
-      set_exactly(*f.form, f.value, *fixed[i + 1].form, fixed[i + 1].value, v);
+      linear::set_exactly(*f.form, f.value, *fixed[i + 1].form, fixed[i + 1].value, v);
     else
-      set_exactly(*f.form, f.value, v);
+      linear::set_exactly(*f.form, f.value, v);
   }
   return impulses;
 }
@@ -94,8 +95,8 @@ bool holds(const Contact& contact, const ContactState& state) {
 }
 
 /// Matrix A: constraint rows of accelerations, and their response to the constraint forces.
-Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vector<std::size_t>& contacts,
-                          const Eigen::MatrixXd& W) {
+Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& mode,
+                          const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& W) {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd effect = W;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -105,21 +106,21 @@ Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vecto
     if (contact.takes_impulses()) rows.push_back(n);
     if (contact.has_friction() && state.state == State::stick) rows.push_back(t);
     if (const int s = slip_sign(state.state); s != 0)
-      effect.col(n) -= s * slipping_friction(contact, state.state) * W.col(t);
+      effect.col(n) -= s * contact::slipping_friction(contact, state.state) * W.col(t);
   }
   return effect(rows, rows);
 }
 
 /// Adds the terms that make shares unique for feet of one body that share a motion: s z z' for directions z without
 /// effect (linear/redundant_rows.hpp).
-void add_shares(const ForceLayout& layout, const std::vector<SharedForces>& shared,
+void add_shares(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
                 const std::vector<std::size_t>& contacts, Eigen::MatrixXd& W) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
     const auto at = std::find(contacts.begin(), contacts.end(), layout.contact_of(row));
     if (at == contacts.end()) return std::nullopt;
     return layout.is_normal(row) ? normal_place(at - contacts.begin()) : tangent_place(at - contacts.begin());
   };
-  for (const SharedForces& of : shared)
+  for (const linear::SharedForces& of : shared)
     for (std::size_t i = 0; i < of.rows.size(); ++i)
       for (std::size_t j = 0; j < of.rows.size(); ++j) {
         const auto a = place(of.rows[i]), b = place(of.rows[j]);
@@ -141,27 +142,27 @@ bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets) {
   return noise > suspicious * force;
 }
 
-bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
+bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStates& mode) {
   const Model& model = systems.model();
   std::vector<std::size_t> contacts;
-  Mode free = mode;
+  contact::ContactStates free = mode;
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (holds(model.contacts[c], mode[c])) {
       contacts.push_back(c);
       free[c] = {State::open, 0.0};
     }
   if (contacts.size() < 2) return true;  // normal and tangent of one contact are independent
-  const ModeSystemPtr system = systems.of(free);
+  const motion::StateSystemPtr system = systems.of(free);
   if (!system) return true;
   Eigen::MatrixXd W = delassus(model, *system, contacts).W;
-  if (const ModeSystemPtr held = systems.of(mode))
+  if (const motion::StateSystemPtr held = systems.of(mode))
     add_shares(model.layout, held->factorised().shared, contacts, W);
   Eigen::MatrixXd a = held_part(model, mode, contacts, W);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
   for (Eigen::Index i = 0; i < a.rows(); ++i)
     for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) /= size[i] * size[j];
-  const Eigen::VectorXd singular = singular_values(a);
+  const Eigen::VectorXd singular = base::singular_values(a);
   return singular.minCoeff() > rounding::of_many * static_cast<double>(a.rows()) * singular.maxCoeff();
 }
 
@@ -172,7 +173,7 @@ using Kind = CoulombItem::Kind;
 /// Items whose forces may change, their rows in turn, and the sets in which they may.
 struct Shares {
   std::vector<Eigen::Index> rows;
-  std::vector<ConvexSet> sets;
+  std::vector<base::ConvexSet> sets;
   std::vector<std::size_t> resting;  ///< items that may stick: what they bear is no slip
 };
 
@@ -187,28 +188,29 @@ Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, co
     const Eigen::Index n = normal_place(i), t = tangent_place(i);
     if (!may_share[i] || item.kind == Kind::limit) continue;
     if (item.kind == Kind::pressed) {
-      if (!rests(t) || !(item.pressing > 0.0)) continue;
+      if (!rests(t) || !(item.applied_normal_force > 0.0)) continue;
       shares.rows.push_back(t);
-      shares.sets.push_back({ConvexSet::Kind::disc, 1, 0.0, item.static_friction * item.pressing, {}});
+      shares.sets.push_back(
+          {base::ConvexSet::Kind::disc, 1, 0.0, item.static_friction * item.applied_normal_force, {}});
       shares.resting.push_back(i);
       continue;
     }
     if (!rests(n)) continue;
     shares.rows.push_back(n);
     if (item.kind == Kind::normal) {
-      shares.sets.push_back({ConvexSet::Kind::cone, 1, 0.0, 0.0, {}});
+      shares.sets.push_back({base::ConvexSet::Kind::cone, 1, 0.0, 0.0, {}});
       continue;
     }
     shares.rows.push_back(t);
     if (item.kind == Kind::frictional && rests(t)) {
-      shares.sets.push_back({ConvexSet::Kind::cone, 2, item.static_friction, 0.0, {}});
+      shares.sets.push_back({base::ConvexSet::Kind::cone, 2, item.static_friction, 0.0, {}});
       shares.resting.push_back(i);
       continue;
     }
     const double sign = item.kind == Kind::sliding ? item.sign : std::copysign(1.0, s.response[t]);
     Eigen::VectorXd along(2);
     along << 1.0, -sign * item.kinetic_friction;
-    shares.sets.push_back({ConvexSet::Kind::ray, 2, 0.0, 0.0, along.normalized()});
+    shares.sets.push_back({base::ConvexSet::Kind::ray, 2, 0.0, 0.0, along.normalized()});
   }
   return shares;
 }
@@ -219,14 +221,14 @@ void share_fairly(const CoulombProblem& problem, const std::vector<bool>& may_sh
                   CoulombSolution& solution) {
   const Shares shares = shares_of(problem, may_share, solution);
   if (shares.rows.size() < 2 || shares.resting.empty()) return;
-  const Eigen::MatrixXd open = null_of_columns(problem.W(Eigen::all, shares.rows));  // moves nothing
+  const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // moves nothing
   if (open.cols() == 0) return;
   const Eigen::VectorXd given = solution.force(shares.rows);
-  const Eigen::MatrixXd kept = orthogonal_complement(open).transpose();
-  const auto force = least_norm(kept, kept * given, shares.sets);
+  const Eigen::MatrixXd kept = base::orthogonal_complement(open).transpose();
+  const auto force = base::least_norm(kept, kept * given, shares.sets);
   if (!force) return;  // `given` alone holds it, to rounding
   solution.force(shares.rows) = *force;
   for (const std::size_t i : shares.resting) solution.kinetic[i] = false;
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

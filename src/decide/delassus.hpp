@@ -13,7 +13,7 @@
 #include "decide/coulomb_problem.hpp"
 #include "motion/state_systems.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Effect of forces at the listed contacts on all degrees of freedom, and on the listed contacts.
 struct Delassus {
@@ -35,12 +35,12 @@ struct Fixed {
 /// to the rounding of an elimination. Returns the impulses of this change, one per row of `delassus`; empty: none.
 Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);
 
-[[nodiscard]] Delassus delassus(const Model& model, const ModeSystem& system,
+[[nodiscard]] Delassus delassus(const Model& model, const motion::StateSystem& system,
                                 const std::vector<std::size_t>& contacts);
 
 /// Impulses on the listed contacts (decide/coulomb_problem.hpp), together with the reactions of other constraint rows, such as
 /// those of a sticking slider. Indexed like forces. Empty: no impulses.
-[[nodiscard]] Eigen::VectorXd with_reactions(const Model& model, const ModeSystem& system,
+[[nodiscard]] Eigen::VectorXd with_reactions(const Model& model, const motion::StateSystem& system,
                                              const std::vector<std::size_t>& contacts,
                                              const Eigen::VectorXd& impulses);
 
@@ -56,7 +56,7 @@ Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed
 [[nodiscard]] bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets);
 
 /// False if the smallest singular value is the rounding of zero.
-[[nodiscard]] bool forces_are_unique(ModeSystems& systems, const Mode& mode);
+[[nodiscard]] bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStates& mode);
 
 // Forces of rigid contacts and sliders that accelerations leave open.
 //
@@ -75,4 +75,4 @@ Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed
 void share_fairly(const CoulombProblem& problem, const std::vector<bool>& may_share,
                   CoulombSolution& solution);
 
-}  // namespace signorini
+}  // namespace signorini::decide

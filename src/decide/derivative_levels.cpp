@@ -10,7 +10,7 @@
 #include "decide/delassus.hpp"
 #include "model/machine_units.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 using Kind = CoulombItem::Kind;
@@ -33,7 +33,7 @@ void hold_normals(CoulombProblem& p) {
 enum class Verdict : unsigned char { open, limit, decided };  // open: not decided yet
 
 void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
-  state.state = slip_along(sign);
+  state.state = contact::slip_along(sign);
   guards.sliding = {order + 1, true};
 }
 
@@ -53,7 +53,7 @@ Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, C
 }
 
 /// Decides the friction of a contact that presses and has not slipped before.
-Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
+Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t i, Participant& participant,
                         ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index t = tangent_place(i);
@@ -64,16 +64,16 @@ Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t 
     return Verdict::decided;
   }
   const bool two = item.static_friction != item.kinetic_friction;
-  if ((two && !who.bears_limit) || std::abs(r.force(t)) <= r.zero_force(t)) return Verdict::decided;
+  if ((two && !participant.bears_limit) || std::abs(r.force(t)) <= r.zero_force(t)) return Verdict::decided;
   // At its limit: with one coefficient the next derivative decides. With two the contact sticks until the guard of the
   // static limit fails; from then on it bears that limit if other contacts hold it.
-  who.sign = -sign_of(r.force(t));
-  state.state = slip_along(who.sign);
+  participant.sign = -sign_of(r.force(t));
+  state.state = contact::slip_along(participant.sign);
   return Verdict::limit;
 }
 
 /// Decides a contact. If its force is not zero, its response is zero, whatever rounding is left in it.
-Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
+Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i, Participant& participant,
                        ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index n = normal_place(i), t = tangent_place(i);
@@ -83,8 +83,8 @@ Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i
       return Verdict::decided;
     }
     if (item.kind == Kind::frictional && !r.is_zero_response(t)) {
-      who.slipping = true;
-      who.sign = sign_of(r.response(t));
+      participant.slipping = true;
+      participant.sign = sign_of(r.response(t));
     }
     return Verdict::open;
   }
@@ -94,17 +94,18 @@ Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i
     return Verdict::decided;
   }
   if (item.kind == Kind::sliding) {
-    state.state = slip_along(item.sign);
+    state.state = contact::slip_along(item.sign);
     return Verdict::decided;
   }
-  return settle_friction(r, order, i, who, state, guards);
+  return settle_friction(r, order, i, participant, state, guards);
 }
 
 /// Contacts whose rows are constraints.
-std::vector<std::size_t> in_force(const std::vector<Participant>& participants, const Mode& mode) {
+std::vector<std::size_t> in_force(const std::vector<Participant>& participants,
+                                  const contact::ContactStates& mode) {
   std::vector<std::size_t> result;
-  for (const Participant& who : participants)
-    if (!mode[who.contact].is_open()) result.push_back(who.contact);
+  for (const Participant& participant : participants)
+    if (!mode[participant.contact].is_open()) result.push_back(participant.contact);
   return result;
 }
 
@@ -126,27 +127,28 @@ std::string holds_no_mass(const Model& model, const Contact& contact) {
          "' sticks rigidly to a point without mass; give it a tangential_stiffness, or the point a mass";
 }
 
-CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t) const {
-  const std::size_t c = entry.who.contact;
+CoulombItem DerivativeLevels::item_of(const Entry& entry, const motion::Forcing& forcing, double t) const {
+  const std::size_t c = entry.participant.contact;
   const Contact& contact = model_.contacts[c];
   CoulombItem item;
-  item.sign = entry.who.sign;
-  item.kinetic_friction = entry.who.sliding_friction;
-  item.static_friction = entry.who.kinetic ? item.kinetic_friction : static_friction(contact);
+  item.sign = entry.participant.sign;
+  item.kinetic_friction = entry.participant.sliding_friction;
+  item.static_friction =
+      entry.participant.kinetic ? item.kinetic_friction : contact::static_friction(contact);
   if (entry.standing == Standing::limit) {
     item.kind = Kind::limit;
   } else if (contact.normal_force_given()) {
     item.kind = Kind::pressed;
-    item.pressing = forcing.pressing(c, t, 0);
+    item.applied_normal_force = forcing.applied_normal_force(c, t, 0);
   } else if (!contact.has_friction()) {
     item.kind = Kind::normal;
   } else {
-    item.kind = entry.who.slipping ? Kind::sliding : Kind::frictional;
+    item.kind = entry.participant.slipping ? Kind::sliding : Kind::frictional;
   }
   return item;
 }
 
-Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
+Refusal DerivativeLevels::refusal(const Level& level, const Enumerated& all) const {
   const CoulombProblem& problem = level.problem;
   const bool several = all.solutions.size() > 1;
   Refusal result{several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
@@ -156,8 +158,8 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
                      : "no motion continues this one (Painleve's paradox: friction is so strong that "
                        "pressing a sliding contact pushes it into its surface)",
                  level.contacts, condition_of(problem), all.least_miss};
-  const double acceleration = said(model_, 1.0, unit::acceleration);
-  const double per_force = acceleration / said(model_, 1.0, unit::force);
+  const double acceleration = model::in_scene_units(model_, 1.0, unit::acceleration);
+  const double per_force = acceleration / model::in_scene_units(model_, 1.0, unit::force);
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
     const CoulombItem& item = problem.items[i];
     const Eigen::Index n = normal_place(i), t = tangent_place(i);
@@ -168,7 +170,7 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
     const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);
     if (item.kind == Kind::sliding)
       result.reason += fmt::format(", with friction {:.6g} while it slips ({})", sliding * per_force,
-                                   to_string(slip_along(item.sign)));
+                                   to_string(contact::slip_along(item.sign)));
     else if (item.kind == Kind::frictional)
       result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}",
                                    problem.W(n, t) * per_force, item.static_friction);
@@ -177,8 +179,9 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
 }
 
 /// Fills in items, right-hand side and its noise, from the motion under the forces decided so far.
-void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
-                  const std::vector<MotionJet>& jets, Level& level) const {
+void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forcing,
+                            const std::vector<Entry>& entries, const std::vector<MotionJet>& jets,
+                            Level& level) const {
   const auto size = place_count(level.entries.size());
   level.problem.b = Eigen::VectorXd::Zero(size);
   level.noise.resize(size);
@@ -199,23 +202,26 @@ void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vec
 
 /// Sets up the problems of the given levels (order, block) for all undecided contacts. False: constraint rows are
 /// dependent.
-bool Levels::pose(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
-                  const Mode& mode, std::vector<Level>& levels) {
+bool DerivativeLevels::pose(const Instant& instant, const motion::Forcing& forcing,
+                            const std::vector<Entry>& entries, const contact::ContactStates& mode,
+                            std::vector<Level>& levels) {
   for (Level& level : levels) level = {level.order, level.block, {}, {}, {}, {}, {}};
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i].standing == Standing::decided) continue;
-    const auto of = std::find_if(levels.begin(), levels.end(),
-                                 [&](const Level& level) { return level.block == entries[i].who.block; });
+    const auto of = std::find_if(levels.begin(), levels.end(), [&](const Level& level) {
+      return level.block == entries[i].participant.block;
+    });
     if (of == levels.end()) continue;
     of->entries.push_back(i);
-    of->contacts.push_back(entries[i].who.contact);
+    of->contacts.push_back(entries[i].participant.contact);
   }
   std::erase_if(levels, [](const Level& level) { return level.entries.empty(); });
   if (levels.empty()) return true;
-  const ModeSystemPtr system = systems_.of(mode);
+  const motion::StateSystemPtr system = systems_.of(mode);
   if (!system) return false;
   std::vector<MotionJet> jets;
-  const ModeSystemPtr at_slip = jets_.make(system, forcing, instant.t, instant.u, instant.v, jets).system;
+  const motion::StateSystemPtr at_slip =
+      jets_.make(system, forcing, instant.t, instant.u, instant.v, jets).system;
   for (Level& level : levels) {
     level.system = at_slip;
     fill(instant, forcing, entries, jets, level);
@@ -224,7 +230,7 @@ bool Levels::pose(const Instant& instant, const Forcing& forcing, const std::vec
 }
 
 /// No solution and no refusal: all right-hand sides are zero at this order.
-Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
+Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
   CoulombProblem& problem = level.problem;
   const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
                                    [](const CoulombItem& item) { return item.kind == Kind::pressed; });
@@ -249,17 +255,18 @@ Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& soluti
 }
 
 /// Takes over the decisions of the solution. True: at least one contact was decided.
-bool Levels::settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
-                    Mode& mode, std::vector<KnownGuards>& known) const {
+bool DerivativeLevels::settle(const Level& level, const CoulombSolution& solution,
+                              std::vector<Entry>& entries, contact::ContactStates& mode,
+                              std::vector<KnownGuards>& known) const {
   const CoulombReading reading(level.problem, solution, level.noise);
   bool decides = false;
   for (std::size_t i = 0; i < level.entries.size(); ++i) {
     Entry& entry = entries[level.entries[i]];
-    ContactState& state = mode[entry.who.contact];
-    KnownGuards& guards = known[entry.who.contact];
+    ContactState& state = mode[entry.participant.contact];
+    KnownGuards& guards = known[entry.participant.contact];
     const Verdict verdict = level.problem.items[i].kind == Kind::limit
                                 ? leave_limit(reading, level.order, i, state, guards)
-                                : settle_contact(reading, level.order, i, entry.who, state, guards);
+                                : settle_contact(reading, level.order, i, entry.participant, state, guards);
     if (verdict == Verdict::open) continue;
     entry.standing = verdict == Verdict::limit ? Standing::limit : Standing::decided;
     decides = true;
@@ -267,19 +274,20 @@ bool Levels::settle(const Level& level, const CoulombSolution& solution, std::ve
   return decides;
 }
 
-Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
-                       const std::vector<Participant>& participants, const Mode& old, Mode& mode,
-                       std::vector<KnownGuards>& known) {
+Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& forcing,
+                                 const std::vector<Participant>& participants,
+                                 const contact::ContactStates& old, contact::ContactStates& mode,
+                                 std::vector<KnownGuards>& known) {
   std::vector<Entry> entries;
-  for (const Participant& who : participants) {
-    entries.push_back({who});
-    mode[who.contact] = {State::open, 0.0};
+  for (const Participant& participant : participants) {
+    entries.push_back({participant});
+    mode[participant.contact] = {State::open, 0.0};
   }
   for (std::size_t order = 0; order < MotionJet::orders; ++order) {
     std::vector<Level> levels;
-    for (const Participant& who : participants)
-      if (levels.empty() || levels.back().block != who.block)
-        levels.push_back({order, who.block, {}, {}, {}, {}, {}});
+    for (const Participant& participant : participants)
+      if (levels.empty() || levels.back().block != participant.block)
+        levels.push_back({order, participant.block, {}, {}, {}, {}, {}});
     // An order of a block is solved again as long as it decides a contact: with the large forces as constraints the
     // small ones stand out from the rounding.
     while (!levels.empty()) {
@@ -289,7 +297,7 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
         std::optional<CoulombSolution> solution;
         if (Refusal why = solve_level(level, solution)) return why;
         if (solution && settle(level, *solution, entries, mode, known)) again.push_back(std::move(level));
-        systems_.tell_held(mode, forcing, instant.t);
+        systems_.mark_static_limits(mode, forcing, instant.t);
       }
       levels = std::move(again);
     }
@@ -297,16 +305,16 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
   // No derivative decides the rest: touching contacts keep their states, contacts at their limit stick.
   for (const Entry& entry : entries) {
     if (entry.standing == Standing::limit &&
-        systems_.held_by_others(entry.who.contact, mode, forcing, instant.t)) {
-      known[entry.who.contact].sliding = Known::at_limit();  // bears its limit at rest
+        systems_.held_by_others(entry.participant.contact, mode, forcing, instant.t)) {
+      known[entry.participant.contact].sliding = Known::at_limit();  // bears its limit at rest
     } else if (entry.standing == Standing::limit) {
-      mode[entry.who.contact].state = State::stick;
-      KnownGuards& guards = known[entry.who.contact];
-      (entry.who.sign > 0 ? guards.slip_plus : guards.slip_minus) = Known::at_limit();
+      mode[entry.participant.contact].state = State::stick;
+      KnownGuards& guards = known[entry.participant.contact];
+      (entry.participant.sign > 0 ? guards.slip_plus : guards.slip_minus) = Known::at_limit();
     }
-    if (entry.standing == Standing::apex) mode[entry.who.contact] = old[entry.who.contact];
+    if (entry.standing == Standing::apex) mode[entry.participant.contact] = old[entry.participant.contact];
   }
   return {};
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

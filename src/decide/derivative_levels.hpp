@@ -22,7 +22,7 @@
 #include "motion/jet.hpp"
 #include "signorini/trace.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// A contact that takes part, and its known data.
 struct Participant {
@@ -35,20 +35,22 @@ struct Participant {
   std::size_t block = 0;     ///< contacts of different blocks are not coupled
 };
 
-class Levels {
+class DerivativeLevels {
  public:
-  Levels(ModeSystems& systems, JetMaker& jets) : model_(systems.model()), systems_(systems), jets_(jets) {}
+  DerivativeLevels(motion::StateSystems& systems, motion::JetMaker& jets)
+      : model_(systems.model()), systems_(systems), jets_(jets) {}
 
   /// Changes the states of the participants in `mode`; old: their states before. known: resulting signs of their
   /// guards, one entry per contact.
-  [[nodiscard]] Refusal decide(const Instant& instant, const Forcing& forcing,
-                               const std::vector<Participant>& participants, const Mode& old, Mode& mode,
+  [[nodiscard]] Refusal decide(const Instant& instant, const motion::Forcing& forcing,
+                               const std::vector<Participant>& participants,
+                               const contact::ContactStates& old, contact::ContactStates& mode,
                                std::vector<KnownGuards>& known);
 
  private:
   enum class Standing : unsigned char { apex, limit, decided };
   struct Entry {
-    Participant who;
+    Participant participant;
     Standing standing = Standing::apex;
   };
   /// The Coulomb problem of one block and order.
@@ -57,21 +59,22 @@ class Levels {
     std::vector<std::size_t> entries, contacts;  // undecided ones, and their contacts
     CoulombProblem problem;
     Eigen::VectorXd noise;  // of problem.b
-    ModeSystemPtr system;
+    motion::StateSystemPtr system;
   };
-  [[nodiscard]] CoulombItem item_of(const Entry& entry, const Forcing& forcing, double t) const;
-  void fill(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
+  [[nodiscard]] CoulombItem item_of(const Entry& entry, const motion::Forcing& forcing, double t) const;
+  void fill(const Instant& instant, const motion::Forcing& forcing, const std::vector<Entry>& entries,
             const std::vector<MotionJet>& jets, Level& level) const;
-  [[nodiscard]] bool pose(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
-                          const Mode& mode, std::vector<Level>& levels);
+  [[nodiscard]] bool pose(const Instant& instant, const motion::Forcing& forcing,
+                          const std::vector<Entry>& entries, const contact::ContactStates& mode,
+                          std::vector<Level>& levels);
   [[nodiscard]] Refusal solve_level(Level& level, std::optional<CoulombSolution>& solution) const;
   [[nodiscard]] bool settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
-                            Mode& mode, std::vector<KnownGuards>& known) const;
+                            contact::ContactStates& mode, std::vector<KnownGuards>& known) const;
   [[nodiscard]] Refusal refusal(const Level& level, const Enumerated& all) const;
 
   const Model& model_;
-  ModeSystems& systems_;
-  JetMaker& jets_;
+  motion::StateSystems& systems_;
+  motion::JetMaker& jets_;
 };
 
 /// Refusal for sticking contacts whose forces are not unique.
@@ -79,4 +82,4 @@ class Levels {
 /// Reason why a rigidly sticking contact has no force of its own, because its tangent moves no mass; otherwise empty.
 [[nodiscard]] std::string holds_no_mass(const Model& model, const Contact& contact);
 
-}  // namespace signorini
+}  // namespace signorini::decide

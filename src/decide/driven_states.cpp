@@ -6,7 +6,7 @@
 #include "base/rounding.hpp"
 #include "contact/motion.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 constexpr double same_value = 1e-12;  // relative difference of two pieces of a history that meet smoothly
@@ -26,8 +26,9 @@ double left_size(const Model& model, const Combination& form, const Vector& x, d
 
 }  // namespace
 
-std::vector<Fired> fell_at_start(const Model& model, const Vector& u, const Vector& v, const Mode& mode) {
-  std::vector<Fired> result;
+std::vector<TriggeredGuard> zero_at_start(const Model& model, const Vector& u, const Vector& v,
+                                          const contact::ContactStates& mode) {
+  std::vector<TriggeredGuard> result;
   for (std::size_t c = 0; c < model.continues.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (!contact.is_elastic_along_normal() || contact.compliance_split()) continue;
@@ -39,7 +40,7 @@ std::vector<Fired> fell_at_start(const Model& model, const Vector& u, const Vect
         std::abs(contact.gap) + left_size(model, contact.normal, u, scales.displacement, scales.rotation);
     const double rate_terms = left_size(model, contact.normal, v, scales.velocity, scales.angular_velocity);
     // The contact closes at g = 0, and opens at N = kn g + cn g' = 0.
-    const double off = was_open ? kn * gap + cn * gap_rate(contact, v) : kn * gap;
+    const double off = was_open ? kn * gap + cn * contact::gap_rate(contact, v) : kn * gap;
     const double zero =
         rounding::of_many * kn * gap_terms + (was_open ? rounding::of_many * cn * rate_terms : 0.0);
     if (std::abs(off) <= zero) result.push_back({c, was_open ? Guard::separation : Guard::closing});
@@ -47,8 +48,9 @@ std::vector<Fired> fell_at_start(const Model& model, const Vector& u, const Vect
   return result;
 }
 
-Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vector& u, const Vector& v) {
-  Mode mode;
+contact::ContactStates first_mode(const Model& model, const motion::Forcing& forcing, double t,
+                                  const Vector& u, const Vector& v) {
+  contact::ContactStates mode;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (const std::vector<State> own = contact.law->own_states(); !own.empty()) {
@@ -57,20 +59,20 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
     }
     ContactState s;
     ContactMotion m;
-    set_place(contact, u, forcing.surface(c, t, 0), m);
-    set_velocity(contact, v, forcing.surface(c, t, 1), m);
+    contact::set_place(contact, u, forcing.surface(c, t, 0), m);
+    contact::set_velocity(contact, v, forcing.surface(c, t, 1), m);
     // A touching rigid contact is decided together with the others.
     const bool carries =
         contact.normal_force_given() ? !forcing.lifted(c) : contact.normal_spring() && m.gap < 0.0;
     if (carries) {
-      s.state = state_at_rest(contact);
+      s.state = contact::state_at_rest(contact);
       if (contact.tangential_stiffness) {
-        s.anchor = slip_of(contact, m.ut, contact.initial_shear);
+        s.anchor = contact::slip_of(contact, m.ut, contact.initial_shear);
       }
       const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
       if (contact.sticks_rigidly() &&
           std::abs(m.vt) > rounding::of_many * size + forcing.surface_rounding(c, t))
-        s.state = slip_along(m.vt);
+        s.state = contact::slip_along(m.vt);
       else if (contact.has_friction() && contact.initial_slip != 0)
         s.state = contact.initial_slip > 0 ? State::slip_plus : State::slip_minus;
     }
@@ -80,7 +82,7 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
 }
 
 bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
-               const std::vector<MotionJet>& after, Mode& mode) {
+               const std::vector<MotionJet>& after, contact::ContactStates& mode) {
   bool turned = false;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -90,7 +92,8 @@ bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
         contact.tangent.terms.begin(), contact.tangent.terms.end(),
         [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
     if (!massless) continue;
-    const double p = slip_of(contact, before[c]), slip = slip_of(contact, after[c].motion[0]) - p;
+    const double p = contact::slip_of(contact, before[c]),
+                 slip = contact::slip_of(contact, after[c].motion[0]) - p;
     const ContactMotion& noise = after[c].noise[0];
     if (!(-sign * slip > 2.0 * (noise.ut + noise.T / *contact.tangential_stiffness))) continue;
     mode[c] = {State::stick, p};
@@ -99,16 +102,17 @@ bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
   return turned;
 }
 
-void follow_forcing(const Model& model, const Instant& instant, const Forcing& before, const Forcing& after,
-                    const std::vector<ContactMotion>& motion, Mode& mode) {
+void follow_forcing(const Model& model, const Instant& instant, const motion::Forcing& before,
+                    const motion::Forcing& after, const std::vector<ContactMotion>& motion,
+                    contact::ContactStates& mode) {
   const double t = instant.t;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
     ContactState& s = mode[c];
     if (contact.normal_spring() || (contact.takes_impulses() && s.is_open())) continue;
     ContactMotion m;
-    set_place(contact, instant.u, after.surface(c, t, 0), m);
-    set_velocity(contact, instant.v, after.surface(c, t, 1), m);
+    contact::set_place(contact, instant.u, after.surface(c, t, 0), m);
+    contact::set_velocity(contact, instant.v, after.surface(c, t, 1), m);
     if (after.lifted(c)) {
       s = {State::open, 0.0};
       continue;
@@ -121,20 +125,20 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
         std::abs(m.vt) > rounding::of_many * (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
                              after.surface_rounding(c, t);
     if (s.is_open()) {
-      s = {state_at_rest(contact), m.ut};
-      if (contact.sticks_rigidly() && moves) s.state = slip_along(m.vt);
+      s = {contact::state_at_rest(contact), m.ut};
+      if (contact.sticks_rigidly() && moves) s.state = contact::slip_along(m.vt);
       continue;
     }
     const int sign = slip_sign(s.state);
     if (contact.tangential_stiffness) {
       // T is continuous if the compression jumps up: below its new limit the contact sticks.
-      const double now = after.pressing(c, t, 0), then = before.pressing(c, t, 0);
+      const double now = after.applied_normal_force(c, t, 0), then = before.applied_normal_force(c, t, 0);
       if (sign != 0 && now - then > same_value * (std::abs(now) + std::abs(then)))
-        s = {State::stick, slip_of(contact, m.ut, motion[c].T)};
+        s = {State::stick, contact::slip_of(contact, m.ut, motion[c].T)};
     } else if (contact.sticks_rigidly() && surface_jump != 0.0 && moves) {
-      s.state = slip_along(m.vt);
+      s.state = contact::slip_along(m.vt);
     }
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 /// Derivatives and noise of a guard, or of a linear one by its QuickForm.
@@ -35,11 +35,12 @@ double zero_of(const GuardForm& guard, const MotionJet& jet, const Instant& inst
 
 /// True if the first `orders` orders determine the sign.
 template <class F>
-bool told_by_orders(const F& guard, const MotionJet& jet, std::size_t first, std::size_t orders, bool fell,
-                    double blur, double resolution) {
+bool decided_by_orders(const F& guard, const MotionJet& jet, std::size_t first, std::size_t orders,
+                       bool triggered, double blur, double resolution) {
   for (std::size_t k = first; k < orders; ++k) {
     const double d = derivative(guard, jet, k);
-    if (!(std::abs(d) > zero_of(guard, jet, blur, resolution, k)) || (fell && k == 1 && d > 0.0)) continue;
+    if (!(std::abs(d) > zero_of(guard, jet, blur, resolution, k)) || (triggered && k == 1 && d > 0.0))
+      continue;
     // A guard that fails is evaluated to all orders.
     return !(d < 0.0 && orders == 1);
   }
@@ -50,19 +51,19 @@ bool told_by_orders(const F& guard, const MotionJet& jet, std::size_t first, std
 std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const MotionJet& jet,
                                   const ContactState& state, const Instant& instant, bool before,
                                   const KnownGuards& known, const MotionJet* so_far) {
-  const auto all = guards(contact, state);
+  const auto all = contact::guards(contact, state);
   std::optional<Failure> soonest;
   for (const GuardForm& guard : all) {
     if (guard.kind == Guard::none) continue;
     // A guard that the integrator located is zero even if the last rounding is positive. It also decreases, so a
     // positive rate is the integrator's rounding of zero.
-    const bool fell = before && instant.has_fired(c, guard.kind);
+    const bool triggered = before && instant.has_triggered(c, guard.kind);
     Known guard_known = known.of(guard.kind);
-    if (fell && guard.value(jet.motion[0]) > 0.0)
+    if (triggered && guard.value(jet.motion[0]) > 0.0)
       guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
     const MotionJet* base = so_far ? rested(contact, c, state, guard, *so_far, instant) : nullptr;
     Sign sign = sign_of_guard(guard, jet, instant, guard_known, base);
-    if (fell && !instant.jump && sign.sign > 0 && sign.order == 1) {
+    if (triggered && !instant.jump && sign.sign > 0 && sign.order == 1) {
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
       sign = sign_of_guard(guard, jet, instant, guard_known);
     }
@@ -73,7 +74,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
   // In a vertical lift-off, friction limit and compression vanish together: one separation.
-  if (is_friction_limit(soonest->guard)) {
+  if (contact::is_friction_limit(soonest->guard)) {
     const GuardForm& separation = all[0];
     if (separation.kind == Guard::separation && starts_at_zero(separation, jet, instant) &&
         derivative(separation, jet, 1) < 0.0) {
@@ -94,7 +95,7 @@ const MotionJet* rested(const Contact& contact, std::size_t c, const ContactStat
   };
   bool any = rests(guard);
   if (guard.kind == Guard::sliding && contact.anchor_spring())
-    for (const GuardForm& limit : guards(contact, ContactState{State::stick, state.anchor}))
+    for (const GuardForm& limit : contact::guards(contact, ContactState{State::stick, state.anchor}))
       any = any || (limit.kind == (slip_sign(state.state) > 0 ? Guard::slip_plus : Guard::slip_minus) &&
                     rests(limit));
   return any ? &so_far : nullptr;
@@ -126,13 +127,13 @@ bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& 
 const GuardsOfState& GuardsInForce::of(std::size_t c, const ContactState& state) {
   if (states_[c] != state) {
     states_[c] = state;
-    forms_.set(c, guards(model_.contacts[c], state));
+    forms_.set(c, contact::guards(model_.contacts[c], state));
   }
   return forms_[c];
 }
 
-bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
-             const Instant& instant, const KnownGuards& known, double most_blur) {
+bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
+                const Instant& instant, const KnownGuards& known, double most_blur) {
   if (orders == MotionJet::orders) return true;
   // If a limit has rested, differences to another motion count: rested().
   if (instant.has_rested(c, Guard::slip_plus) || instant.has_rested(c, Guard::slip_minus)) return false;
@@ -140,11 +141,11 @@ bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, s
   for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
     // A located guard is zero, and so is a positive rate: failure_of().
-    const bool fell = instant.has_fired(c, guard.kind);
-    const std::size_t first = std::max<std::size_t>(fell ? 1 : 0, known.of(guard.kind).zeros);
+    const bool triggered = instant.has_triggered(c, guard.kind);
+    const std::size_t first = std::max<std::size_t>(triggered ? 1 : 0, known.of(guard.kind).zeros);
     if (!(guard.is_linear()
-              ? told_by_orders(QuickForm(guard.form), jet, first, orders, fell, blur, resolution)
-              : told_by_orders(guard, jet, first, orders, fell, blur, resolution)))
+              ? decided_by_orders(QuickForm(guard.form), jet, first, orders, triggered, blur, resolution)
+              : decided_by_orders(guard, jet, first, orders, triggered, blur, resolution)))
       return false;
   }
   return true;
@@ -160,9 +161,10 @@ double forgiveness(const GuardForm& form, const MotionJet& jet, const Instant& i
   return most;
 }
 
-std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets, const Mode& mode,
-                              const Instant& instant, bool before, const std::vector<KnownGuards>& known,
-                              const std::vector<MotionJet>& so_far, const std::vector<std::size_t>& asked) {
+std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
+                              const contact::ContactStates& mode, const Instant& instant, bool before,
+                              const std::vector<KnownGuards>& known, const std::vector<MotionJet>& so_far,
+                              const std::vector<std::size_t>& asked) {
   std::vector<Failure> result;
   for (const std::size_t c : asked)
     if (auto failed = failure_of(model.contacts[c], c, jets[c], mode[c], instant, before, known[c],
@@ -171,4 +173,4 @@ std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& 
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

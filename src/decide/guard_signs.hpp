@@ -17,7 +17,7 @@
 #include "motion/jet.hpp"
 #include "signorini/form.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 // Fast values of a form with at most six terms, as most forms are.
 //
@@ -26,8 +26,8 @@ namespace signorini {
 // The values agree with Form to the last bit, for finite motions: omitting zeros does not change a sum.
 
 [[nodiscard]] inline bool is_plain(const Form& f) {
-  return f.an == 0.0 && f.at == 0.0 && f.pressing == 0.0 && f.pressing_rate == 0.0 && f.limit == 0.0 &&
-         f.limit_rate == 0.0;
+  return f.an == 0.0 && f.at == 0.0 && f.applied_normal_force == 0.0 && f.applied_normal_force_rate == 0.0 &&
+         f.limit == 0.0 && f.limit_rate == 0.0;
 }
 
 /// The form must outlive it.
@@ -120,16 +120,16 @@ struct Sign {
 [[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
-using GuardsOfState = std::array<GuardForm, guards_per_contact>;
+using GuardsOfState = std::array<GuardForm, contact::guards_per_contact>;
 
 /// True if the first `orders` orders determine the signs of all guards of a contact that is decided separately, with
 /// their known signs, even if zeros are blurred by `most_blur`.
-[[nodiscard]] bool told_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
-                           std::size_t orders, const Instant& instant, const KnownGuards& known,
-                           double most_blur);
+[[nodiscard]] bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
+                              std::size_t orders, const Instant& instant, const KnownGuards& known,
+                              double most_blur);
 
 /// The guards of every contact; copies share those of contacts whose states have not changed since.
-using GuardForms = SharedVector<GuardsOfState>;
+using GuardForms = base::SharedVector<GuardsOfState>;
 
 /// Cache of the guards of contacts in their last states, most of which have not changed.
 class GuardsInForce {
@@ -158,9 +158,9 @@ struct Failure {
 /// instant, so located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one entry
 /// per contact, needed if limits have rested. asked: contacts that may fail, ascending.
 [[nodiscard]] std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
-                                            const Mode& mode, const Instant& instant, bool before,
-                                            const std::vector<KnownGuards>& known,
+                                            const contact::ContactStates& mode, const Instant& instant,
+                                            bool before, const std::vector<KnownGuards>& known,
                                             const std::vector<MotionJet>& so_far,
                                             const std::vector<std::size_t>& asked);
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -13,7 +13,7 @@
 #include "decide/delassus.hpp"
 #include "model/machine_units.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 // Fraction of the largest energy involved: the rounding of velocities and impulses is below it, an energy gain by
@@ -21,7 +21,7 @@ namespace {
 constexpr double no_gain = 1e-9;
 
 /// Lets all contacts go that can stick rigidly: only then does the system's matrix give the effect of an impulse.
-Mode released(const Model& model, Mode mode) {
+contact::ContactStates released(const Model& model, contact::ContactStates mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (const Contact& contact = model.contacts[c]; contact.takes_impulses() || contact.sticks_rigidly())
       mode[c] = {State::open, 0.0};
@@ -30,8 +30,9 @@ Mode released(const Model& model, Mode mode) {
 
 }  // namespace
 
-Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching, Vector u) {
-  const ModeSystemPtr system = systems_.of(released(model_, mode));
+Vector Impacts::close(const contact::ContactStates& mode, const std::vector<std::size_t>& touching,
+                      Vector u) {
+  const motion::StateSystemPtr system = systems_.of(released(model_, mode));
   if (!system) return u;
   const Delassus d = delassus(model_, *system, touching);
   const auto m = static_cast<Eigen::Index>(touching.size());
@@ -43,12 +44,13 @@ Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching
   }
   const Eigen::MatrixXd W = d.W(normals, normals);
   const Eigen::MatrixXd effect = d.effect(Eigen::all, normals);
-  u -= effect * least_squares(W, gap);
-  for (const std::size_t c : touching) set_exactly(model_.contacts[c].normal, -model_.contacts[c].gap, u);
+  u -= effect * base::least_squares(W, gap);
+  for (const std::size_t c : touching)
+    linear::set_exactly(model_.contacts[c].normal, -model_.contacts[c].gap, u);
   return u;
 }
 
-Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& system,
+Impacts::Hit Impacts::meet(const motion::Forcing& forcing, double t, const motion::StateSystem& system,
                            const std::vector<std::size_t>& touching, const Vector& v) const {
   const auto m = static_cast<Eigen::Index>(touching.size());
   Hit hit{delassus(model_, system, touching),
@@ -63,19 +65,19 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
   for (Eigen::Index i = 0; i < m; ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const Contact& contact = model_.contacts[c];
-    hit.before[normal_place(i)] = gap_rate(contact, v);
-    hit.before[tangent_place(i)] = along_surface(contact, v, forcing.surface(c, t, 1));
+    hit.before[normal_place(i)] = contact::gap_rate(contact, v);
+    hit.before[tangent_place(i)] = contact::along_surface(contact, v, forcing.surface(c, t, 1));
     hit.size[normal_place(i)] = contact.normal.magnitude(v);
     hit.size[tangent_place(i)] = contact.tangent.magnitude(v) + std::abs(forcing.surface(c, t, 1));
     hit.restitution[i] = contact.restitution;
     CoulombItem item;
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
-    item.static_friction = static_friction(contact);
-    item.kinetic_friction = kinetic_friction(contact);
+    item.static_friction = contact::static_friction(contact);
+    item.kinetic_friction = contact::kinetic_friction(contact);
     // In a hit, friction that rises with the slip rate keeps its value from just before.
     if (contact.friction.rises())
       item.static_friction = item.kinetic_friction =
-          sliding_friction(contact, std::abs(hit.before[tangent_place(i)]));
+          contact::sliding_friction(contact, std::abs(hit.before[tangent_place(i)]));
     hit.problem.items.push_back(item);
   }
   return hit;
@@ -93,7 +95,7 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
     hit.problem.b = hit.before;
     for (Eigen::Index i = 0; i < m; ++i)
       hit.problem.b[normal_place(i)] += hit.restitution[i] * std::min(hit.before[normal_place(i)], 0.0);
-    hit.solution = signorini::solve(hit.problem);
+    hit.solution = signorini::decide::solve(hit.problem);
     if (!hit.solution) return false;
     share_fairly(hit.problem, may_share, *hit.solution);
     hit.after = hit.before + hit.d.W * hit.solution->force;
@@ -111,7 +113,7 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
 }
 
 /// Makes velocities exact that the solution determines.
-void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<std::size_t>& touching,
+void Impacts::come_to_rest(const motion::Forcing& forcing, double t, const std::vector<std::size_t>& touching,
                            Hit& hit, Impact& impact) const {
   const CoulombReading reading(hit.problem, *hit.solution, rounding::of_many * hit.size);
   std::vector<Fixed> fixed;
@@ -133,7 +135,7 @@ void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<s
 }
 
 /// Computes impulses and energies.
-void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
+void Impacts::balance(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
                       const std::vector<std::size_t>& touching, const Hit& hit, Impact& impact) const {
   double greatest = 0.0;
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
@@ -154,12 +156,12 @@ void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
   impact.gains = impact.loss < -no_gain * greatest;
 }
 
-Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
+Impact Impacts::solve(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
                       const std::vector<std::size_t>& touching, const Vector& v) {
   Impact impact;
   impact.v = v;
   impact.impulses.resize(model_.contacts.size());
-  const ModeSystemPtr system = systems_.of(released(model_, mode));
+  const motion::StateSystemPtr system = systems_.of(released(model_, mode));
   if (!system) {
     impact.refusal = {Refusal::Kind::singular, "the mass matrix is singular", touching};
     return impact;
@@ -169,7 +171,7 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
     impact.refusal = {Refusal::Kind::impact,
                       "the impact has no solution: its complementarity problem ends in a ray", touching,
                       condition_of(hit.problem)};
-    const double shown = said(model_, 1.0, unit::velocity);
+    const double shown = model::in_scene_units(model_, 1.0, unit::velocity);
     for (std::size_t i = 0; i < touching.size(); ++i) {
       const Eigen::Index n = normal_place(i);
       impact.refusal.reason +=
@@ -184,7 +186,8 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
   return impact;
 }
 
-Mode mode_of_impact(const Model& model, Mode mode, const std::vector<Impulse>& impulses) {
+contact::ContactStates mode_of_impact(const Model& model, contact::ContactStates mode,
+                                      const std::vector<Impulse>& impulses) {
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (!contact.takes_impulses() && !contact.sticks_rigidly()) continue;
@@ -216,4 +219,4 @@ std::vector<std::size_t> next_turn(std::vector<Approach>& all) {
   return struck;
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

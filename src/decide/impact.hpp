@@ -21,7 +21,7 @@
 #include "motion/state_systems.hpp"
 #include "signorini/trace.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Sum of the impulses on one contact at an instant. Unit: force * time.
 struct Impulse {
@@ -52,13 +52,14 @@ struct Impact {
 
 class Impacts {
  public:
-  Impacts(ModeSystems& systems, double capture_velocity)
+  Impacts(motion::StateSystems& systems, double capture_velocity)
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
   /// u with closed gaps of all touching contacts, by the smallest change in the norm of M; mode: of all other contacts.
-  [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching, Vector u);
+  [[nodiscard]] Vector close(const contact::ContactStates& mode, const std::vector<std::size_t>& touching,
+                             Vector u);
   /// Solves an impact. v: velocities before; touching: rigid contacts with g = 0; mode: of all other contacts.
-  [[nodiscard]] Impact solve(const Forcing& forcing, double t, const Mode& mode,
+  [[nodiscard]] Impact solve(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
                              const std::vector<std::size_t>& touching, const Vector& v);
 
  private:
@@ -70,22 +71,23 @@ class Impacts {
     Eigen::VectorXd rebound;                           // Impulse::rebound, one entry per touching contact
     std::optional<CoulombSolution> solution;
   };
-  [[nodiscard]] Hit meet(const Forcing& forcing, double t, const ModeSystem& system,
+  [[nodiscard]] Hit meet(const motion::Forcing& forcing, double t, const motion::StateSystem& system,
                          const std::vector<std::size_t>& touching, const Vector& v) const;
   [[nodiscard]] bool rebound(const std::vector<std::size_t>& touching, Hit& hit) const;
-  void come_to_rest(const Forcing& forcing, double t, const std::vector<std::size_t>& touching, Hit& hit,
-                    Impact& impact) const;
-  void balance(const Forcing& forcing, double t, const Mode& mode, const std::vector<std::size_t>& touching,
-               const Hit& hit, Impact& impact) const;
+  void come_to_rest(const motion::Forcing& forcing, double t, const std::vector<std::size_t>& touching,
+                    Hit& hit, Impact& impact) const;
+  void balance(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+               const std::vector<std::size_t>& touching, const Hit& hit, Impact& impact) const;
 
   const Model& model_;
-  ModeSystems& systems_;
+  motion::StateSystems& systems_;
   double capture_velocity_;  // for contacts without a value of their own
 };
 
 /// States during an impact: a contact that takes an impulse is closed, sticks or slides according to it; all other
 /// contacts that could take one are open. impulses: one entry per contact.
-[[nodiscard]] Mode mode_of_impact(const Model& model, Mode mode, const std::vector<Impulse>& impulses);
+[[nodiscard]] contact::ContactStates mode_of_impact(const Model& model, contact::ContactStates mode,
+                                                    const std::vector<Impulse>& impulses);
 
 // Order of the hits of rigid contacts at one instant.
 //
@@ -110,4 +112,4 @@ struct Approach {
 /// Advances all contacts to the next meeting. Returns the contacts hit there; empty: none closes.
 [[nodiscard]] std::vector<std::size_t> next_turn(std::vector<Approach>& all);
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -10,10 +10,10 @@
 #include "contact/law.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// A guard that an integrator found at zero.
-struct Fired {
+struct TriggeredGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
   bool unseen = false;  ///< zero at the beginning, and never observed above its rounding
@@ -23,11 +23,11 @@ struct Instant {
   double t = 0.0;
   double resolution = 0.0;  ///< events closer than this in time count as one instant
   Vector u, v;
-  Mode mode;  ///< just before
-  std::vector<Fired> fired;
+  contact::ContactStates mode;  ///< just before
+  std::vector<TriggeredGuard> triggered;
   /// Friction limits that were zero with all their derivatives at the start of the integrator, and that it has not
   /// found to fail since: they are zero under the forcing up to now, whatever rounding has accumulated in them.
-  std::vector<Fired> rested = {};
+  std::vector<TriggeredGuard> rested = {};
   /// Last time at which each contact had g = 0, the start if it never had; empty: unknown.
   std::vector<double> touched = {};
   bool jump = false;   ///< the forcing is not smooth here
@@ -39,15 +39,17 @@ struct Instant {
   /// True if flights are computed that otherwise count as rest, being slower than capture_velocity or unknown.
   bool low_flights = false;
 
-  [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const { return has(fired, contact, guard); }
+  [[nodiscard]] bool has_triggered(std::size_t contact, Guard guard) const {
+    return has(triggered, contact, guard);
+  }
   [[nodiscard]] bool has_rested(std::size_t contact, Guard guard) const {
-    return has(rested, contact, guard) && !has_fired(contact, guard);
+    return has(rested, contact, guard) && !has_triggered(contact, guard);
   }
 
  private:
-  static bool has(const std::vector<Fired>& list, std::size_t contact, Guard guard) {
+  static bool has(const std::vector<TriggeredGuard>& list, std::size_t contact, Guard guard) {
     return std::any_of(list.begin(), list.end(),
-                       [&](const Fired& f) { return f.contact == contact && f.guard == guard; });
+                       [&](const TriggeredGuard& f) { return f.contact == contact && f.guard == guard; });
   }
 };
 
@@ -56,8 +58,8 @@ template <class Guarded>
 [[nodiscard]] std::string names_of(const Model& model, const std::vector<Guarded>& list) {
   std::vector<std::string> names;
   for (const Guarded& g : list)
-    names.push_back("'" + model.contacts[g.contact].name + "' (" + to_string(g.guard) + ")");
-  return listed_plainly(names);
+    names.push_back("'" + model.contacts[g.contact].name + "' (" + contact::to_string(g.guard) + ")");
+  return base::listed_plainly(names);
 }
 template <class Guarded>
 [[nodiscard]] std::vector<std::size_t> contacts_of(const std::vector<Guarded>& list) {
@@ -66,4 +68,4 @@ template <class Guarded>
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

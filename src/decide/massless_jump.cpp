@@ -5,7 +5,7 @@
 #include "contact/work.hpp"
 #include "motion/state_systems.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 /// Position x on the way at which the gap closes; nullopt: it does not close on the way.
@@ -47,7 +47,7 @@ void leave_sliding_for_later(const Model& model, std::vector<Failure>& failed) {
 
 bool stops_on_way(const Contact& contact, const Failure& failure, State slip, const MasslessWay& way,
                   double noise) {
-  if (failure.guard != Guard::sliding || !slides_at_once(contact)) return false;
+  if (failure.guard != Guard::sliding || !contact::slides_at_once(contact)) return false;
   return slip_sign(slip) * (contact.tangent.dot(way.to) - contact.tangent.dot(way.from)) > 2.0 * noise;
 }
 
@@ -60,21 +60,22 @@ bool carries_massless(const Model& model, const Contact& contact) {
   return massless(contact.normal) || massless(contact.tangent);
 }
 
-std::optional<Vector> released(ModeSystems& systems, JetMaker& jets, const Forcing& forcing,
-                               const Instant& instant, Mode mode, std::size_t c) {
+std::optional<Vector> released(motion::StateSystems& systems, motion::JetMaker& jets,
+                               const motion::Forcing& forcing, const Instant& instant,
+                               contact::ContactStates mode, std::size_t c) {
   const Model& model = systems.model();
   const Contact& contact = model.contacts[c];
   if (!contact.is_elastic_along_normal() || !carries_massless(model, contact)) return std::nullopt;
   mode[c] = {State::open, 0.0};
-  const ModeSystemPtr system = systems.of(mode);
+  const motion::StateSystemPtr system = systems.of(mode);
   if (!system) return std::nullopt;
   Vector u = instant.u, v = instant.v;
-  hold(model, *system, forcing, instant.t, u, v);
+  motion::hold(model, *system, forcing, instant.t, u, v);
   std::vector<MotionJet> motions;
-  const Jet jet = jets.make(system, forcing, instant.t, u, v, motions);
+  const motion::Jet jet = jets.make(system, forcing, instant.t, u, v, motions);
   u = jet.u.col(0);
   if (!(contact.gap_at(u) > contact.gap_at(instant.u))) return std::nullopt;
   return u;
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -14,7 +14,7 @@
 #include "motion/jet.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 struct MasslessWay {
   const Vector &from, &to;
@@ -58,7 +58,8 @@ void leave_sliding_for_later(const Model& model, std::vector<Failure>& failed);
 
 /// Displacements after contact c has let go and massless parts have followed. `mode`: states of all other contacts.
 /// nullopt: the contact acts on no massless part, or its gap would not open.
-[[nodiscard]] std::optional<Vector> released(ModeSystems& systems, JetMaker& jets, const Forcing& forcing,
-                                             const Instant& instant, Mode mode, std::size_t c);
+[[nodiscard]] std::optional<Vector> released(motion::StateSystems& systems, motion::JetMaker& jets,
+                                             const motion::Forcing& forcing, const Instant& instant,
+                                             contact::ContactStates mode, std::size_t c);
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -11,7 +11,7 @@
 #include "contact/motion.hpp"
 #include "decide/coulomb_problem.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 /// Fraction of the scale of velocities: motions that differ by more were not separated by rounding alone. sqrt(eps): no
@@ -61,8 +61,8 @@ double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd&
 
 }  // namespace
 
-void Findings::capture(const Model& model, const std::vector<std::size_t>& contacts,
-                       const Eigen::VectorXd& impulses) {
+void ImpactResult::capture(const Model& model, const std::vector<std::size_t>& contacts,
+                           const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return;
   if (captures.size() == 0) captures.setZero(model.force_count());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -71,13 +71,14 @@ void Findings::capture(const Model& model, const std::vector<std::size_t>& conta
   }
 }
 
-void Findings::capture(const Eigen::VectorXd& impulses) {
+void ImpactResult::capture(const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return;
   if (captures.size() == 0) captures.setZero(impulses.size());
   captures += impulses;
 }
 
-Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity)
+RigidContactSolver::RigidContactSolver(motion::StateSystems& systems, motion::JetMaker& jets,
+                                       double capture_velocity)
     : model_(systems.model()),
       systems_(systems),
       jets_(jets),
@@ -87,14 +88,15 @@ Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity
 
 /// Rounding of t.v minus the velocity of the surface, plus slip rates that count as rest; at the start at least the
 /// rounding of the scene's velocities.
-double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
+double RigidContactSolver::rounding_of_slide(std::size_t c, const motion::Forcing& forcing,
+                                             const Instant& instant) const {
   const double given = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
   return given + rounding_of(model_.contacts[c].tangent, instant.v) +
          rounding::of_many * std::abs(forcing.surface(c, instant.t, 1)) +
          forcing.surface_rounding(c, instant.t) + instant.slow;
 }
 
-double Touching::slowest_flight(std::size_t c) const {
+double RigidContactSolver::slowest_flight(std::size_t c) const {
   return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
 }
 
@@ -102,11 +104,12 @@ double Touching::slowest_flight(std::size_t c) const {
 /// clock. It is low if its speed is below capture_velocity, or if the flight is lower than the rounding of its gap and
 /// the engine does not know such flights. Its acceleration towards the ground just before also counts as a pull: if all
 /// touching bodies fall freely together, no force seems to pull it back.
-Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, double fell,
-                                        const Instant& instant) const {
+RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const MotionJet& free,
+                                                            double pull_before,
+                                                            const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &m = free.motion[0], &noise = free.noise[0];
-  const double pull = std::max(-m.an, fell);
+  const double pull = std::max(-m.an, pull_before);
   // A body at rest moves by the rounding of its equilibrium, not of its velocity.
   const double rounding =
       instant.blur * noise.vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
@@ -121,7 +124,7 @@ Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, do
 
 /// True if a dashpot makes the compression of a contact jump up, by n . (v+ - v-). For velocities that no impulse
 /// reaches, the solve leaves rounding relative to all jumps.
-bool Touching::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
+bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
   const Contact& contact = model_.contacts[c];
   if (!(contact.normal_damping > 0.0)) return false;
   // Rounding of an elimination: the effect of a hit decays by a factor of 0.3 per node of a beam, and is no jump once
@@ -129,45 +132,48 @@ bool Touching::presses_harder(std::size_t c, const Vector& before, const Vector&
   const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
                           4.0 * rounding::of_elimination * norm_of(contact.normal) *
                               (speed_of(model_, before) + speed_of(model_, after));
-  return gap_rate(contact, after) - gap_rate(contact, before) < -rounding;
+  return contact::gap_rate(contact, after) - contact::gap_rate(contact, before) < -rounding;
 }
 
 /// Adapts states to the velocities after an impact: sliders that stick rigidly slip as soon as their slip rate is not
 /// zero. If a dashpot makes |N| jump up, T is continuous and below its new limit: the element sticks. If |N| jumps
 /// down, T follows its limit; if N does not jump, the slip continues as long as its own guard holds.
-void Touching::follow_velocity(const Instant& instant, const Vector& before, const Forcing& after,
-                               const Block& block, const std::vector<ContactMotion>& motion,
-                               Mode& mode) const {
+void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& before,
+                                         const motion::Forcing& after, const Block& block,
+                                         const std::vector<ContactMotion>& motion,
+                                         contact::ContactStates& mode) const {
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (contact.tangential_stiffness && slip_sign(mode[c].state) != 0 && presses_harder(c, before, instant.v))
-      mode[c] = {State::stick, slip_of(contact, motion[c])};
+      mode[c] = {State::stick, contact::slip_of(contact, motion[c])};
     if (!contact.holds_tangent_only() || mode[c].is_open()) continue;
-    const double vt = along_surface(contact, instant.v, after.surface(c, instant.t, 1));
+    const double vt = contact::along_surface(contact, instant.v, after.surface(c, instant.t, 1));
     // Same rounding as in presses_harder: a contact that stuck is at rest up to the rounding of all jumps.
     const double of_jump =
         slip_sign(mode[c].state) == 0
             ? rounding::of_elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
             : 0.0;
-    if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
+    if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant))
+      mode[c].state = contact::slip_along(vt);
   }
 }
 
 /// Sets velocities that count as zero to zero, for all contacts at once: setting one to zero moves the others. False:
 /// they were zero already.
-bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
-                              const Met& met, Findings& found) const {
+bool RigidContactSolver::settle_resting(Instant& instant, const motion::Forcing& forcing,
+                                        const motion::StateSystem& free, const Met& met,
+                                        ImpactResult& found) const {
   std::vector<Fixed> fixed;
   for (std::size_t i = 0; i < met.contacts.size(); ++i) {
     const std::size_t c = met.contacts[i];
     const Contact& contact = model_.contacts[c];
-    const auto who = std::find_if(found.participants.begin(), found.participants.end(),
-                                  [&](const Participant& p) { return p.contact == c; });
-    if (who == found.participants.end()) continue;
+    const auto participant = std::find_if(found.participants.begin(), found.participants.end(),
+                                          [&](const Participant& p) { return p.contact == c; });
+    if (participant == found.participants.end()) continue;
     const Eigen::Index row = normal_place(i);
     fixed.push_back({row, &contact.normal, 0.0});
     found.known[c].closing.zeros = 2;
-    if (!contact.has_friction() || who->slipping) continue;
+    if (!contact.has_friction() || participant->slipping) continue;
     fixed.push_back({row + 1, &contact.tangent, forcing.surface(c, instant.t, 1)});
     found.known[c].sliding.zeros = 1;
   }
@@ -178,18 +184,18 @@ bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const Mo
 }
 
 /// Updates the direction of slip after other velocities were set to zero. True: one more contact rests.
-bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,
-                          Findings& found) const {
+bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcing& forcing, const Met& met,
+                                    ImpactResult& found) const {
   bool rests = false;
-  for (Participant& who : found.participants) {
-    const std::size_t c = who.contact;
-    if (!who.slipping || !std::binary_search(met.contacts.begin(), met.contacts.end(), c)) continue;
+  for (Participant& participant : found.participants) {
+    const std::size_t c = participant.contact;
+    if (!participant.slipping || !std::binary_search(met.contacts.begin(), met.contacts.end(), c)) continue;
     const Contact& contact = model_.contacts[c];
-    const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
-    who.sign = vt > 0.0 ? 1 : -1;
-    who.sliding_friction = sliding_friction(contact, std::abs(vt));
+    const double vt = contact::along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
+    participant.sign = vt > 0.0 ? 1 : -1;
+    participant.sliding_friction = contact::sliding_friction(contact, std::abs(vt));
     if (std::abs(vt) > rounding_of_slide(c, forcing, instant)) continue;
-    who.slipping = false;
+    participant.slipping = false;
     rests = true;
   }
   return rests;
@@ -201,7 +207,8 @@ bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const 
 /// by du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency. This is an upper bound, useless for stiff
 /// structures after long times: velocities that differ by half_of_digits of their scale therefore count as different in
 /// any case.
-Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& instant) const {
+RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double da,
+                                                           const Instant& instant) const {
   if (instant.touched.empty()) return {};
   const double t = instant.t, s = t - instant.touched[c], w = model_.omega_max, du = 0.5 * t * t * da;
   const double angle = std::min(1.0, w * s);
@@ -211,14 +218,15 @@ Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& 
 
 /// Rounding of a gap. A flight begins with g = 0, so its gap is accurate to the rounding of the sum that g is. For a
 /// contact that never touched, the data of the sum have errors of a few roundings.
-double Touching::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
+double RigidContactSolver::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
   const bool flew = !instant.touched.empty() && instant.touched[c] > 0.0;
   const Contact& contact = model_.contacts[c];
   return flew ? rounding::of_few * (contact.normal.magnitude(instant.u) + std::abs(contact.gap)) : of_data;
 }
 
-Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet>& jets,
-                             const std::vector<Failure>& failed, const Block& block, const Mode& mode) const {
+RigidContactSolver::Met RigidContactSolver::meet(const Instant& instant, const std::vector<MotionJet>& jets,
+                                                 const std::vector<Failure>& failed, const Block& block,
+                                                 const contact::ContactStates& mode) const {
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
@@ -238,14 +246,14 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
     const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
     Approach a{c, 0.0, m.vn, noise.vn + given_rate + slowest_flight(c), noise.vn + unsure + given_rate, open};
     // A contact whose gap has become negative touches, too: it closed with others, within the resolution of the clock.
-    const bool fell =
+    const bool pull_before =
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
-    const bool touches = !open || instant.has_fired(c, Guard::closing) || std::abs(m.gap) <= known;
-    const bool split = !touches && (fell || std::abs(m.gap) <= known + carried.gap) &&
+    const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known;
+    const bool split = !touches && (pull_before || std::abs(m.gap) <= known + carried.gap) &&
                        lands_alike(a, instant, jets, failed, block);
     const bool comes = is_zero(m.gap, known, m.vn);
     const bool above = !touches && !split && !comes;
-    if (above && !fell) continue;
+    if (above && !pull_before) continue;
     if (!touches && !split) a.gap = std::max(m.gap, 0.0);
     met.unresolved = met.unresolved || (above && m.gap > 0.0) || (split && !comes);
     met.contacts.push_back(c);
@@ -257,20 +265,21 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
                                            std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
     if (!a.closes() || a.gap > 0.0) continue;
     ++together;
-    doubtful = doubtful || (!instant.has_fired(c, Guard::closing) && std::abs(m.gap) > own + given);
+    doubtful = doubtful || (!instant.has_triggered(c, Guard::closing) && std::abs(m.gap) > own + given);
   }
   met.unresolved = met.unresolved || (together > 1 && doubtful);
   return met;
 }
 
 /// True if the contact moves like one that closes now, up to the rounding of both, or does not move.
-bool Touching::lands_alike(const Approach& a, const Instant& instant, const std::vector<MotionJet>& jets,
-                           const std::vector<Failure>& failed, const Block& block) const {
+bool RigidContactSolver::lands_alike(const Approach& a, const Instant& instant,
+                                     const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                                     const Block& block) const {
   if (std::abs(a.rate) <= a.rest) return true;
   const double alike = a.hit + half_of_digits * model_.scales.velocity;
   return std::any_of(block.begin(), block.end(), [&](std::size_t c) {
     const bool falls =
-        instant.has_fired(c, Guard::closing) ||
+        instant.has_triggered(c, Guard::closing) ||
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
     const double apart = std::abs(jets[c].motion[0].vn - a.rate);
     return c != a.contact && falls && model_.contacts[c].takes_impulses() && apart <= alike;
@@ -278,15 +287,16 @@ bool Touching::lands_alike(const Approach& a, const Instant& instant, const std:
 }
 
 /// Computes hits turn by turn, until no contact closes.
-Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
-                         Findings& found, Decision& decision, Mode& mode) {
+Refusal RigidContactSolver::strike(Instant& instant, const motion::Forcing& forcing, const Met& met,
+                                   const Block& block, ImpactResult& found, Decision& decision,
+                                   contact::ContactStates& mode) {
   std::vector<Approach> all = met.approaches;
   for (int turn = 0; turn < most_turns; ++turn) {
     const Block struck = next_turn(all);
     if (struck.empty()) return {};
     if (Refusal why = strike_once(instant, forcing, struck, block, found, decision, mode)) return why;
     for (Approach& a : all) {
-      a.rate = gap_rate(model_.contacts[a.contact], instant.v);
+      a.rate = contact::gap_rate(model_.contacts[a.contact], instant.v);
       a.rest = std::max(
           a.rest, slowest_flight(a.contact) + rounding_of(model_.contacts[a.contact].normal, instant.v));
       a.hit = a.rest;
@@ -306,8 +316,9 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
 }
 
 /// Computes one turn.
-Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
-                              const Block& block, Findings& found, Decision& decision, Mode& mode) {
+Refusal RigidContactSolver::strike_once(Instant& instant, const motion::Forcing& forcing, const Block& struck,
+                                        const Block& block, ImpactResult& found, Decision& decision,
+                                        contact::ContactStates& mode) {
   const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.v);
   if (result.refusal) return result.refusal;
   const Vector before = std::exchange(instant.v, result.v);
@@ -336,9 +347,9 @@ Refusal Touching::strike_once(Instant& instant, const Forcing& forcing, const Bl
 }
 
 /// Adds contacts that do not leave. free: the motion without forces at all touching contacts.
-void Touching::add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
-                           const std::vector<MotionJet>& free, const Decision& decision,
-                           Findings& found) const {
+void RigidContactSolver::add_staying(const Instant& instant, const motion::Forcing& forcing, const Met& met,
+                                     const std::vector<MotionJet>& free, const Decision& decision,
+                                     ImpactResult& found) const {
   for (const std::size_t c : met.contacts) {
     const Contact& contact = model_.contacts[c];
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
@@ -346,8 +357,8 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
     if (!struck.rests && !found.stays[c]) {
       using How = Departure::How;
       const bool open = instant.mode[c].is_open();
-      const double fell = open ? -decision.before[c].an : 0.0;
-      const auto [how, ratio] = departure(c, free[c], fell, instant);
+      const double pull_before = open ? -decision.before[c].an : 0.0;
+      const auto [how, ratio] = departure(c, free[c], pull_before, instant);
       found.departures[c] = ratio;
       if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
       found.grounded = found.grounded || how == How::low;
@@ -358,47 +369,49 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
     const double zero =
         noise.vt + rounding_of_slide(c, forcing, instant) + instant.resolution * std::abs(m.at);
     const bool rests = struck.sticks || found.rests[c] ||
-                       (!met.hit && instant.has_fired(c, Guard::sliding)) || std::abs(m.vt) <= zero;
-    Participant who{c};
-    who.slipping = contact.has_friction() && !rests;
-    who.sign = m.vt > 0.0 ? 1 : -1;
-    who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
-    who.kinetic = found.kinetic[c];
-    who.bears_limit = found.bears_limit[c];
-    found.participants.push_back(who);
+                       (!met.hit && instant.has_triggered(c, Guard::sliding)) || std::abs(m.vt) <= zero;
+    Participant participant{c};
+    participant.slipping = contact.has_friction() && !rests;
+    participant.sign = m.vt > 0.0 ? 1 : -1;
+    participant.sliding_friction = contact::sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
+    participant.kinetic = found.kinetic[c];
+    participant.bears_limit = found.bears_limit[c];
+    found.participants.push_back(participant);
   }
 }
 
 /// Sets contacts to rest that resting contacts hold, whatever rounding is left in their slip: feet of one body.
-void Touching::rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode,
-                             Findings& found) const {
-  Mode held = mode;
-  for (const Participant& who : found.participants)
-    held[who.contact].state = !model_.contacts[who.contact].has_friction() ? State::closed
-                              : who.slipping                               ? slip_along(who.sign)
-                                                                           : State::stick;
-  for (Participant& who : found.participants) {
-    const std::size_t c = who.contact;
-    if (!who.slipping || !systems_.held_by_others(c, held, forcing, instant.t)) continue;
-    const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
+void RigidContactSolver::rest_together(const Instant& instant, const motion::Forcing& forcing,
+                                       const contact::ContactStates& mode, ImpactResult& found) const {
+  contact::ContactStates held = mode;
+  for (const Participant& participant : found.participants)
+    held[participant.contact].state = !model_.contacts[participant.contact].has_friction() ? State::closed
+                                      : participant.slipping ? contact::slip_along(participant.sign)
+                                                             : State::stick;
+  for (Participant& participant : found.participants) {
+    const std::size_t c = participant.contact;
+    if (!participant.slipping || !systems_.held_by_others(c, held, forcing, instant.t)) continue;
+    const double vt = contact::along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
     if (std::abs(vt) > slowest_flight(c) + rounding::of_many * model_.scales.velocity) continue;
-    who.slipping = false;
-    who.sliding_friction = sliding_friction(model_.contacts[c], 0.0);
+    participant.slipping = false;
+    participant.sliding_friction = contact::sliding_friction(model_.contacts[c], 0.0);
     held[c].state = State::stick;
   }
 }
 
 /// Contacts at rest among those that share one motion, if one of these has let go or stopped.
-std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing& forcing, const Mode& mode,
-                                           const Decision& decision) const {
+std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, const motion::Forcing& forcing,
+                                                     const contact::ContactStates& mode,
+                                                     const Decision& decision) const {
   std::vector<std::size_t> at_rest;
   for (const std::vector<std::size_t>& group : systems_.sharing()) {
     if (std::none_of(group.begin(), group.end(), [&](std::size_t c) { return decision.visited[c]; }))
       continue;
-    Mode held = mode;
+    contact::ContactStates held = mode;
     const auto stops = [&](std::size_t c) {
-      if (mode[c].state == State::stick || instant.has_fired(c, Guard::sliding)) return true;
-      const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
+      if (mode[c].state == State::stick || instant.has_triggered(c, Guard::sliding)) return true;
+      const double vt =
+          contact::along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
       const double held_too = systems_.held_by_others(c, held, forcing, instant.t)
                                   ? slowest_flight(c) + rounding::of_many * model_.scales.velocity
                                   : 0.0;
@@ -417,45 +430,47 @@ std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing
 
 /// Adds sliders whose friction has let go or has stopped them, if sliders take part, and sliders that a hit has
 /// stopped.
-void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
-                           const Mode& mode, const Decision& decision, Findings& found) const {
+void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forcing& forcing, const Met& met,
+                                     const Block& block, const contact::ContactStates& mode,
+                                     const Decision& decision, ImpactResult& found) const {
   const std::vector<std::size_t> together = sharing(instant, forcing, mode, decision);
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (!contact.holds_tangent_only()) continue;
     const bool shares = std::find(together.begin(), together.end(), c) != together.end();
-    const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
+    const double vt = contact::along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     const bool stopped =
         met.hit && slip_sign(mode[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
     if (!stopped && !shares && !(found.sliders && decision.visited[c])) continue;
-    Participant who{c};
-    who.sliding_friction = sliding_friction(contact, 0.0);
-    who.kinetic = found.kinetic[c];
-    who.bears_limit = found.bears_limit[c];
+    Participant participant{c};
+    participant.sliding_friction = contact::sliding_friction(contact, 0.0);
+    participant.kinetic = found.kinetic[c];
+    participant.bears_limit = found.bears_limit[c];
     if (shares) found.known[c].sliding.zeros = 1;
     found.known[c] = found.known[c].of_motion();
-    found.participants.push_back(who);
+    found.participants.push_back(participant);
   }
 }
 
 /// Adds sliders that stick rigidly and would otherwise be kept: a consistent state may need them to let go. False:
 /// there are none.
-bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, Findings& found) const {
+bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& mode,
+                                      ImpactResult& found) const {
   std::vector<Participant> all;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::copy_if(found.participants.begin(), found.participants.end(), std::back_inserter(all),
-                 [&](const Participant& who) { return who.block == b; });
+                 [&](const Participant& participant) { return participant.block == b; });
     for (const std::size_t c : blocks[b]) {
       const Contact& contact = model_.contacts[c];
-      const bool takes_part =
-          std::any_of(all.begin(), all.end(), [&](const Participant& who) { return who.contact == c; });
+      const bool takes_part = std::any_of(
+          all.begin(), all.end(), [&](const Participant& participant) { return participant.contact == c; });
       if (!contact.holds_tangent_only() || mode[c].state != State::stick || takes_part) continue;
-      Participant who{c};
-      who.sliding_friction = sliding_friction(contact, 0.0);
-      who.kinetic = found.kinetic[c];
-      who.bears_limit = found.bears_limit[c];
-      who.block = b;
-      all.push_back(who);
+      Participant participant{c};
+      participant.sliding_friction = contact::sliding_friction(contact, 0.0);
+      participant.kinetic = found.kinetic[c];
+      participant.bears_limit = found.bears_limit[c];
+      participant.block = b;
+      all.push_back(participant);
     }
   }
   const bool some = all.size() > found.participants.size();
@@ -465,10 +480,10 @@ bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, 
 
 /// Decides the levels. If keeping sliders in stick gives no motion, several motions or dependent rows, these sliders
 /// are decided with the rest.
-Refusal Touching::solve_levels(const Instant& instant, const Forcing& forcing,
-                               const std::vector<Block>& blocks, const Mode& old, Findings& found,
-                               Mode& mode) {
-  const Mode held = mode;
+Refusal RigidContactSolver::solve_levels(const Instant& instant, const motion::Forcing& forcing,
+                                         const std::vector<Block>& blocks, const contact::ContactStates& old,
+                                         ImpactResult& found, contact::ContactStates& mode) {
+  const contact::ContactStates held = mode;
   const std::vector<KnownGuards> known = found.known;
   Refusal refusal = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
   const bool painleve = refusal.kind == Refusal::Kind::paradox || refusal.kind == Refusal::Kind::ambiguous;
@@ -476,17 +491,18 @@ Refusal Touching::solve_levels(const Instant& instant, const Forcing& forcing,
   if (!(painleve || dependent) || !add_sticking(blocks, held, found)) return refusal;
   mode = held;
   found.known = known;
-  for (const Participant& who : found.participants)
-    if (model_.contacts[who.contact].normal_force_given())
-      found.known[who.contact] = known[who.contact].of_motion();
+  for (const Participant& participant : found.participants)
+    if (model_.contacts[participant.contact].normal_force_given())
+      found.known[participant.contact] = known[participant.contact].of_motion();
   const Refusal together = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
   return together ? refusal : Refusal{};
 }
 
-Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
-                         const std::vector<Failure>& failed, const std::vector<Block>& blocks,
-                         Findings& found, Decision& decision, Mode& mode) {
-  const Mode old = mode;
+Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forcing,
+                                   const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                                   const std::vector<Block>& blocks, ImpactResult& found, Decision& decision,
+                                   contact::ContactStates& mode) {
+  const contact::ContactStates old = mode;
   std::vector<Met> all;
   for (const Block& block : blocks) {
     const Met& met = all.emplace_back(meet(instant, jets, failed, block, mode));
@@ -506,13 +522,13 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
   }
   for (const Met& met : all)
     for (const std::size_t c : met.contacts) mode[c] = {State::open, 0.0};
-  const ModeSystemPtr system = systems_.of(mode);
+  const motion::StateSystemPtr system = systems_.of(mode);
   if (!system)
     return {Refusal::Kind::singular, "the equations of motion without rigid contacts are singular", {}};
   Block touching;
   for (const Met& met : all) touching.insert(touching.end(), met.contacts.begin(), met.contacts.end());
   std::vector<MotionJet> free;
-  const Jet free_jet = jets_.make(system, forcing, instant.t, instant.u, instant.v, free);
+  const motion::Jet free_jet = jets_.make(system, forcing, instant.t, instant.u, instant.v, free);
   found.participants.clear();
   const Vector moving = instant.v;
   const Eigen::VectorXd captured = found.captures;
@@ -528,11 +544,11 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
   // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: its energy is lost.
   decision.impact_loss += loss_of(model_, touching, captured, found.captures, moving + instant.v);
   Refusal refusal = solve_levels(instant, forcing, blocks, old, found, mode);
-  for (const Participant& who : found.participants) {
-    found.decided[who.contact] = true;
-    if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;
+  for (const Participant& participant : found.participants) {
+    found.decided[participant.contact] = true;
+    if (mode[participant.contact] != old[participant.contact]) decision.visited[participant.contact] = true;
   }
   return refusal;
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -17,14 +17,14 @@
 #include "decide/guard_signs.hpp"
 #include "decide/impact.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Contacts coupled through M, C, K and contacts, ascending.
 using Block = std::vector<std::size_t>;
 
 /// Data found at an instant about contacts whose forces may jump; lists: one entry per contact.
-struct Findings {
-  explicit Findings(std::size_t n)
+struct ImpactResult {
+  explicit ImpactResult(std::size_t n)
       : decided(n, false),
         kinetic(n, false),
         bears_limit(n, false),
@@ -52,15 +52,16 @@ struct Findings {
   std::vector<Participant> participants;  ///< of the last decision
 };
 
-class Touching {
+class RigidContactSolver {
  public:
   /// capture_velocity: for contacts without a value of their own.
-  Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity);
+  RigidContactSolver(motion::StateSystems& systems, motion::JetMaker& jets, double capture_velocity);
 
   /// Computes impacts if there are any, then the states of the given blocks. failed: the guards that led here.
-  [[nodiscard]] Refusal decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
-                               const std::vector<Failure>& failed, const std::vector<Block>& blocks,
-                               Findings& found, Decision& decision, Mode& mode);
+  [[nodiscard]] Refusal decide(Instant& instant, const motion::Forcing& forcing,
+                               const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                               const std::vector<Block>& blocks, ImpactResult& found, Decision& decision,
+                               contact::ContactStates& mode);
 
  private:
   /// Rigid contacts of a block with g = 0.
@@ -78,48 +79,56 @@ class Touching {
   [[nodiscard]] double rounding_of_gap(std::size_t contact, double of_data, const Instant& instant) const;
   [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
   [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
-                         const std::vector<Failure>& failed, const Block& block, const Mode& mode) const;
+                         const std::vector<Failure>& failed, const Block& block,
+                         const contact::ContactStates& mode) const;
   [[nodiscard]] bool lands_alike(const Approach& approach, const Instant& instant,
                                  const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
                                  const Block& block) const;
-  [[nodiscard]] Refusal strike_once(Instant& instant, const Forcing& forcing, const Block& struck,
-                                    const Block& block, Findings& found, Decision& decision, Mode& mode);
-  [[nodiscard]] Refusal strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
-                               Findings& found, Decision& decision, Mode& mode);
-  void add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
-                   const std::vector<MotionJet>& free, const Decision& decision, Findings& found) const;
-  void rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode, Findings& found) const;
-  [[nodiscard]] std::vector<std::size_t> sharing(const Instant& instant, const Forcing& forcing,
-                                                 const Mode& mode, const Decision& decision) const;
-  void add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
-                   const Mode& mode, const Decision& decision, Findings& found) const;
+  [[nodiscard]] Refusal strike_once(Instant& instant, const motion::Forcing& forcing, const Block& struck,
+                                    const Block& block, ImpactResult& found, Decision& decision,
+                                    contact::ContactStates& mode);
+  [[nodiscard]] Refusal strike(Instant& instant, const motion::Forcing& forcing, const Met& met,
+                               const Block& block, ImpactResult& found, Decision& decision,
+                               contact::ContactStates& mode);
+  void add_staying(const Instant& instant, const motion::Forcing& forcing, const Met& met,
+                   const std::vector<MotionJet>& free, const Decision& decision, ImpactResult& found) const;
+  void rest_together(const Instant& instant, const motion::Forcing& forcing,
+                     const contact::ContactStates& mode, ImpactResult& found) const;
+  [[nodiscard]] std::vector<std::size_t> sharing(const Instant& instant, const motion::Forcing& forcing,
+                                                 const contact::ContactStates& mode,
+                                                 const Decision& decision) const;
+  void add_sliders(const Instant& instant, const motion::Forcing& forcing, const Met& met, const Block& block,
+                   const contact::ContactStates& mode, const Decision& decision, ImpactResult& found) const;
   [[nodiscard]] bool presses_harder(std::size_t contact, const Vector& before, const Vector& after) const;
-  void follow_velocity(const Instant& instant, const Vector& before, const Forcing& after, const Block& block,
-                       const std::vector<ContactMotion>& motion, Mode& mode) const;
-  [[nodiscard]] bool settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
-                                    const Met& met, Findings& found) const;
-  [[nodiscard]] bool slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,
-                                Findings& found) const;
-  [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
+  void follow_velocity(const Instant& instant, const Vector& before, const motion::Forcing& after,
+                       const Block& block, const std::vector<ContactMotion>& motion,
+                       contact::ContactStates& mode) const;
+  [[nodiscard]] bool settle_resting(Instant& instant, const motion::Forcing& forcing,
+                                    const motion::StateSystem& free, const Met& met,
+                                    ImpactResult& found) const;
+  [[nodiscard]] bool slide_anew(const Instant& instant, const motion::Forcing& forcing, const Met& met,
+                                ImpactResult& found) const;
+  [[nodiscard]] double rounding_of_slide(std::size_t contact, const motion::Forcing& forcing,
                                          const Instant& instant) const;
-  [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const Mode& mode, Findings& found) const;
-  [[nodiscard]] Refusal solve_levels(const Instant& instant, const Forcing& forcing,
-                                     const std::vector<Block>& blocks, const Mode& old, Findings& found,
-                                     Mode& mode);
+  [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& mode,
+                                  ImpactResult& found) const;
+  [[nodiscard]] Refusal solve_levels(const Instant& instant, const motion::Forcing& forcing,
+                                     const std::vector<Block>& blocks, const contact::ContactStates& old,
+                                     ImpactResult& found, contact::ContactStates& mode);
   /// Fate of a contact with g = 0, and g' relative to the largest value with which it would stay.
   struct Departure {
     enum class How : unsigned char { stays, low, leaves } how;  // low: it leaves, but below its rounding
     double ratio = std::numeric_limits<double>::quiet_NaN();    // NaN: no speed is too low
   };
-  [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, double fell,
+  [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, double pull_before,
                                     const Instant& instant) const;
 
   const Model& model_;
-  ModeSystems& systems_;
-  JetMaker& jets_;
+  motion::StateSystems& systems_;
+  motion::JetMaker& jets_;
   double capture_velocity_;
   Impacts impacts_;
-  Levels levels_;
+  DerivativeLevels levels_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -10,22 +10,22 @@
 #include "decide/massless_jump.hpp"
 #include "decide/rigid_contact_solver.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 /// Factor of noise and resolution if modes repeat, or if an engine and a decision disagree.
 inline constexpr double unlucky = 16.0;
 
 /// A decision in progress.
-struct DecisionCourse {
+struct SolverState {
   Instant instant;
-  const Forcing& after;
+  const motion::Forcing& after;
   Decision decision;
-  Mode mode;                    // the mode tried last,
-  std::vector<MotionJet> jets;  // its motion,
-  std::vector<Failure> failed;  // and its failed guards
-  std::vector<Mode> seen;       // modes tried so far, for recognising repetition
+  contact::ContactStates mode;               // the mode tried last,
+  std::vector<MotionJet> jets;               // its motion,
+  std::vector<Failure> failed;               // and its failed guards
+  std::vector<contact::ContactStates> seen;  // modes tried so far, for recognising repetition
   std::vector<ContactMotion> noise_before;
-  Findings found;
+  ImpactResult found;
   std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states are kept
   bool blurred = false;
   Vector given = {};                       // at the start: given u, before massless parts move
@@ -34,9 +34,9 @@ struct DecisionCourse {
   std::vector<std::size_t> slid = {};      // contacts that have slid instantaneously and stopped
   std::optional<std::vector<std::size_t>> open =
       {};  // contacts with a guard that is not clearly positive; nullopt: any contact
-  const Forcing* forcing = nullptr;  // of the last evaluation
-  double blur = 0.0;                 // Instant::blur of the last evaluation
-  Eigen::VectorXd held = {};         // constraint impulses of the mode tried last; Decision::captures
+  const motion::Forcing* forcing = nullptr;  // of the last evaluation
+  double blur = 0.0;                         // Instant::blur of the last evaluation
+  Eigen::VectorXd held = {};                 // constraint impulses of the mode tried last; Decision::captures
 
   /// Displacements from which massless parts move instantaneously.
   [[nodiscard]] const Vector& comes_from() const { return instant.start ? given : instant.u; }
@@ -51,4 +51,4 @@ struct DecisionCourse {
   }
 };
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -11,7 +11,7 @@
 #include "decide/delassus.hpp"
 #include "motion/state_systems.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 namespace {
 
 // Accelerations are equal if they differ by less than this fraction of the largest in any combination: half of the
@@ -20,7 +20,7 @@ namespace {
 constexpr double same_acceleration = 1e-8;
 
 /// Applies the combination with this number, one digit per choice.
-void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mode& mode) {
+void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, contact::ContactStates& mode) {
   for (const Enumeration::Choice& choice : choices) {
     mode[choice.contact] = choice.states[code % choice.states.size()];
     code /= choice.states.size();
@@ -29,7 +29,8 @@ void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mo
 
 /// True if the modes differ by the gap between static and kinetic friction only: a sticking contact may then also slip,
 /// and by the law it sticks.
-bool differ_by_law(const Model& model, const Mode& one, const Mode& other) {
+bool differ_by_law(const Model& model, const contact::ContactStates& one,
+                   const contact::ContactStates& other) {
   for (std::size_t c = 0; c < one.size(); ++c) {
     if (one[c] == other[c]) continue;
     const Contact& contact = model.contacts[c];
@@ -42,7 +43,7 @@ bool differ_by_law(const Model& model, const Mode& one, const Mode& other) {
 
 /// States of the contacts in question, as text: "'first' stick, 'second' slip+".
 std::string named_states(const Model& model, const std::vector<Enumeration::Choice>& choices,
-                         const Mode& mode) {
+                         const contact::ContactStates& mode) {
   std::string text;
   for (const Enumeration::Choice& choice : choices)
     text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", model.contacts[choice.contact].name,
@@ -62,14 +63,14 @@ bool Enumeration::Best::acceptable() const {
   return rival.empty() && forgiveness <= std::max(1.0, condition);
 }
 
-Enumeration::Choice Enumeration::choice(const Participant& who) const {
-  const Contact& contact = model_.contacts[who.contact];
+Enumeration::Choice Enumeration::choice(const Participant& participant) const {
+  const Contact& contact = model_.contacts[participant.contact];
   const ContactState open{State::open, 0.0}, closed{State::closed, 0.0}, stick{State::stick, 0.0},
       plus{State::slip_plus, 0.0}, minus{State::slip_minus, 0.0};
-  if (contact.normal_force_given()) return {who.contact, {stick, plus, minus}};
-  if (!contact.has_friction()) return {who.contact, {open, closed}};
-  if (who.slipping) return {who.contact, {open, who.sign > 0 ? plus : minus}};
-  return {who.contact, {open, stick, plus, minus}};
+  if (contact.normal_force_given()) return {participant.contact, {stick, plus, minus}};
+  if (!contact.has_friction()) return {participant.contact, {open, closed}};
+  if (participant.slipping) return {participant.contact, {open, participant.sign > 0 ? plus : minus}};
+  return {participant.contact, {open, stick, plus, minus}};
 }
 
 Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state,
@@ -79,20 +80,20 @@ Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state
 }
 
 /// nullopt: the rows of the mode are dependent.
-std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, const Forcing& forcing,
+std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, const motion::Forcing& forcing,
                                                        const Block& block,
                                                        const std::vector<KnownGuards>& known,
-                                                       const Mode& mode) {
-  const ModeSystemPtr system = systems_.of(mode);
+                                                       const contact::ContactStates& mode) {
+  const motion::StateSystemPtr system = systems_.of(mode);
   if (!system) return std::nullopt;
   Vector u = instant.u, v = instant.v;
-  hold(model_, *system, forcing, instant.t, u, v);
+  motion::hold(model_, *system, forcing, instant.t, u, v);
   std::vector<MotionJet> motions;
-  const Jet jet = jets_.make(system, forcing, instant.t, u, v, motions);
+  const motion::Jet jet = jets_.make(system, forcing, instant.t, u, v, motions);
   if (forces_are_noise(model_, motions) && !forces_are_unique(systems_, mode)) return std::nullopt;
   Weighed result{0.0, jet.a()};
   for (const std::size_t c : block)
-    for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
+    for (const GuardForm& guard : contact::guards(model_.contacts[c], mode[c]))
       if (guard.kind != Guard::none)
         result.forgiveness =
             std::max(result.forgiveness,
@@ -100,7 +101,7 @@ std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, c
   return result;
 }
 
-double Enumeration::condition(const std::vector<std::size_t>& contacts, Mode mode) {
+double Enumeration::condition(const std::vector<std::size_t>& contacts, contact::ContactStates mode) {
   std::vector<Eigen::Index> rows;  // rows of existing forces
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model_.contacts[contacts[i]];
@@ -110,7 +111,7 @@ double Enumeration::condition(const std::vector<std::size_t>& contacts, Mode mod
     mode[contacts[i]] = {State::open, 0.0};
   }
   if (rows.empty()) return 1.0;
-  const ModeSystemPtr system = systems_.of(mode);
+  const motion::StateSystemPtr system = systems_.of(mode);
   if (!system) return std::numeric_limits<double>::quiet_NaN();
   CoulombProblem problem;
   problem.W = delassus(model_, *system, contacts).W(rows, rows);
@@ -118,19 +119,20 @@ double Enumeration::condition(const std::vector<std::size_t>& contacts, Mode mod
   return condition_of(problem);
 }
 
-std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& instant, const Forcing& forcing,
+std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& instant,
+                                                            const motion::Forcing& forcing,
                                                             const Block& block,
                                                             const std::vector<Choice>& choices,
                                                             const std::vector<KnownGuards>& known,
-                                                            const Mode& mode) {
+                                                            const contact::ContactStates& mode) {
   if (choices.empty() || choices.size() > most_contacts) return std::nullopt;
   std::size_t combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.states.size();
   std::optional<Best> best;
-  std::vector<std::pair<Mode, Vector>> holding;  // modes without any violation
+  std::vector<std::pair<contact::ContactStates, Vector>> holding;  // modes without any violation
   double greatest = 0.0;
   for (std::size_t code = 0; code < combinations; ++code) {
-    Mode tried = mode;
+    contact::ContactStates tried = mode;
     apply(choices, code, tried);
     const auto weighed = weigh(instant, forcing, block, known, tried);
     if (!weighed) continue;
@@ -151,4 +153,4 @@ std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& insta
   return best;
 }
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -12,11 +12,11 @@
 
 #include "decide/rigid_contact_solver.hpp"
 
-namespace signorini {
+namespace signorini::decide {
 
 class Enumeration {
  public:
-  Enumeration(ModeSystems& systems, JetMaker& jets)
+  Enumeration(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
   /// Largest number of contacts for which all combinations are tried: 4^5 jets.
@@ -28,39 +28,40 @@ class Enumeration {
     std::vector<ContactState> states;
   };
   /// Choice for a contact that touches and is decided with others.
-  [[nodiscard]] Choice choice(const Participant& who) const;
+  [[nodiscard]] Choice choice(const Participant& participant) const;
   /// Choice for any other contact, from its state and its motion `before`, up to the instant.
   [[nodiscard]] Choice choice(std::size_t contact, const ContactState& state,
                               const ContactMotion& before) const;
 
   struct Best {
-    Mode mode;
+    contact::ContactStates mode;
     double forgiveness = 0.0;
     double condition = 1.0;  ///< condition number of the chosen contacts' accelerations by their own forces
-    Mode rival;              ///< another consistent mode with other accelerations; empty: none
+    contact::ContactStates rival;  ///< another consistent mode with other accelerations; empty: none
     [[nodiscard]] bool acceptable() const;
   };
   /// Best combination; other contacts keep their states in `mode`. known: one entry per contact. nullopt: there are no
   /// choices or too many, or no combination has unique forces.
-  [[nodiscard]] std::optional<Best> least_failing(const Instant& instant, const Forcing& forcing,
+  [[nodiscard]] std::optional<Best> least_failing(const Instant& instant, const motion::Forcing& forcing,
                                                   const Block& block, const std::vector<Choice>& choices,
-                                                  const std::vector<KnownGuards>& known, const Mode& mode);
+                                                  const std::vector<KnownGuards>& known,
+                                                  const contact::ContactStates& mode);
 
   /// Condition number of W for the forces that these contacts can bear, all of them open; forces of contact elements
   /// follow from displacements and are not included. NaN: unknown.
-  [[nodiscard]] double condition(const std::vector<std::size_t>& contacts, Mode mode);
+  [[nodiscard]] double condition(const std::vector<std::size_t>& contacts, contact::ContactStates mode);
 
  private:
   struct Weighed {
     double forgiveness = 0.0;
     Vector a;
   };
-  [[nodiscard]] std::optional<Weighed> weigh(const Instant& instant, const Forcing& forcing,
+  [[nodiscard]] std::optional<Weighed> weigh(const Instant& instant, const motion::Forcing& forcing,
                                              const Block& block, const std::vector<KnownGuards>& known,
-                                             const Mode& mode);
+                                             const contact::ContactStates& mode);
   const Model& model_;
-  ModeSystems& systems_;
-  JetMaker& jets_;
+  motion::StateSystems& systems_;
+  motion::JetMaker& jets_;
 };
 
 /// Sentence about a best mode that has a rival: "several motions continue this one, as 'first' stick, 'second' slip+
@@ -68,4 +69,4 @@ class Enumeration {
 [[nodiscard]] std::string several_motions(const Model& model, const std::vector<Enumeration::Choice>& choices,
                                           const Enumeration::Best& best);
 
-}  // namespace signorini
+}  // namespace signorini::decide

@@ -17,7 +17,7 @@
 #include "motion/point.hpp"
 #include "motion/taylor.hpp"
 
-namespace signorini {
+namespace signorini::engine {
 
 // Bounds on the contribution of the fast part of a motion to any output.
 //
@@ -29,17 +29,18 @@ namespace signorini {
 
 /// Bounds on a step. Units: |.|_M is a length times the square root of a mass, for v and a divided by time and time
 /// squared; forces.
-struct Ripple {
+struct FastModeBound {
   double u = 0.0, v = 0.0, a = 0.0;
   Eigen::VectorXd forces;  ///< bounds of all contact forces, in the order of the model's layout
 };
 
 /// The motion on the last step as a series: its end is at t + scale x.
 struct Expansion {
-  const Series* series = nullptr;  ///< null: the engine has no series
-  std::size_t degree = 0;          ///< u, v, a and forces are complete up to this degree
+  const motion::Series* series = nullptr;  ///< null: the engine has no series
+  std::size_t degree = 0;                  ///< u, v, a and forces are complete up to this degree
   double x = 0.0;
-  const ModeSystem* system = nullptr;  ///< contains friction at the slip rates at the beginning of the series
+  const motion::StateSystem* system =
+      nullptr;  ///< contains friction at the slip rates at the beginning of the series
 };
 
 /// Bounds on the fast part of the last step; only engines that follow modes provide them.
@@ -48,10 +49,10 @@ class FastModes {
   virtual ~FastModes() = default;
   /// Bounds on the sum of all modes faster than omega, rad per time. nullopt: no bound is known, or a part of the
   /// motion that is faster does not oscillate.
-  [[nodiscard]] virtual std::optional<Ripple> fast_mode_bound(double omega) const = 0;
+  [[nodiscard]] virtual std::optional<FastModeBound> fast_mode_bound(double omega) const = 0;
   /// Sizes of the terms whose sums are u, v, a and forces of the step, fast modes included. Rounding errors are
   /// relative to these sizes.
-  [[nodiscard]] virtual Ripple term_sizes() const = 0;
+  [[nodiscard]] virtual FastModeBound term_sizes() const = 0;
   /// Greatest value of form . u over all u with |u|_M = 1.
   [[nodiscard]] virtual double form_norm(const Combination& form) const = 0;
 };
@@ -61,7 +62,7 @@ struct StepFacts {
   std::span<const double> turning_points = {};
   /// Contact and quantity of each turning point, unordered. Null: evaluate_watched() of all contacts costs no more than
   /// of one contact.
-  const std::vector<TurningPoints::Turn>* contact_turns = nullptr;
+  const std::vector<events::TurningPoints::Turn>* contact_turns = nullptr;
   Expansion expansion = {};
   /// Factor by which the rounding of sums over modes exceeds that of orthogonal modes: greatest |x| |y| of the modes
   /// that the step was followed in, y . x = 1; larger if their terms exceed the motion and cancel. 1: the step was not
@@ -77,25 +78,25 @@ class DenseOutput {
  public:
   virtual ~DenseOutput() = default;
   /// Evaluates u, v and forces at begin <= t <= end.
-  virtual void evaluate(double t, Point& point) = 0;
+  virtual void evaluate(double t, motion::Point& point) = 0;
   /// Evaluates only the watched entries of u and v (those of contacts and EngineParts::watched); other entries may be
   /// NaN. contact: evaluates at most this contact's entries, provided that StepFacts::contact_turns is not null.
-  virtual void evaluate_watched(double t, std::optional<std::size_t> /*contact*/, Point& point) {
+  virtual void evaluate_watched(double t, std::optional<std::size_t> /*contact*/, motion::Point& point) {
     evaluate(t, point);
   }
   /// Adds accelerations, if missing, to a point that was evaluated at t.
-  virtual void accelerate(double /*t*/, Point& /*point*/) {}
+  virtual void accelerate(double /*t*/, motion::Point& /*point*/) {}
   /// Same as evaluate and accelerate, in the engine's cheapest form: engines with fixed steps interpolate between the
   /// ends of the step.
-  virtual void interpolate(double t, Point& point) {
+  virtual void interpolate(double t, motion::Point& point) {
     evaluate(t, point);
     accelerate(t, point);
   }
   /// Adds the integrals of all powers over the part [from, to].
-  virtual void integrate(double from, double to, Works& works) = 0;
+  virtual void integrate(double from, double to, motion::WorkIntegrals& works) = 0;
   /// Greatest entry of the residual of the equation of motion at the end. Unit: force.
   [[nodiscard]] virtual double residual() = 0;
   [[nodiscard]] virtual StepFacts facts() const = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::engine

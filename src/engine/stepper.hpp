@@ -15,23 +15,24 @@
 #include "engine/events/graze.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::engine {
 
 /// The stretch up to the next discontinuity of the forcing, in one mode.
 struct Segment {
   double end = 0.0;
-  const Decision* decision = nullptr;  ///< state, mode, jet and guards at the beginning
-  const Forcing* forcing = nullptr;
+  const decide::Decision* decision = nullptr;  ///< state, mode, jet and guards at the beginning
+  const motion::Forcing* forcing = nullptr;
   bool same_forcing = false;  ///< the forcing equals that of the previous segment, which ended here
 };
 
 struct Step {
   enum class Kind { accepted, event, failed } kind = Kind::accepted;
-  double begin = 0.0, end = 0.0;  ///< end: of the accepted step, or the instant of the event
-  double resolution = 0.0;        ///< times closer than this are the same instant
-  std::vector<Fired> fired;       ///< Kind::event
-  std::optional<Mode> adopted;    ///< Kind::event: states found by the engine, instead of `fired`
-  std::string reason;             ///< Kind::failed
+  double begin = 0.0, end = 0.0;                  ///< end: of the accepted step, or the instant of the event
+  double resolution = 0.0;                        ///< times closer than this are the same instant
+  std::vector<decide::TriggeredGuard> triggered;  ///< Kind::event
+  std::optional<contact::ContactStates>
+      adopted;         ///< Kind::event: states found by the engine, instead of `fired`
+  std::string reason;  ///< Kind::failed
 };
 
 /// Results that an engine reports at the end of a run. Times and gaps are in model units.
@@ -39,9 +40,9 @@ struct StepperReport {
   Counters counters;
   std::vector<std::string> warnings;
   /// First guard that returned into its tolerance and left it without reaching zero; only some engines detect this.
-  std::optional<Graze> graze;
+  std::optional<events::Graze> graze;
   /// Gaps that approached zero and opened again; only some engines detect this.
-  std::vector<NearHit> near_hits;
+  std::vector<events::NearHit> near_hits;
 };
 
 class Stepper {
@@ -55,7 +56,7 @@ class Stepper {
   [[nodiscard]] virtual double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
   /// Writes the energy of the structure into a point made by a decision, if the engine knows it more accurately.
-  virtual void set_energy(Point& /*point*/) const {}
+  virtual void set_energy(motion::Point& /*point*/) const {}
   /// Called once, after the last step.
   [[nodiscard]] virtual StepperReport report() { return {counters, warnings, {}, {}}; }
 
@@ -66,4 +67,4 @@ class Stepper {
   bool knows_low_flights = false;
 };
 
-}  // namespace signorini
+}  // namespace signorini::engine

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace signorini {
+namespace signorini::engine {
 
 Tolerance tolerance_of(const Model& model, const RunSpec& run) {
   const Scales& scale = model.scales;
@@ -39,4 +39,4 @@ double tolerance(const GuardForm& guard, const ContactMotion& m, const Tolerance
   return sum;
 }
 
-}  // namespace signorini
+}  // namespace signorini::engine

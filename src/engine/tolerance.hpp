@@ -6,7 +6,7 @@
 #include "contact/law.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::engine {
 
 /// All tolerances except rtol are absolute, in the units of the scene; angles in radians.
 struct Tolerance {
@@ -25,4 +25,4 @@ struct Tolerance {
 [[nodiscard]] double tolerance(const GuardForm& guard, const ContactMotion& motion,
                                const Tolerance& tolerance);
 
-}  // namespace signorini
+}  // namespace signorini::engine

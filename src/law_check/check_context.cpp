@@ -7,16 +7,16 @@
 #include "base/rounding.hpp"
 #include "law_check/laws.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 
 /// Factors of M, restricted to the degrees of freedom that have mass.
-struct Bench::Factor {
+struct CheckContext::Factor {
   std::vector<int> dofs;
   Eigen::SimplicialLDLT<SparseMatrix> ldlt;
   bool made = false;
 };
 
-Bench::Bench(const Model& model_, const WitnessLimits& limits_)
+CheckContext::CheckContext(const Model& model_, const LawLimits& limits_)
     : model(model_),
       limits(limits_),
       turns_(Vector::Zero(model_.size())),
@@ -32,7 +32,7 @@ Bench::Bench(const Model& model_, const WitnessLimits& limits_)
 }
 
 /// Upper triangle of K with the springs of contacts, off-diagonal entries doubled: u^T K u is a sum over it.
-SparseMatrix Bench::springs_of(const Model& model) {
+SparseMatrix CheckContext::springs_of(const Model& model) {
   std::vector<Eigen::Triplet<double>> terms;
   const auto add = [&](int i, int j, double value) {
     if (i <= j && value != 0.0) terms.emplace_back(i, j, i < j ? 2.0 * value : value);
@@ -53,7 +53,7 @@ SparseMatrix Bench::springs_of(const Model& model) {
   return springs;
 }
 
-double Bench::twice_energy(const Vector& u) const {
+double CheckContext::twice_energy(const Vector& u) const {
   double twice = 0.0;
   for (int j = 0; j < springs_.outerSize(); ++j) {
     double force = 0.0;
@@ -63,7 +63,7 @@ double Bench::twice_energy(const Vector& u) const {
   return std::max(0.0, twice);
 }
 
-void Bench::note_massless() {
+void CheckContext::note_massless() {
   for (int i = 0; i < model.size(); ++i)
     if (!has_mass(i)) massless_.push_back(i);
   if (massless_.empty()) return;
@@ -78,9 +78,9 @@ void Bench::note_massless() {
   }
 }
 
-Bench::~Bench() = default;
+CheckContext::~CheckContext() = default;
 
-Vector Bench::per_mass(const Vector& x) const {
+Vector CheckContext::per_mass(const Vector& x) const {
   Factor& f = *factor_;
   if (!std::exchange(f.made, true)) {
     std::vector<int> place(static_cast<std::size_t>(model.size()), -1);
@@ -106,13 +106,13 @@ Vector Bench::per_mass(const Vector& x) const {
   return result;
 }
 
-std::array<double, 2> Bench::greatest(const Vector& x) const {
+std::array<double, 2> CheckContext::greatest(const Vector& x) const {
   if (x.size() == 0) return {0.0, 0.0};
   return {(x.array().abs() * (1.0 - turns_.array())).maxCoeff(),
           (x.array().abs() * turns_.array()).maxCoeff()};
 }
 
-const std::array<double, 2>& Bench::lightness() const {
+const std::array<double, 2>& CheckContext::lightness() const {
   if (lightness_) return *lightness_;
   lightness_.emplace(std::array<double, 2>{0.0, 0.0});
   for (int i = 0; i < model.size(); ++i) {
@@ -125,7 +125,7 @@ const std::array<double, 2>& Bench::lightness() const {
   return *lightness_;
 }
 
-const OwnResponse* Bench::own_response(std::size_t k) const {
+const OwnResponse* CheckContext::own_response(std::size_t k) const {
   const Contact& c = model.contacts[k];
   for (const Combination* form : {&c.normal, &c.tangent})
     for (const auto& [dof, factor] : form->terms)
@@ -143,7 +143,7 @@ const OwnResponse* Bench::own_response(std::size_t k) const {
   return &*responses_[k];
 }
 
-double Bench::balance(const WitnessedSide& side) const {
+double CheckContext::balance(const CheckedSide& side) const {
   Vector sum = Vector::Zero(model.size());
   const auto add = [&](const SparseMatrix& matrix, const Vector* x) {
     if (x == nullptr) return;
@@ -165,7 +165,7 @@ double Bench::balance(const WitnessedSide& side) const {
   return sum.size() > 0 ? sum.maxCoeff() : 0.0;
 }
 
-double Bench::moved_by(const Vector& captures, std::size_t k) const {
+double CheckContext::moved_by(const Vector& captures, std::size_t k) const {
   const OwnResponse* own = captures.size() > 0 ? own_response(k) : nullptr;
   double speed = 0.0;
   for (std::size_t l = 0; own != nullptr && l < model.contacts.size(); ++l) {
@@ -178,21 +178,21 @@ double Bench::moved_by(const Vector& captures, std::size_t k) const {
   return speed;
 }
 
-double Bench::pull(const InstantRecord& record, std::size_t k) const {
-  const Sight m = see(model.contacts[k], k, record.after);
+double CheckContext::pull(const InstantRecord& record, std::size_t k) const {
+  const ContactKinematics m = kinematics(model.contacts[k], k, record.after);
   const OwnResponse* own = own_response(k);
   return std::abs(m.ddg) + (own != nullptr ? own->nn * std::abs(m.N) : 0.0);
 }
 
-double Bench::swing(const InstantRecord& record, std::size_t k) const {
+double CheckContext::swing(const InstantRecord& record, std::size_t k) const {
   const Contact& c = model.contacts[k];
-  const Sight after = see(c, k, record.after), before = see(c, k, record.before);
+  const ContactKinematics after = kinematics(c, k, record.after), before = kinematics(c, k, record.before);
   const OwnResponse* own = own_response(k);
   if (own == nullptr) return std::max(std::abs(after.ddg), std::abs(after.ddut));
   double n = 0.0, t = 0.0;  // differences of the accelerations on both sides
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
     const Contact& other = model.contacts[j];
-    const Sight b = see(other, j, record.before), a = see(other, j, record.after);
+    const ContactKinematics b = kinematics(other, j, record.before), a = kinematics(other, j, record.after);
     for (const auto& [form, force] :
          {std::pair(&other.normal, a.N - b.N), std::pair(&other.tangent, a.T - b.T)}) {
       n += force * form->dot(own->by_n);
@@ -205,7 +205,7 @@ double Bench::swing(const InstantRecord& record, std::size_t k) const {
                           std::abs(after.ddut + t)});
 }
 
-Vector Bench::captured(const InstantRecord& record) const {
+Vector CheckContext::captured(const InstantRecord& record) const {
   if (!(limits.step > 0.0) || record.captures.size() == 0 || record.captures.isZero(0.0)) return {};
   Vector impulse = Vector::Zero(model.size());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -217,14 +217,14 @@ Vector Bench::captured(const InstantRecord& record) const {
   return per_mass(impulse);
 }
 
-Vector Bench::swung(const InstantRecord& record) const {
+Vector CheckContext::swung(const InstantRecord& record) const {
   const Vector dv = captured(record);
   return dv.size() > 0 ? per_mass(model.damping * dv) : Vector();
 }
 
-double Bench::slowest(const InstantRecord& record, std::size_t k) const {
+double CheckContext::slowest(const InstantRecord& record, std::size_t k) const {
   const Contact& c = model.contacts[k];
-  const Sight m = see(c, k, record.after), b = see(c, k, record.before);
+  const ContactKinematics m = kinematics(c, k, record.after), b = kinematics(c, k, record.before);
   const double pull = this->pull(record, k);
   const double size = m.place + b.place, speed = m.speed + b.speed;
   double clock = record.resolution;
@@ -259,7 +259,7 @@ double terms_of(const Vector& w, const SparseMatrix& matrix, const Vector& x) {
 ///
 /// Another contact with nearly the same rows amplifies noise of f by A^-1; the rows of contact k alone would not show
 /// this.
-HeldForce Bench::held_force(const InstantRecord& record, std::size_t k) const {
+HeldForce CheckContext::held_force(const InstantRecord& record, std::size_t k) const {
   std::vector<const Combination*> forms;
   std::vector<const Vector*> rows;
   std::vector<Vector> columns;
@@ -269,7 +269,7 @@ HeldForce Bench::held_force(const InstantRecord& record, std::size_t k) const {
     const ContactState& state = (*record.before.mode)[j];
     const OwnResponse* own = is_open(state.state) || !c.obeys_coulomb() ? nullptr : own_response(j);
     if (own == nullptr) continue;
-    const Sight m = see(c, j, record.before);
+    const ContactKinematics m = kinematics(c, j, record.before);
     const bool sticks = c.holds_tangent(state.state);
     if (c.takes_impulses()) {
       const double friction = sticks || c.tangential_stiffness
@@ -292,7 +292,7 @@ HeldForce Bench::held_force(const InstantRecord& record, std::size_t k) const {
   for (Eigen::Index i = 0; i < size; ++i)
     for (Eigen::Index j = 0; j < size; ++j)
       A(i, j) = forms[static_cast<std::size_t>(i)]->dot(columns[static_cast<std::size_t>(j)]);
-  const Eigen::MatrixXd inverse = pseudo_inverse(A);
+  const Eigen::MatrixXd inverse = base::pseudo_inverse(A);
   const auto weights = [&](Eigen::Index row) {
     Vector w;
     if (row < 0) return w;
@@ -304,13 +304,13 @@ HeldForce Bench::held_force(const InstantRecord& record, std::size_t k) const {
 }
 
 /// Contribution of dampers, and of dashpots of closed contacts, to the forces w . f, for velocities v.
-double Bench::damped(const InstantRecord& record, const Vector& w, const Vector& v) const {
+double CheckContext::damped(const InstantRecord& record, const Vector& w, const Vector& v) const {
   double sum = w.dot(model.damping * v);
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
     const Contact& c = model.contacts[j];
     const State state = (*record.before.mode)[j].state;
     if (is_open(state) || !(c.normal_damping > 0.0)) continue;
-    const Sight m = see(c, j, record.before);
+    const ContactKinematics m = kinematics(c, j, record.before);
     const double friction = -sign_of_slip(state) * friction_in(c, state, m.dut, m.N);
     sum += c.normal_damping * (c.normal.dot(w) + friction * c.tangent.dot(w)) * c.normal.dot(v);
   }
@@ -324,15 +324,15 @@ double Bench::damped(const InstantRecord& record, const Vector& w, const Vector&
 ///   - in modes, du and dv with  du^T K du <= lost^2,  dv^T M dv <= lost^2  (Schwarz):
 ///         |w . K du| <= lost sqrt( w^T K w ),   |w . C dv| <= lost sqrt( (C w)^T M^-1 (C w) );
 ///   - if steps have a given length, w . C dv for the velocities dv that captures remove, dashpots of contacts in C.
-double Bench::held_noise(const InstantRecord& record, const Vector& w) const {
+double CheckContext::held_noise(const InstantRecord& record, const Vector& w) const {
   if (w.size() == 0) return 0.0;
-  const WitnessedSide& side = record.before;
+  const CheckedSide& side = record.before;
   double terms = terms_of(w, model.stiffness, *side.u) + terms_of(w, model.damping, *side.v);
   if (record.after.a != nullptr) terms += terms_of(w, model.mass, *record.after.a);
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
     const Contact& c = model.contacts[j];
     const ContactState& state = (*side.mode)[j];
-    const Sight m = see(c, j, side);
+    const ContactKinematics m = kinematics(c, j, side);
     const double along_n = std::abs(c.normal.dot(w)), along_t = std::abs(c.tangent.dot(w));
     terms += along_n * std::abs(m.N) + along_t * std::abs(m.T);
     if (is_open(state.state)) continue;
@@ -350,4 +350,4 @@ double Bench::held_noise(const InstantRecord& record, const Vector& w) const {
   return noise;
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

@@ -6,7 +6,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 namespace {
 
 /// Bound |form| |x|, for any angle between them; |x| counts with `reach` at least.
@@ -56,7 +56,7 @@ double friction_in(const Contact& c, State state, double slip_rate, double N) {
   return is_held(state) ? c.friction.static_ : friction_at(c, slip_rate, N);
 }
 
-double size_of_normal(const Contact& c, const Sight& m) {
+double size_of_normal(const Contact& c, const ContactKinematics& m) {
   return c.normal_stiffness * m.place + c.normal_damping * m.speed;
 }
 
@@ -76,9 +76,9 @@ bool held_beside(const Model& model, std::size_t k) {
   return false;
 }
 
-Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
+ContactKinematics kinematics(const Contact& c, std::size_t k, const CheckedSide& side) {
   const Driven& d = side.driven[k];
-  Sight m;
+  ContactKinematics m;
   m.N = side.forces->data()[side.layout.normal(k)];
   m.T = side.forces->data()[side.layout.tangent(k)];
   m.g = c.gap + c.normal.dot(*side.u);
@@ -103,7 +103,8 @@ Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
   return m;
 }
 
-SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m, const WitnessLimits& tol) {
+SeenGuards guards_of(const Contact& c, const ContactState& state, const ContactKinematics& m,
+                     const LawLimits& tol) {
   SeenGuards guards;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = shear_stiffness(c);
   const double of_u = tol.rtol * m.place + tol.displacement, of_v = tol.rtol * m.speed + tol.velocity;
@@ -150,15 +151,15 @@ SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m
 
 namespace {
 
-double N_of(const WitnessedSide& side, std::size_t k) {
+double N_of(const CheckedSide& side, std::size_t k) {
   return (*side.forces)[static_cast<Eigen::Index>(side.layout.normal(k))];
 }
-double T_of(const WitnessedSide& side, std::size_t k) {
+double T_of(const CheckedSide& side, std::size_t k) {
   return (*side.forces)[static_cast<Eigen::Index>(side.layout.tangent(k))];
 }
 
 /// True if s p' >= 0; with a spring between body and sliding point, N' contributes to p'.
-bool slides_on(const Contact& c, std::size_t k, int s, const WitnessedSide& side) {
+bool slides_on(const Contact& c, std::size_t k, int s, const CheckedSide& side) {
   if (c.normal_damping > 0.0 && side.a == nullptr) return false;
   const Driven& d = side.driven[k];
   double rate = s * (c.tangent.dot(*side.v) - d.ds);
@@ -173,7 +174,7 @@ bool slides_on(const Contact& c, std::size_t k, int s, const WitnessedSide& side
   return rate >= 0.0;
 }
 
-bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& state, const WitnessedSide& side,
+bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
                         double rest) {
   const double N = N_of(side, k), T = T_of(side, k);
   if (const int s = sign_of_slip(state.state); s != 0)
@@ -188,7 +189,7 @@ bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& sta
 
 }  // namespace
 
-bool guards_stand(const Contact& c, std::size_t k, const ContactState& state, const WitnessedSide& side) {
+bool guards_stand(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side) {
   if (is_open(state.state))
     return c.normal_force_given() || (state.state != State::inside && c.gap_at(*side.u) >= 0.0);
   const double N = N_of(side, k);
@@ -199,7 +200,7 @@ bool guards_stand(const Contact& c, std::size_t k, const ContactState& state, co
   return std::abs(T_of(side, k)) <= -c.friction.static_ * N;
 }
 
-bool rows_stand(const Contact& c, std::size_t k, const ContactState& state, const WitnessedSide& side,
+bool rows_stand(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
                 double rest) {
   if (c.friction.force || !c.forces_follow_motion()) return false;
   const double N = N_of(side, k);
@@ -215,4 +216,4 @@ bool rows_stand(const Contact& c, std::size_t k, const ContactState& state, cons
          tangent_row_stands(c, k, state, side, rest);
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

@@ -16,7 +16,11 @@ inline constexpr Unit force{1, 0, 0}, length{0, 1, 0}, velocity{0, 1, -1}, impul
     moment_impulse{1, 1, 1};
 }
 
-struct Sight {
+}  // namespace signorini
+
+namespace signorini::law_check {
+
+struct ContactKinematics {
   double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0,
          ddq = 0.0;
   // Sizes of the terms of g and ut, of g' and ut', of g'' and ut''.
@@ -41,7 +45,7 @@ struct SeenGuards {
   [[nodiscard]] const SeenGuard* end() const { return list.data() + count; }
 };
 
-[[nodiscard]] Sight see(const Contact& contact, std::size_t k, const WitnessedSide& side);
+[[nodiscard]] ContactKinematics kinematics(const Contact& contact, std::size_t k, const CheckedSide& side);
 /// Direction of slip: +1 or -1 while slipping, otherwise 0.
 [[nodiscard]] int sign_of_slip(State state);
 /// |T|/|N| for slip at this rate under this N.
@@ -49,13 +53,13 @@ struct SeenGuards {
 /// The same coefficient in a given state: the static one if the contact is held at its static limit.
 [[nodiscard]] double friction_in(const Contact& c, State state, double slip_rate, double N);
 /// Guards of a state for a motion whose forces satisfy the state's own rows.
-[[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state, const Sight& m,
-                                   const WitnessLimits& limits);
+[[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state,
+                                   const ContactKinematics& m, const LawLimits& limits);
 /// True if another foot or slider may hold this contact at the limit of its friction: its slip rate is then the
 /// rounding of the constraint that holds it.
 [[nodiscard]] bool held_beside(const Model& model, std::size_t k);
 /// Size of the terms of kn g + cn g'.
-[[nodiscard]] double size_of_normal(const Contact& contact, const Sight& m);
+[[nodiscard]] double size_of_normal(const Contact& contact, const ContactKinematics& m);
 
 // Quick check of guards and rows, without an allowance for the rounding of their terms.
 //
@@ -67,9 +71,9 @@ struct SeenGuards {
 
 /// True if no guard of the state is negative. False also if these few data do not decide it.
 [[nodiscard]] bool guards_stand(const Contact& contact, std::size_t k, const ContactState& state,
-                                const WitnessedSide& side);
+                                const CheckedSide& side);
 /// True if N and T satisfy the state's rows. rest: speed up to which a contact counts as at rest.
 [[nodiscard]] bool rows_stand(const Contact& contact, std::size_t k, const ContactState& state,
-                              const WitnessedSide& side, double rest);
+                              const CheckedSide& side, double rest);
 
-}  // namespace signorini
+}  // namespace signorini::law_check

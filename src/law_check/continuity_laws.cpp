@@ -7,7 +7,7 @@
 #include "law_check/laws.hpp"
 #include "model/assembly/parts.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 namespace {
 
 struct ClosedRows {
@@ -29,7 +29,7 @@ struct ClosedRows {
       for (Eigen::Index j = 0; j < m; ++j)
         W(i, j) = forms[static_cast<std::size_t>(i)]->dot(columns[static_cast<std::size_t>(j)]);
     const Eigen::VectorXd push =
-        pseudo_inverse(W).cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(gaps.data(), m);
+        base::pseudo_inverse(W).cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(gaps.data(), m);
     for (Eigen::Index j = 0; j < m; ++j) by += push[j] * columns[static_cast<std::size_t>(j)].cwiseAbs();
     return by;
   }
@@ -39,11 +39,11 @@ struct ClosedRows {
 
 /// Checks the continuity of u, and of T unless its row changes with the state. Both sides of u are rounded.
 void Finder::continuity() {
-  const WitnessLimits& tol = bench_.limits;
+  const LawLimits& tol = context_.limits;
   // Largest u, and largest v (multiplied below by the uncertainty of the time), for translations and rotations.
-  const std::array<double, 2> of_u = bench_.greatest(*record_.before.u),
-                              of_v = bench_.greatest(*record_.before.v);
-  const std::array<double, 2> off_by = bench_.greatest(*record_.after.u - *record_.before.u);
+  const std::array<double, 2> of_u = context_.greatest(*record_.before.u),
+                              of_v = context_.greatest(*record_.before.v);
+  const std::array<double, 2> off_by = context_.greatest(*record_.after.u - *record_.before.u);
   double clock = record_.resolution;
   for (const RecordedEvent& event : record_.events) clock = std::max(clock, event.t_uncertainty);
   std::array<double, 2> limits{};
@@ -58,7 +58,7 @@ void Finder::continuity() {
   const bool massless_jump = lets_massless_jump();
   const bool any = !(off_by[0] <= limits[0] && off_by[1] <= limits[1]);
   for (int i = 0; any && i < model_.size(); ++i) {
-    if (!bench_.has_mass(i) && massless_jump) continue;
+    if (!context_.has_mass(i) && massless_jump) continue;
     const bool turn = model_.dofs[static_cast<std::size_t>(i)].rotation;
     double limit = limits[turn];
     const double off = std::abs((*record_.after.u)[i] - (*record_.before.u)[i]);
@@ -79,13 +79,14 @@ void Finder::continuity() {
 /// rounding into forces: stiff springs bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on
 /// massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is singular.
 double Finder::unsure_without_mass(int dof) const {
-  if (bench_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
-  const std::vector<int>& all = bench_.massless();
-  const SparseMatrix only = selection(all, model_.size());
+  if (context_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
+  const std::vector<int>& all = context_.massless();
+  const SparseMatrix only = assembly::selection(all, model_.size());
   Eigen::SimplicialLDLT<SparseMatrix> ldlt(only.transpose() * model_.stiffness * only);
   if (ldlt.info() != Eigen::Success) return 0.0;
   const Vector by_force = ldlt.solve(only.transpose() * Vector::Unit(model_.size(), dof));
-  const Vector noise = massless_noise(bench_, record_.before, 0) + massless_noise(bench_, record_.after, 0);
+  const Vector noise =
+      massless_noise(context_, record_.before, 0) + massless_noise(context_, record_.after, 0);
   const double bent = by_force.cwiseAbs().dot(only.transpose() * noise);
   return std::isfinite(bent) ? bent : 0.0;
 }
@@ -99,12 +100,12 @@ Vector Finder::closing() const {
     ClosedRows rows;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
-      const OwnResponse* own = bench_.own_response(k);
+      const OwnResponse* own = context_.own_response(k);
       const bool touches =
           !is_open(mode[k].state) || std::any_of(record_.impulses.begin(), record_.impulses.end(),
                                                  [&](const RecordedImpulse& p) { return p.contact == k; });
       if (own == nullptr || !touches) continue;
-      const Sight before = see(c, k, record_.before);
+      const ContactKinematics before = kinematics(c, k, record_.before);
       const double gap = rounding::of_elimination * before.place;
       const double friction =
           by_impulses ? 0.0
@@ -126,7 +127,7 @@ Vector Finder::closing() const {
 bool Finder::lets_massless_jump() const {
   if (massless_jump_) return *massless_jump_;
   bool any = record_.breakpoint || record_.start || !record_.released.empty();
-  for (const std::size_t k : bench_.on_massless()) any = any || lets_go(k);
+  for (const std::size_t k : context_.on_massless()) any = any || lets_go(k);
   massless_jump_ = any;
   return any;
 }
@@ -135,7 +136,7 @@ bool Finder::lets_massless_jump() const {
 bool Finder::body_follows(std::size_t k) const {
   const std::vector<std::pair<int, double>>& terms = model_.contacts[k].body_tangent().terms;
   return std::any_of(terms.begin(), terms.end(),
-                     [&](const auto& term) { return !bench_.has_mass(term.first); });
+                     [&](const auto& term) { return !context_.has_mass(term.first); });
 }
 
 /// True if contact k stuck at its static limit, which is above the kinetic one, and now slides, is open, or has slid
@@ -150,8 +151,8 @@ bool Finder::lets_go(std::size_t k) const {
   if (event == nullptr || event->t_uncertainty < 0.0) return false;
   const bool stopped = kind_of(now.state) == State::stick && event->type == "slip";
   if (kind_of(old.state) != State::stick || (kind_of(now.state) == State::stick && !stopped)) return false;
-  const Sight before = see(c, k, record_.before);
-  for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits)) {
+  const ContactKinematics before = kinematics(c, k, record_.before);
+  for (const SeenGuard& guard : guards_of(c, old, before, context_.limits)) {
     if (guard.law != std::string_view("friction")) continue;
     const double zero = zero_of(guard, c) + of_uncertainty * event->t_uncertainty *
                                                 std::max(std::abs(event->guard_rate), std::abs(guard.rate));
@@ -166,12 +167,12 @@ void Finder::slide_at_once(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (record_.breakpoint || record_.start || is_released(k)) return;
-  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
   const double kt = *c.tangential_stiffness;
   const double limit =
       rounding::of_elimination * (kt * (a.place + b.place) + std::abs(a.T) + std::abs(b.T)) +
-      of_tolerance * (kt * (bench_.limits.rtol * a.place + bench_.limits.displacement) +
-                      bench_.limits.rtol * (std::abs(a.T) + std::abs(b.T)) + bench_.limits.force);
+      of_tolerance * (kt * (context_.limits.rtol * a.place + context_.limits.displacement) +
+                      context_.limits.rtol * (std::abs(a.T) + std::abs(b.T)) + context_.limits.force);
   const double moved = kt * (a.ut - b.ut) - (a.T - b.T);
   const bool sticks = kind_of(old.state) == State::stick && kind_of(now.state) == State::stick;
   if (sticks && event_of(k) == nullptr && std::abs(moved) > limit)
@@ -191,8 +192,8 @@ bool Finder::shear_stays(std::size_t k) const {
 
 /// True if |N| of a sliding contact jumps down and T decreases with it, whatever the new state: a hit that makes N jump
 /// may reverse the slip at the same instant, and a contact that stops sticks at its new kinetic limit.
-bool Finder::falls_with_it(std::size_t k, const Sight& before, const Sight& after, double off_N,
-                           double off_T) const {
+bool Finder::falls_with_it(std::size_t k, const ContactKinematics& before, const ContactKinematics& after,
+                           double off_N, double off_T) const {
   const Contact& c = model_.contacts[k];
   const State old = (*record_.before.mode)[k].state;
   const int s = sign_of_slip(old);
@@ -207,16 +208,16 @@ void Finder::friction_continuity(std::size_t k) {
   if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
   if (lets_massless_jump() && moves_at_once(k)) return slide_at_once(k);
   if (shear_stays(k)) return;
-  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
   const bool by_force = c.friction.by_force();
   const double fs = by_force ? friction_at(c, 0.0, a.N) : c.friction.static_;
   const double fk = by_force ? fs : c.friction.kinetic, kt = *c.tangential_stiffness;
   const double off_N =
       rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
-      of_tolerance * (c.normal_stiffness * (bench_.limits.rtol * a.place + bench_.limits.displacement));
+      of_tolerance * (c.normal_stiffness * (context_.limits.rtol * a.place + context_.limits.displacement));
   if (std::abs(a.N - b.N) > off_N && sign_of_slip(now.state) != 0) return;  // T = -s fk N follows
   double limit = rounding::of_elimination * (kt * (a.place + std::abs(now.anchor)) + std::abs(b.T)) +
-                 of_tolerance * (kt * (bench_.limits.rtol * a.place + bench_.limits.displacement)) +
+                 of_tolerance * (kt * (context_.limits.rtol * a.place + context_.limits.displacement)) +
                  fs * off_N;
   if (const RecordedEvent* event = event_of(k); event != nullptr && event->t_uncertainty > 0.0)
     limit += of_uncertainty * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
@@ -243,7 +244,7 @@ namespace {
 
 /// The two ends of a stretch, for one contact.
 struct StretchEnds {
-  Sight from, to;
+  ContactKinematics from, to;
   [[nodiscard]] double place() const { return from.place + to.place; }
 };
 
@@ -254,7 +255,7 @@ double slid(const Contact& c, const StretchEnds& ends) {
 }
 
 /// Uncertainty of slid() by rounding and tolerances. A fixed point moves by the rounding of the scene's displacements.
-double slid_noise(const Contact& c, const StretchEnds& ends, const WitnessLimits& tol, double scale) {
+double slid_noise(const Contact& c, const StretchEnds& ends, const LawLimits& tol, double scale) {
   const double by_force =
       c.tangential_stiffness ? (std::abs(ends.to.T) + std::abs(ends.from.T)) / *c.tangential_stiffness : 0.0;
   return rounding::of_elimination * (ends.place() + scale + by_force) +
@@ -286,8 +287,8 @@ class RowSums {
 
 }  // namespace
 
-std::vector<Violation> stretch_laws(const Bench& bench, double t, const WitnessedSide& from,
-                                    const WitnessedSide& to) {
+std::vector<Violation> stretch_laws(const CheckContext& bench, double t, const CheckedSide& from,
+                                    const CheckedSide& to) {
   std::vector<Violation> found;
   const Model& model = bench.model;
   const bool drifts = bench.limits.rtol > 0.0 || bench.limits.step > 0.0;
@@ -302,7 +303,7 @@ std::vector<Violation> stretch_laws(const Bench& bench, double t, const Witnesse
       continue;
     }
     if (!c.obeys_coulomb() || c.sliding_point()) continue;
-    const StretchEnds ends{see(c, k, from), see(c, k, to)};
+    const StretchEnds ends{kinematics(c, k, from), kinematics(c, k, to)};
     const double noise = slid_noise(c, ends, bench.limits, model.scales.displacement);
     const int s = is_held(now.state) || held_beside(model, k) ? 0 : sign_of_slip(now.state);
     if (s != 0) add("way of slip", -s * slid(c, ends), noise, seen::length);
@@ -315,7 +316,7 @@ std::vector<Violation> stretch_laws(const Bench& bench, double t, const Witnesse
   return found;
 }
 
-std::vector<Violation> equilibrium_law(const Bench& bench, double t, const WitnessedSide& side,
+std::vector<Violation> equilibrium_law(const CheckContext& bench, double t, const CheckedSide& side,
                                        const Vector& load) {
   const Model& model = bench.model;
   RowSums rows(model.size());
@@ -324,12 +325,12 @@ std::vector<Violation> equilibrium_law(const Bench& bench, double t, const Witne
   rows.add(model.stiffness, *side.u, side.u_reach, model);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    const Sight m = see(c, k, side);
+    const ContactKinematics m = kinematics(c, k, side);
     const double size =
         std::abs(m.N) + std::abs(m.T) + size_of_normal(c, m) + c.tangential_stiffness.value_or(0.0) * m.place;
     rows.add(c.normal, m.N, size);
     rows.add(c.tangent, m.T, size);
-    const Bowl* bowl = c.curved_surface();
+    const CurvedSurface* bowl = c.curved_surface();
     if (bowl == nullptr) continue;
     // The curved surface of a pendulum acts by N minus the weight that K contains.
     const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
@@ -352,4 +353,4 @@ std::vector<Violation> equilibrium_law(const Bench& bench, double t, const Witne
   return {*worst};
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

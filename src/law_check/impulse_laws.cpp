@@ -5,7 +5,7 @@
 #include "base/rounding.hpp"
 #include "law_check/laws.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 
 /// Adds a violation. The limit is at least the smallest normal number: smaller numbers have no digits.
 void Finder::add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave) {
@@ -18,7 +18,7 @@ void Finder::add(int contact, const char* law, double value, double limit, const
   v.value = value;
   v.limit = limit;
   v.unit = unit;
-  v.grave = grave;
+  v.unexplained = grave;
   const RecordedEvent* event = contact >= 0 ? event_of(static_cast<std::size_t>(contact)) : nullptr;
   if (event == nullptr && contact < 0 && !record_.events.empty()) event = &record_.events.front();
   v.event = record_.start ? "start" : event != nullptr ? event->type : record_.load_jumps ? "load" : "";
@@ -37,7 +37,7 @@ bool Finder::is_struck() const {
   if (record_.captures.size() > 0 && !record_.captures.isZero(0.0)) return true;
   const Vector &before = *record_.before.v, &after = *record_.after.v;
   for (int i = 0; i < model_.size(); ++i)
-    if (before[i] != after[i] && bench_.has_mass(i)) return true;
+    if (before[i] != after[i] && context_.has_mass(i)) return true;
   return false;
 }
 
@@ -65,13 +65,13 @@ void Finder::momentum() {
   double translation = std::max(unknown, record_.before.v_reach[0]),
          rotation = std::max(unknown, record_.before.v_reach[1]);
   for (int i = 0; i < model_.size(); ++i) {
-    if (!bench_.has_mass(i)) continue;
+    if (!context_.has_mass(i)) continue;
     jump[i] = after[i] - before[i];
     double& greatest = model_.dofs[static_cast<std::size_t>(i)].rotation ? rotation : translation;
     greatest = std::max({greatest, std::abs(before[i]), std::abs(after[i])});
   }
   for (int i = 0; i < model_.size(); ++i)
-    if (bench_.has_mass(i))
+    if (context_.has_mass(i))
       speed[i] = model_.dofs[static_cast<std::size_t>(i)].rotation ? rotation : translation;
   Vector rest = -impulse;
   for (int j = 0; j < model_.mass.outerSize(); ++j)
@@ -86,7 +86,7 @@ void Finder::momentum() {
     double by = 1.0;
     for (int i = 0; i < model_.size(); ++i) {
       const double limit = limit_of(i);
-      if (!bench_.has_mass(i) || !(std::abs(rest[i]) > by * limit)) continue;
+      if (!context_.has_mass(i) || !(std::abs(rest[i]) > by * limit)) continue;
       worst = i;
       by = limit > 0.0 ? std::abs(rest[i]) / limit : std::numeric_limits<double>::max();
     }
@@ -94,7 +94,7 @@ void Finder::momentum() {
   };
   if (worst_of() < 0) return;
   // A body at rest has velocities as large as its forces produce within the resolution of the clock.
-  clock = of_uncertainty * record_.resolution * bench_.balance(record_.after);
+  clock = of_uncertainty * record_.resolution * context_.balance(record_.after);
   const int worst = worst_of();
   if (worst < 0) return;
   const bool turns = model_.dofs[static_cast<std::size_t>(worst)].rotation;
@@ -114,29 +114,29 @@ void Finder::captures() {
     model_.contacts[k].normal.add_to(impulse, record_.captures[n]);
     model_.contacts[k].tangent.add_to(impulse, record_.captures[t]);
   }
-  const Vector change = bench_.per_mass(impulse);
+  const Vector change = context_.per_mass(impulse);
   if (change.size() == 0) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const auto n = static_cast<Eigen::Index>(model_.layout.normal(k)),
                t = static_cast<Eigen::Index>(model_.layout.tangent(k));
     if (record_.captures[n] == 0.0 && record_.captures[t] == 0.0) continue;
-    const OwnResponse* own = bench_.own_response(k);
+    const OwnResponse* own = context_.own_response(k);
     const double most = std::numeric_limits<double>::infinity();  // replaces its own effect if unknown
     const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[n]) : most;
     const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[t]) : most;
     const double speed = std::max(std::min(by_n, std::abs(c.normal.dot(change))),
                                   std::min(by_t, std::abs(c.tangent.dot(change))));
-    double limit = with_slow_slips * bench_.slowest(record_, k);
+    double limit = with_slow_slips * context_.slowest(record_, k);
     // Between steps, g' of a closed gap oscillates by the step times the held acceleration. A contact that stops
     // within a step is found at the end of the step and may have moved again by then. A contact that sticks rigidly to
     // a moving surface follows its acceleration, and its velocity with the error of the step rule.
-    if (bench_.limits.step > 0.0 && !is_open((*record_.before.mode)[k].state))
-      limit += bench_.limits.step * bench_.swing(record_, k) + record_.before.driven[k].drift;
+    if (context_.limits.step > 0.0 && !is_open((*record_.before.mode)[k].state))
+      limit += context_.limits.step * context_.swing(record_, k) + record_.before.driven[k].drift;
     // With an engine that does not locate events, a contact that stops within a step overshoots by up to its former
     // speed. The limit for an engine with steps uses the accelerations of both ends and the first terms of the errors
     // in h; the remaining terms of the series are allowed twice as much.
-    const bool grave = record_.located && speed > (bench_.limits.step > 0.0 ? of_uncertainty : 1.0) * limit;
+    const bool grave = record_.located && speed > (context_.limits.step > 0.0 ? of_uncertainty : 1.0) * limit;
     if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, grave);
   }
 }
@@ -145,24 +145,25 @@ void Finder::restitution() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     if (!c.takes_impulses()) continue;
-    const Sight m = see(c, k, record_.after);
+    const ContactKinematics m = kinematics(c, k, record_.after);
     const bool closed = !record_.after.mode->at(k).is_open();
-    const double rounding_of_speed = bench_.slowest(record_, k);
+    const double rounding_of_speed = context_.slowest(record_, k);
     if ((closed || m.g <= 0.0) && m.dg < -rounding_of_speed)
       add(static_cast<int>(k), "penetration rate", -m.dg, rounding_of_speed, seen::velocity, true);
   }
   double greatest = 0.0;  // largest impulse, including the rounding of velocities that cancel
   for (const RecordedImpulse& p : record_.impulses) {
     greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
-    const OwnResponse* own = bench_.own_response(p.contact);
+    const OwnResponse* own = context_.own_response(p.contact);
     if (own == nullptr) continue;
-    const double speed = see(model_.contacts[p.contact], p.contact, record_.before).speed;
+    const double speed = kinematics(model_.contacts[p.contact], p.contact, record_.before).speed;
     if (own->nn > 0.0) greatest = std::max(greatest, speed / own->nn);
     if (own->tt > 0.0) greatest = std::max(greatest, speed / own->tt);
   }
   for (const RecordedImpulse& p : record_.impulses) {
     const Contact& c = model_.contacts[p.contact];
-    const Strike strike = strike_of(p, see(c, p.contact, record_.before), see(c, p.contact, record_.after));
+    const Strike strike =
+        strike_of(p, kinematics(c, p.contact, record_.before), kinematics(c, p.contact, record_.after));
     restitution_of(p, strike, greatest);
     friction_impulse(p, strike, greatest);
   }
@@ -170,9 +171,10 @@ void Finder::restitution() {
 
 /// Velocities before and after one impact of an instant: v- plus the effect of the impulses of earlier turns, and v+
 /// minus the effect of later turns.
-Finder::Strike Finder::strike_of(const RecordedImpulse& p, const Sight& before, const Sight& after) const {
+Finder::Strike Finder::strike_of(const RecordedImpulse& p, const ContactKinematics& before,
+                                 const ContactKinematics& after) const {
   Strike strike{before.dg, after.dg, after.dut};
-  const OwnResponse* own = bench_.own_response(p.contact);
+  const OwnResponse* own = context_.own_response(p.contact);
   if (own == nullptr) {  // rigid contacts act on mass (docs/theory.md, "Rigid contacts")
     strike.unsure = std::numeric_limits<double>::infinity();
     return strike;
@@ -189,7 +191,7 @@ Finder::Strike Finder::strike_of(const RecordedImpulse& p, const Sight& before, 
       strike.dut_after -= dut;
     }
   }
-  strike.unsure = bench_.moved_by(record_.captures, p.contact);
+  strike.unsure = context_.moved_by(record_.captures, p.contact);
   return strike;
 }
 
@@ -199,8 +201,8 @@ void Finder::restitution_of(const RecordedImpulse& p, const Strike& strike, doub
   const double zero = rounding::of_elimination * greatest;
   if (p.normal < -zero) add(contact, "restitution", -p.normal, zero, seen::impulse, true);
   const Contact& c = model_.contacts[p.contact];
-  const OwnResponse* own = bench_.own_response(p.contact);
-  const double limit = bench_.slowest(record_, p.contact) + strike.unsure +
+  const OwnResponse* own = context_.own_response(p.contact);
+  const double limit = context_.slowest(record_, p.contact) + strike.unsure +
                        (own != nullptr ? rounding::of_elimination * own->nn * greatest : 0.0);
   const double asked = -c.restitution * std::min(strike.dg_before, 0.0);
   double off = asked - strike.dg_after;                                // slower than restitution requires
@@ -217,11 +219,11 @@ void Finder::friction_impulse(const RecordedImpulse& p, const Strike& strike, do
   const double over = std::abs(p.tangent) - most * p.normal;
   if (over > zero) add(contact, "friction impulse", over, zero, seen::impulse, true);
   if (!c.has_friction() || c.friction.varies() || !(p.normal > zero)) return;
-  const double slow = with_slow_slips * bench_.slowest(record_, p.contact) + strike.unsure;
+  const double slow = with_slow_slips * context_.slowest(record_, p.contact) + strike.unsure;
   if (std::abs(strike.dut_after) <= slow) return;
   const double off =
       std::abs(p.tangent + (strike.dut_after > 0.0 ? 1.0 : -1.0) * c.friction.kinetic * p.normal);
   if (off > zero) add(contact, "friction impulse", off, zero, seen::impulse, true);
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

@@ -14,7 +14,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 
 /// Given motion of one contact: the motion of its surface and the compression of a slider.
 struct Driven {
@@ -27,7 +27,7 @@ struct Driven {
 };
 
 /// One side of an instant, or a point of the motion between two instants.
-struct WitnessedSide {
+struct CheckedSide {
   const Vector* u = nullptr;
   const Vector* v = nullptr;
   const Vector* a = nullptr;  ///< null: unknown
@@ -71,7 +71,7 @@ struct RecordedEvent {
 struct InstantRecord {
   double t = 0.0;
   double resolution = 0.0;  ///< times closer than this count as one instant
-  WitnessedSide before, after;
+  CheckedSide before, after;
   std::vector<RecordedImpulse> impulses;  ///< in the order of the turns; empty: no impact
   Vector captures;                        ///< as forces, along n and t; empty: none
   std::vector<RecordedEvent> events;
@@ -81,9 +81,9 @@ struct InstantRecord {
   bool breakpoint = false;  ///< the forcing is not smooth here
   bool load_jumps = false;
   bool located = true;  ///< the engine locates the zeros of guards
-  double dependence =
+  double eigenvector_condition =
       1.0;  ///< StepFacts::eigenvector_condition of the motion before; 1: no modes, or orthogonal ones
   double forgiven = 0.0;  ///< factor of rounding by which states fail that were reported as undecided
 };
 
-}  // namespace signorini
+}  // namespace signorini::law_check

@@ -8,16 +8,16 @@
 #include "law_check/laws.hpp"
 #include "law_check/massless_laws.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 
-struct Witness::Parts {
-  Bench bench;
+struct LawChecker::Parts {
+  CheckContext bench;
 };
 
-Witness::Witness(const Model& model, const WitnessLimits& limits) : parts_(new Parts{{model, limits}}) {}
-Witness::~Witness() = default;
+LawChecker::LawChecker(const Model& model, const LawLimits& limits) : parts_(new Parts{{model, limits}}) {}
+LawChecker::~LawChecker() = default;
 
-std::vector<Violation> Witness::instant(const InstantRecord& record) const {
+std::vector<Violation> LawChecker::instant(const InstantRecord& record) const {
   std::vector<Violation> found;
   Finder finder(parts_->bench, record, found);
   finder.momentum();
@@ -33,33 +33,33 @@ std::vector<Violation> Witness::instant(const InstantRecord& record) const {
   return found;
 }
 
-std::vector<Violation> Witness::stretch(double t, const WitnessedSide& from, const WitnessedSide& to) const {
+std::vector<Violation> LawChecker::stretch(double t, const CheckedSide& from, const CheckedSide& to) const {
   return stretch_laws(parts_->bench, t, from, to);
 }
 
-std::vector<Violation> Witness::equilibrium(double t, const WitnessedSide& side, const Vector& load) const {
+std::vector<Violation> LawChecker::equilibrium(double t, const CheckedSide& side, const Vector& load) const {
   return equilibrium_law(parts_->bench, t, side, load);
 }
 
-std::array<double, 2> Witness::modal_size(double norm) const {
+std::array<double, 2> LawChecker::modal_size(double norm) const {
   std::array<double, 2> size = parts_->bench.lightness();
   for (double& s : size) s *= norm;
   return size;
 }
 
-std::array<double, 2> Witness::modal_size(const Vector& x) const {
+std::array<double, 2> LawChecker::modal_size(const Vector& x) const {
   return modal_size(std::sqrt(std::max(0.0, x.dot(parts_->bench.model.mass * x))));
 }
 
-double Witness::twice_energy(const Vector& u) const { return parts_->bench.twice_energy(u); }
+double LawChecker::twice_energy(const Vector& u) const { return parts_->bench.twice_energy(u); }
 
-double Witness::lightness(std::size_t k) const {
+double LawChecker::lightness(std::size_t k) const {
   const OwnResponse* own = parts_->bench.own_response(k);
   return own != nullptr ? std::sqrt(std::max(0.0, own->nn)) + std::sqrt(std::max(0.0, own->tt)) : 0.0;
 }
 
-void Witness::contact(double t, std::size_t k, const ContactState& state, const Sight& m, bool accelerates,
-                      double of_held, std::vector<Violation>& found) const {
+void LawChecker::contact(double t, std::size_t k, const ContactState& state, const ContactKinematics& m,
+                         bool accelerates, double of_held, std::vector<Violation>& found) const {
   const Contact& c = parts_->bench.model.contacts[k];
   if (!c.obeys_coulomb() || c.friction.varies()) return;
   for (const SeenGuard& guard : guards_of(c, state, m, parts_->bench.limits)) {
@@ -78,14 +78,14 @@ void Witness::contact(double t, std::size_t k, const ContactState& state, const 
   }
 }
 
-double Witness::held_forces(const WitnessedSide& side) const { return parts_->bench.balance(side); }
+double LawChecker::held_forces(const CheckedSide& side) const { return parts_->bench.balance(side); }
 
-std::vector<Violation> Witness::between(double t, const WitnessedSide& now) const {
+std::vector<Violation> LawChecker::between(double t, const CheckedSide& now) const {
   std::vector<Violation> found;
   const Model& model = parts_->bench.model;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     if (guards_stand(model.contacts[k], k, (*now.mode)[k], now)) continue;
-    const Sight m = see(model.contacts[k], k, now);
+    const ContactKinematics m = kinematics(model.contacts[k], k, now);
     const std::size_t before = found.size();
     contact(t, k, (*now.mode)[k], m, now.a != nullptr, 0.0, found);
     if (found.size() > before && found.back().law == std::string_view("slip direction")) {
@@ -106,4 +106,4 @@ std::vector<Violation> Witness::between(double t, const WitnessedSide& now) cons
   return found;
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

@@ -21,10 +21,10 @@
 #include "law_check/instant_record.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 
 /// Deviations allowed in a correct run, in addition to rounding. Absolute, in the units of the model; 0: none.
-struct WitnessLimits {
+struct LawLimits {
   double rtol = 0.0, displacement = 0.0, rotation = 0.0, velocity = 0.0, angular_velocity = 0.0, force = 0.0;
   double capture_velocity = 0.0;  ///< for contacts without a value of their own
   double step = 0.0;  ///< step of engines that enforce contacts at the ends of steps only; 0: other engines
@@ -32,31 +32,31 @@ struct WitnessLimits {
       true;  ///< flights lower than the rounding of their gaps are computed, not treated as rest
 };
 
-struct Sight;
+struct ContactKinematics;
 
-class Witness {
+class LawChecker {
  public:
-  Witness(const Model& model, const WitnessLimits& limits);
-  ~Witness();
-  Witness(const Witness&) = delete;
-  Witness& operator=(const Witness&) = delete;
+  LawChecker(const Model& model, const LawLimits& limits);
+  ~LawChecker();
+  LawChecker(const LawChecker&) = delete;
+  LawChecker& operator=(const LawChecker&) = delete;
 
   /// Checks all laws at an instant. Empty: they hold.
   [[nodiscard]] std::vector<Violation> instant(const InstantRecord& record) const;
   /// Checks guards and rows at a point of the motion within a stretch.
-  [[nodiscard]] std::vector<Violation> between(double t, const WitnessedSide& now) const;
+  [[nodiscard]] std::vector<Violation> between(double t, const CheckedSide& now) const;
   /// Checks both ends of the stretch up to t: just after one instant, and just before the next.
-  [[nodiscard]] std::vector<Violation> stretch(double t, const WitnessedSide& from,
-                                               const WitnessedSide& to) const;
+  [[nodiscard]] std::vector<Violation> stretch(double t, const CheckedSide& from,
+                                               const CheckedSide& to) const;
   /// Checks M a + C v + K u + contact forces = P, with mass, just after an instant. load: P.
-  [[nodiscard]] std::vector<Violation> equilibrium(double t, const WitnessedSide& side,
+  [[nodiscard]] std::vector<Violation> equilibrium(double t, const CheckedSide& side,
                                                    const Vector& load) const;
   /// Checks the guards of one contact's state, from the known part of its motion; accelerates: g'' and ut'' are known.
   /// of_held: size of the terms whose differences are the constraint forces.
-  void contact(double t, std::size_t k, const ContactState& state, const Sight& m, bool accelerates,
-               double of_held, std::vector<Violation>& found) const;
+  void contact(double t, std::size_t k, const ContactState& state, const ContactKinematics& m,
+               bool accelerates, double of_held, std::vector<Violation>& found) const;
   /// Size of the terms whose differences are the constraint forces.
-  [[nodiscard]] double held_forces(const WitnessedSide& side) const;
+  [[nodiscard]] double held_forces(const CheckedSide& side) const;
   /// Largest terms of a sum over modes that yields x, for translations and rotations:
   /// x = sum phi q,  sum_k |phi_ik q_k| <= sqrt((M^-1)_ii x^T M x),  since sum phi phi^T = M^-1 and sum q^2 = x^T M x.
   [[nodiscard]] std::array<double, 2> modal_size(const Vector& x) const;
@@ -74,4 +74,4 @@ class Witness {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::law_check

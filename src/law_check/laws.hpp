@@ -10,7 +10,7 @@
 
 #include "law_check/contact_kinematics.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 
 /// Factor of a tolerance: engines re-arm a guard ten tolerances from its zero, and it has two terms.
 inline constexpr double of_tolerance = 20.0;
@@ -39,12 +39,12 @@ struct HeldForce {
 };
 
 /// Data of the model that the laws use.
-class Bench {
+class CheckContext {
  public:
-  Bench(const Model& model, const WitnessLimits& limits);
-  ~Bench();
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
+  CheckContext(const Model& model, const LawLimits& limits);
+  ~CheckContext();
+  CheckContext(const CheckContext&) = delete;
+  CheckContext& operator=(const CheckContext&) = delete;
 
   /// M^-1 x on degrees of freedom with mass, 0 elsewhere. Empty: M is singular there.
   [[nodiscard]] Vector per_mass(const Vector& x) const;
@@ -54,7 +54,7 @@ class Bench {
   [[nodiscard]] const OwnResponse* own_response(std::size_t k) const;
   /// Largest sum of the absolute terms of M a + C v + K u and of contact forces: constraint forces are differences of
   /// these terms.
-  [[nodiscard]] double balance(const WitnessedSide& side) const;
+  [[nodiscard]] double balance(const CheckedSide& side) const;
   [[nodiscard]] bool has_mass(int dof) const { return massive_[static_cast<std::size_t>(dof)]; }
   /// Largest |x_i| of translations and of rotations.
   [[nodiscard]] std::array<double, 2> greatest(const Vector& x) const;
@@ -84,7 +84,7 @@ class Bench {
   [[nodiscard]] double slowest(const InstantRecord& record, std::size_t k) const;
 
   const Model& model;
-  const WitnessLimits limits;
+  const LawLimits limits;
 
  private:
   struct Factor;
@@ -104,11 +104,11 @@ class Bench {
 };
 
 /// Checks a stretch of motion at its two ends: just after one instant, and just before the next one, at t.
-[[nodiscard]] std::vector<Violation> stretch_laws(const Bench& bench, double t, const WitnessedSide& from,
-                                                  const WitnessedSide& to);
+[[nodiscard]] std::vector<Violation> stretch_laws(const CheckContext& bench, double t,
+                                                  const CheckedSide& from, const CheckedSide& to);
 /// Checks rows with mass just after an instant; reports the worst one. load: P.
-[[nodiscard]] std::vector<Violation> equilibrium_law(const Bench& bench, double t, const WitnessedSide& side,
-                                                     const Vector& load);
+[[nodiscard]] std::vector<Violation> equilibrium_law(const CheckContext& bench, double t,
+                                                     const CheckedSide& side, const Vector& load);
 
 /// A massless row whose forces, or their rates, are not balanced.
 struct Unbalanced {
@@ -118,17 +118,17 @@ struct Unbalanced {
   int order = 0;  ///< order of the derivative
 };
 /// orders: 1 forces, 2 also their rates, 3 also the rates of these. At most one row is returned per order.
-[[nodiscard]] std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide& side,
+[[nodiscard]] std::vector<Unbalanced> massless_balance(const CheckContext& bench, const CheckedSide& side,
                                                        int orders);
 /// Rounding of the forces of each massless row, or of their first derivatives (order 1); length n. Errors by the
 /// tolerances of the engine are not included.
-[[nodiscard]] Vector massless_noise(const Bench& bench, const WitnessedSide& side, int order);
+[[nodiscard]] Vector massless_noise(const CheckContext& bench, const CheckedSide& side, int order);
 
 /// Checks the laws at one instant.
 class Finder {
  public:
-  Finder(const Bench& bench, const InstantRecord& record, std::vector<Violation>& found)
-      : bench_(bench), model_(bench.model), record_(record), found_(found) {}
+  Finder(const CheckContext& bench, const InstantRecord& record, std::vector<Violation>& found)
+      : context_(bench), model_(bench.model), record_(record), found_(found) {}
   void momentum();
   void captures();
   void restitution();
@@ -148,27 +148,30 @@ class Finder {
     double dg_before = 0.0, dg_after = 0.0, dut_after = 0.0;
     double unsure = 0.0;  // speed due to captures, before or after
   };
-  [[nodiscard]] Strike strike_of(const RecordedImpulse& p, const Sight& before, const Sight& after) const;
+  [[nodiscard]] Strike strike_of(const RecordedImpulse& p, const ContactKinematics& before,
+                                 const ContactKinematics& after) const;
   void restitution_of(const RecordedImpulse& p, const Strike& strike, double greatest);
   void friction_impulse(const RecordedImpulse& p, const Strike& strike, double greatest);
   void state_of(std::size_t k);
-  void friction_of(std::size_t k, const Sight& m);
+  void friction_of(std::size_t k, const ContactKinematics& m);
   void old_rows(std::size_t k);
   void necessity(std::size_t k);
-  [[nodiscard]] bool its_own_falls(std::size_t k, const ContactState& old, const Sight& before) const;
+  [[nodiscard]] bool its_own_falls(std::size_t k, const ContactState& old,
+                                   const ContactKinematics& before) const;
   void guard_of(const RecordedEvent& event);
   [[nodiscard]] bool shear_stays(std::size_t k) const;
   void friction_continuity(std::size_t k);
-  [[nodiscard]] bool falls_with_it(std::size_t k, const Sight& before, const Sight& after, double off_N,
-                                   double off_T) const;
+  [[nodiscard]] bool falls_with_it(std::size_t k, const ContactKinematics& before,
+                                   const ContactKinematics& after, double off_N, double off_T) const;
   [[nodiscard]] Vector closing() const;
   [[nodiscard]] double unsure_without_mass(int dof) const;
-  [[nodiscard]] Sight touching(std::size_t k, const WitnessedSide& side) const;
+  [[nodiscard]] ContactKinematics touching(std::size_t k, const CheckedSide& side) const;
   void row_of(const RecordedEvent& event);
-  void row_before(const RecordedEvent& event, const Sight& before, const Sight& after);
-  void row_gap(const RecordedEvent& event, const Sight& after);
+  void row_before(const RecordedEvent& event, const ContactKinematics& before,
+                  const ContactKinematics& after);
+  void row_gap(const RecordedEvent& event, const ContactKinematics& after);
   void row_check(const RecordedEvent& event, double off, double limit, const Unit& unit);
-  [[nodiscard]] double spring_noise_before(std::size_t k, const Sight& before) const;
+  [[nodiscard]] double spring_noise_before(std::size_t k, const ContactKinematics& before) const;
   [[nodiscard]] double held_noise_before(std::size_t k) const;
   [[nodiscard]] double step_error(std::size_t k, double of_u, double of_v) const;
   [[nodiscard]] double settled(const RecordedEvent& event) const;
@@ -176,11 +179,12 @@ class Finder {
   [[nodiscard]] double left_terms(const Contact& c) const;
   /// A contact in its old state, and the uncertainty of its forces due to rounding of accelerations.
   struct Old {
-    Sight m;
+    ContactKinematics m;
     double unsure_N = 0.0, unsure_T = 0.0;
   };
   [[nodiscard]] std::optional<Old> as_before(std::size_t k) const;
-  [[nodiscard]] bool is_pushed_off(std::size_t k, const ContactState& old, const Sight& after) const;
+  [[nodiscard]] bool is_pushed_off(std::size_t k, const ContactState& old,
+                                   const ContactKinematics& after) const;
   [[nodiscard]] bool jumps(std::size_t k) const;
   [[nodiscard]] bool moves_at_once(std::size_t k) const;
   [[nodiscard]] double zero_of(const SeenGuard& guard, const Contact& contact) const;
@@ -193,7 +197,7 @@ class Finder {
   /// Rounding of constraint forces.
   [[nodiscard]] double force_noise() const;
 
-  const Bench& bench_;
+  const CheckContext& context_;
   const Model& model_;
   const InstantRecord& record_;
   std::vector<Violation>& found_;
@@ -201,4 +205,4 @@ class Finder {
   mutable std::optional<bool> massless_jump_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::law_check

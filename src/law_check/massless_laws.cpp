@@ -22,7 +22,7 @@
 #include "base/rounding.hpp"
 #include "law_check/laws.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 namespace {
 
 /// Sum of massless rows that determines velocities: C v from forces, or K v from their rates.
@@ -34,7 +34,7 @@ struct RateRow {
 /// Massless rows that determine velocities, restricted to massless degrees of freedom.
 class RateRows {
  public:
-  RateRows(const Bench& bench, const WitnessedSide& side)
+  RateRows(const CheckContext& bench, const CheckedSide& side)
       : bench_(bench), place_(static_cast<std::size_t>(bench.model.size()), -1) {
     for (const int i : bench.massless()) place_[static_cast<std::size_t>(i)] = size_++;
     for (const int i : bench.massless()) {
@@ -47,13 +47,13 @@ class RateRows {
     }
     C_ = matrix_of(dampers_);
     K_ = matrix_of(springs_);
-    if (told_) combine();
+    if (reported_) combine();
   }
 
   /// Solution of S^T x = f; empty: S does not determine it.
   [[nodiscard]] Vector weights(const Combination& form, double factor, const Combination& more,
                                double factor_of_more) const {
-    if (!told_) return {};
+    if (!reported_) return {};
     Vector f = Vector::Zero(size_);
     for (const auto& [dof, value] : form.terms)
       if (exists(dof)) f[place_[static_cast<std::size_t>(dof)]] += factor * value;
@@ -92,10 +92,10 @@ class RateRows {
     matrix.setFromTriplets(terms.begin(), terms.end());
     return matrix;
   }
-  void check_known(std::size_t k, const WitnessedSide& side) {
+  void check_known(std::size_t k, const CheckedSide& side) {
     const Contact& c = bench_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
-    if (!c.forces_follow_motion() || c.takes_impulses() || c.holds_tangent(state.state)) told_ = false;
+    if (!c.forces_follow_motion() || c.takes_impulses() || c.holds_tangent(state.state)) reported_ = false;
   }
   void add(int row, int column, double value, Terms& terms) const {
     if (exists(column) && value != 0.0) terms.emplace_back(at(row), at(column), value);
@@ -105,7 +105,7 @@ class RateRows {
       add(row, static_cast<int>(it.row()), it.value(), terms);
   }
   /// Adds N = kn g + cn g', T = kt ut or -s fk N: derivatives with respect to g' and ut', or to g and ut for the rates.
-  void add_contact(std::size_t k, const WitnessedSide& side) {
+  void add_contact(std::size_t k, const CheckedSide& side) {
     const Contact& c = bench_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
     const double sliding = -sign_of_slip(state.state) * c.friction.kinetic;
@@ -149,7 +149,7 @@ class RateRows {
   void combine() {
     for (const std::vector<int>& rows : coupled()) {
       if (rows.size() > most_together) {
-        told_ = false;
+        reported_ = false;
         return;
       }
       const auto n = static_cast<Eigen::Index>(rows.size());
@@ -157,10 +157,11 @@ class RateRows {
       for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j)
           c(i, j) = C_.coeff(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
-      const Eigen::MatrixXd undamped = orthogonal_complement(c);
+      const Eigen::MatrixXd undamped = base::orthogonal_complement(c);
       const bool all = undamped.cols() == 0;
       take(rows, undamped, false);
-      take(rows, all ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)) : orthogonal_complement(undamped),
+      take(rows,
+           all ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)) : base::orthogonal_complement(undamped),
            true);
     }
   }
@@ -183,18 +184,18 @@ class RateRows {
     return matrix_of(terms);
   }
 
-  const Bench& bench_;
+  const CheckContext& bench_;
   std::vector<int> place_;
   Terms dampers_, springs_;
   SparseMatrix C_, K_;  // with the terms of contacts
   std::vector<RateRow> rows_;
   int size_ = 0;
-  bool told_ = true;
+  bool reported_ = true;
 };
 
 }  // namespace
 
-double noise_of_slip_rate(const Bench& bench, const WitnessedSide& side, std::size_t k) {
+double noise_of_slip_rate(const CheckContext& bench, const CheckedSide& side, std::size_t k) {
   if (bench.massless().empty() || bench.own_response(k) != nullptr || side.loads.empty()) return 0.0;
   const Contact& c = bench.model.contacts[k];
   const RateRows rows(bench, side);
@@ -225,7 +226,7 @@ struct Push {
 };
 
 /// Derivatives of order 1 or 2.
-Push push_of(const Contact& c, const ContactState& state, const Sight& m, int order) {
+Push push_of(const Contact& c, const ContactState& state, const ContactKinematics& m, int order) {
   Push push;
   if (is_open(state.state) && !c.normal_force_given()) return push;
   const bool first = order == 1;
@@ -260,8 +261,8 @@ Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>
 /// Balance of one order, row by row.
 class Balance {
  public:
-  Balance(const Bench& bench, const WitnessedSide& side, int order)
-      : bench_(bench),
+  Balance(const CheckContext& bench, const CheckedSide& side, int order)
+      : context_(bench),
         side_(side),
         order_(order),
         sum_(Vector::Zero(bench.model.size())),
@@ -271,7 +272,7 @@ class Balance {
 
   [[nodiscard]] std::optional<Unbalanced> worst() {
     const Vector rounded = noise();
-    for (const int i : bench_.massless()) {
+    for (const int i : context_.massless()) {
       const double limit = rounded[i] + of_tolerance * off_[i];
       // A decayed motion has terms below the smallest normal number, which have no digits.
       if (limit < std::numeric_limits<double>::min()) continue;
@@ -284,24 +285,24 @@ class Balance {
   /// Sums all rows; returns the rounding of each.
   [[nodiscard]] Vector noise() {
     structure();
-    for (const std::size_t k : bench_.on_massless()) contact(k);
+    for (const std::size_t k : context_.on_massless()) contact(k);
     return (order_ == 0 ? rounding::of_elimination : of_rates) * size_;
   }
 
  private:
   void structure() {
-    const Model& model = bench_.model;
+    const Model& model = context_.model;
     const Vector none = Vector::Zero(model.size()), &a = side_.a != nullptr ? *side_.a : none;
     const Vector &x = order_ == 0 ? *side_.u : order_ == 1 ? *side_.v : a, &dx = order_ == 0 ? *side_.v : a;
     const Vector of_x = reach_of(model, x, reached(order_)), of_dx = reach_of(model, dx, reached(order_ + 1));
-    for (const int i : bench_.massless()) {
+    for (const int i : context_.massless()) {
       sum_[i] = side_.loads[static_cast<std::size_t>(order_)][i];
       size_[i] = std::abs(sum_[i]);
-      for (SparseMatrix::InnerIterator it(bench_.stiffness_by_rows(), i); it; ++it) {
+      for (SparseMatrix::InnerIterator it(context_.stiffness_by_rows(), i); it; ++it) {
         take(i, it.value(), x[it.row()], of_x[it.row()]);
         off_[i] += std::abs(it.value()) * tolerance(static_cast<int>(it.row()), of_x[it.row()]);
       }
-      SparseMatrix::InnerIterator damper(bench_.damping_by_rows(), i);
+      SparseMatrix::InnerIterator damper(context_.damping_by_rows(), i);
       if (!damper) continue;
       known_[static_cast<std::size_t>(i)] = order_ == 0 || (order_ == 1 && side_.a != nullptr);
       for (; damper; ++damper) take(i, damper.value(), dx[damper.row()], of_dx[damper.row()]);
@@ -313,7 +314,7 @@ class Balance {
     if (order == 0) return side_.u_reach;
     std::array<double, 2> reach = side_.u_reach;
     for (std::size_t i = 0; i < reach.size(); ++i) {
-      reach[i] *= rounding::eps * std::pow(bench_.model.omega_max, order);
+      reach[i] *= rounding::eps * std::pow(context_.model.omega_max, order);
       if (order == 1) reach[i] = std::max(reach[i], side_.v_reach[i]);
     }
     return reach;
@@ -324,15 +325,15 @@ class Balance {
   }
   /// Tolerance of a displacement or a velocity.
   [[nodiscard]] double tolerance(int dof, double reach) const {
-    const WitnessLimits& tol = bench_.limits;
-    const bool turns = bench_.model.dofs[static_cast<std::size_t>(dof)].rotation;
+    const LawLimits& tol = context_.limits;
+    const bool turns = context_.model.dofs[static_cast<std::size_t>(dof)].rotation;
     return tol.rtol * reach + (order_ == 0 ? turns ? tol.rotation : tol.displacement
                                : turns     ? tol.angular_velocity
                                            : tol.velocity);
   }
   void contact(std::size_t k) {
-    const Contact& c = bench_.model.contacts[k];
-    const Sight m = see(c, k, side_);
+    const Contact& c = context_.model.contacts[k];
+    const ContactKinematics m = kinematics(c, k, side_);
     Push push{m.N, m.T, std::abs(m.N) + std::abs(m.T)};
     if (order_ > 0) push = push_of(c, (*side_.mode)[k], m, order_);
     if (order_ == 1 && c.normal_damping > 0.0 && side_.a == nullptr) push.known = false;
@@ -348,8 +349,8 @@ class Balance {
     }
   }
 
-  const Bench& bench_;
-  const WitnessedSide& side_;
+  const CheckContext& context_;
+  const CheckedSide& side_;
   int order_;
   Vector sum_, size_, off_;  // off_: tolerances
   std::vector<bool> known_;
@@ -357,11 +358,11 @@ class Balance {
 
 }  // namespace
 
-Vector massless_noise(const Bench& bench, const WitnessedSide& side, int order) {
+Vector massless_noise(const CheckContext& bench, const CheckedSide& side, int order) {
   return Balance(bench, side, order).noise();
 }
 
-std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide& side, int orders) {
+std::vector<Unbalanced> massless_balance(const CheckContext& bench, const CheckedSide& side, int orders) {
   std::vector<Unbalanced> found;
   if (side.loads.empty()) return found;
   for (int order = 0; order < orders; ++order)
@@ -369,4 +370,4 @@ std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide
   return found;
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

@@ -4,7 +4,7 @@
 #include "base/rounding.hpp"
 #include "law_check/laws.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 
 bool Finder::is_released(std::size_t k) const {
   return std::find(record_.released.begin(), record_.released.end(), k) != record_.released.end();
@@ -18,15 +18,16 @@ void Finder::releases() {
     if (!c.forces_follow_motion()) continue;
     const int contact = static_cast<int>(k);
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-    const Sight after = see(c, k, record_.after), before = see(c, k, record_.before);
+    const ContactKinematics after = kinematics(c, k, record_.after),
+                            before = kinematics(c, k, record_.before);
     const double rest = rounding::of_elimination * after.place +
-                        of_tolerance * (bench_.limits.rtol * after.place + bench_.limits.displacement);
+                        of_tolerance * (context_.limits.rtol * after.place + context_.limits.displacement);
     if (now.state == State::open && after.g < -rest)
       add(contact, "release", -after.g, rest, seen::length, true);
     if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // driven there by the jump
     const RecordedEvent* event = event_of(k);
     double least = std::numeric_limits<double>::infinity(), limit = 0.0;
-    for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits)) {
+    for (const SeenGuard& guard : guards_of(c, old, before, context_.limits)) {
       double zero = zero_of(guard, c);
       if (event != nullptr && event->t_uncertainty >= 0.0)
         zero += of_uncertainty * event->t_uncertainty *
@@ -60,7 +61,7 @@ void Finder::continuation() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const SavedState::Left& left = model_.continues[k];
-    const Sight m = see(c, k, record_.before);
+    const ContactKinematics m = kinematics(c, k, record_.before);
     const double limit = rounding::of_elimination * (m.place + left_terms(c));
     const auto check = [&](double was, double is) {
       if (const double off = std::abs(was - is); off > limit)
@@ -73,7 +74,7 @@ void Finder::continuation() {
 
 /// Checks that forces on massless parts are balanced just after, and so are their rates.
 void Finder::balance() {
-  for (const Unbalanced& found : massless_balance(bench_, record_.after, 3)) {
+  for (const Unbalanced& found : massless_balance(context_, record_.after, 3)) {
     const bool turns = model_.dofs[static_cast<std::size_t>(found.dof)].rotation;
     add(-1, found.law, found.value, found.limit, Unit{1, turns ? 1 : 0, -found.order}, false);
   }
@@ -84,10 +85,10 @@ void Finder::rows() {
 }
 
 /// Rates of the surfaces in contact: for a compliance split, event rows exclude the deformation of its springs.
-Sight Finder::touching(std::size_t k, const WitnessedSide& side) const {
+ContactKinematics Finder::touching(std::size_t k, const CheckedSide& side) const {
   const Contact& c = model_.contacts[k];
   const State state = (*side.mode)[k].state;
-  Sight m = see(c, k, side);
+  ContactKinematics m = kinematics(c, k, side);
   if (!c.compliance_split() || is_open(state)) return m;
   if (c.tangential_stiffness) {
     const int s = sign_of_slip(state);
@@ -110,12 +111,12 @@ double Finder::settled(const RecordedEvent& event) const {
 /// Uncertainty of N and T of springs just before, from two sums of the same u and v: the engine's, and the decision's,
 /// which removes velocities left by tolerances. In modes, the energy that the sums lose is added: a spring has no more
 /// of it, kn dg^2 <= lost^2.
-double Finder::spring_noise_before(std::size_t k, const Sight& before) const {
+double Finder::spring_noise_before(std::size_t k, const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];
-  const WitnessLimits& tol = bench_.limits;
+  const LawLimits& tol = context_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const ContactState& state = (*record_.before.mode)[k];
-  const double of_captures = cn * bench_.moved_by(record_.captures, k);
+  const double of_captures = cn * context_.moved_by(record_.captures, k);
   return rounding::of_elimination *
              (2.0 * (size_of_normal(c, before) + kt * (before.place + std::abs(state.anchor))) +
               std::abs(before.N) + std::abs(before.T)) +
@@ -128,10 +129,10 @@ double Finder::spring_noise_before(std::size_t k, const Sight& before) const {
 /// Uncertainty of constraint forces just before, in two sums of the same u and v (check_context.cpp). A sliding contact
 /// has T = f N.
 double Finder::held_noise_before(std::size_t k) const {
-  const HeldForce held = bench_.held_force(record_, k);
+  const HeldForce held = context_.held_force(record_, k);
   const Friction& friction = model_.contacts[k].friction;
-  return std::max(bench_.held_noise(record_, held.N) * std::max({1.0, friction.static_, friction.kinetic}),
-                  bench_.held_noise(record_, held.T));
+  return std::max(context_.held_noise(record_, held.N) * std::max({1.0, friction.static_, friction.kinetic}),
+                  context_.held_noise(record_, held.T));
 }
 
 /// Error of the step in which a guard was located, for steps of given length: h^2/12 |da| in a displacement, h/12
@@ -140,21 +141,22 @@ double Finder::held_noise_before(std::size_t k) const {
 /// both sides, with or without the contact's force, so |da| <= 2 swing, |d(da)| <= 4 swing; higher terms in h are
 /// allowed as for times.
 double Finder::step_error(std::size_t k, double of_u, double of_v) const {
-  const double h = bench_.limits.step;
+  const double h = context_.limits.step;
   if (!(h > 0.0)) return 0.0;
-  return of_uncertainty * h / 12.0 * (2.0 * h * of_u + 4.0 * of_v) * bench_.swing(record_, k);
+  return of_uncertainty * h / 12.0 * (2.0 * h * of_u + 4.0 * of_v) * context_.swing(record_, k);
 }
 
 /// Checks N and T before. If states were found at the end of a step, both sides are the side after.
-void Finder::row_before(const RecordedEvent& event, const Sight& before, const Sight& after) {
+void Finder::row_before(const RecordedEvent& event, const ContactKinematics& before,
+                        const ContactKinematics& after) {
   if (record_.start || moves_at_once(event.contact)) return;  // guessed; decided anew
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
-  const auto apart = [&](double row, double Sight::*force) {
+  const auto apart = [&](double row, double ContactKinematics::*force) {
     const double by = std::abs(row - before.*force);
     return record_.located ? by : std::min(by, std::abs(row - after.*force));
   };
-  const double off = std::max(apart(event.N, &Sight::N), apart(event.T, &Sight::T));
+  const double off = std::max(apart(event.N, &ContactKinematics::N), apart(event.T, &ContactKinematics::T));
   double limit = spring_noise_before(k, before);
   if (off <= limit) return;
   limit += held_noise_before(k);
@@ -166,7 +168,7 @@ void Finder::row_before(const RecordedEvent& event, const Sight& before, const S
 }
 
 /// Checks the gap, which is that of the side after; for a compliance split it is that of the surfaces.
-void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
+void Finder::row_gap(const RecordedEvent& event, const ContactKinematics& after) {
   const Contact& c = model_.contacts[event.contact];
   if (!event.gap) return;
   const bool touches = c.compliance_split() && !is_open((*record_.after.mode)[event.contact].state);
@@ -175,7 +177,7 @@ void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
   if (*event.gap == 0.0) {
     const bool by_force = event.type == "separation" && c.normal_spring();
     const double dashpot = by_force ? c.normal_damping / c.normal_stiffness : 0.0;
-    limit += of_tolerance * (bench_.limits.rtol * after.place + bench_.limits.displacement) +
+    limit += of_tolerance * (context_.limits.rtol * after.place + context_.limits.displacement) +
              settled(event) / (by_force ? c.normal_stiffness : 1.0) + step_error(event.contact, 1.0, dashpot);
   }
   row_check(event, std::abs(*event.gap - g), limit, seen::length);
@@ -186,7 +188,7 @@ void Finder::row_gap(const RecordedEvent& event, const Sight& after) {
 void Finder::row_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
-  const Sight b = touching(k, record_.before), a = touching(k, record_.after);
+  const ContactKinematics b = touching(k, record_.before), a = touching(k, record_.after);
   const int contact = static_cast<int>(k);
   // The uncertainty of constraint forces is a sum over the structure, so it is computed only if needed.
   const auto check = [&](double row, double side, double limit, const Unit& unit, bool holds = false) {
@@ -202,7 +204,7 @@ void Finder::row_of(const RecordedEvent& event) {
   const double speed = rounding::of_elimination * (a.speed + b.speed);
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
-  const double loose = speed + bench_.moved_by(record_.captures, k);
+  const double loose = speed + context_.moved_by(record_.captures, k);
   if (!moves_at_once(k)) {  // velocities of massless parts are decided anew
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
@@ -221,4 +223,4 @@ void Finder::row_of(const RecordedEvent& event) {
   check(event.impulse_t, t, rounding::of_elimination * of_impulses, seen::impulse);
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

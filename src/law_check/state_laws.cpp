@@ -7,19 +7,19 @@
 #include "law_check/laws.hpp"
 #include "law_check/massless_laws.hpp"
 
-namespace signorini {
+namespace signorini::law_check {
 namespace {
 
 /// Constraint rows of rigid contacts, and the changes of their forces that satisfy them:  W dF = asked,
 /// W_ij = row_i . column_j.
-struct HeldRows {
+struct ConstraintRows {
   std::vector<Vector> columns;  // accelerations by a unit force, with friction for a sliding contact
   std::vector<const Combination*> rows;
   std::vector<double> asked, noise;  // noise: of the accelerations along the rows
 
   /// swung: accelerations that were present when a guard was located and have been removed since; empty: none.
-  void add(const Contact& c, const ContactState& state, const OwnResponse& response, const Sight& m,
-           const Vector& swung, bool hold) {
+  void add(const Contact& c, const ContactState& state, const OwnResponse& response,
+           const ContactKinematics& m, const Vector& swung, bool hold) {
     const bool tangent = c.holds_tangent(state.state);
     double of_row = rounding::of_elimination * m.push;
     if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
@@ -47,7 +47,7 @@ struct HeldRows {
     std::vector<Eigen::Index> others;
     for (Eigen::Index i = 0; i < size; ++i)
       if (i != k) others.push_back(i);
-    return rank(W) == rank(W(others, Eigen::all));
+    return base::rank(W) == base::rank(W(others, Eigen::all));
   }
   struct Change {
     Eigen::VectorXd forces, unsure;
@@ -63,7 +63,7 @@ struct HeldRows {
       miss[i] = asked[static_cast<std::size_t>(i)] - row.dot(push);
       for (Eigen::Index j = 0; j < size; ++j) W(i, j) = row.dot(columns[static_cast<std::size_t>(j)]);
     }
-    const Eigen::MatrixXd inverse = pseudo_inverse(W);
+    const Eigen::MatrixXd inverse = base::pseudo_inverse(W);
     Change change{inverse * miss, inverse.cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(noise.data(), size)};
     for (Eigen::Index j = 0; j < size; ++j) push += change.forces[j] * columns[static_cast<std::size_t>(j)];
     return change;
@@ -73,7 +73,7 @@ struct HeldRows {
 }  // namespace
 
 double Finder::force_noise() const {
-  if (!force_noise_) force_noise_ = rounding::of_elimination * bench_.balance(record_.after);
+  if (!force_noise_) force_noise_ = rounding::of_elimination * context_.balance(record_.after);
   return *force_noise_;
 }
 
@@ -90,7 +90,7 @@ void Finder::states() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     if (!c.obeys_coulomb()) continue;
-    const double rest = c.capture_velocity.value_or(bench_.limits.capture_velocity);
+    const double rest = c.capture_velocity.value_or(context_.limits.capture_velocity);
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
     if (!guards_stand(c, k, now, record_.after) || !rows_stand(c, k, now, record_.after, rest)) state_of(k);
     if (!record_.start && record_.located && !rows_stand(c, k, old, record_.before, rest)) old_rows(k);
@@ -101,8 +101,8 @@ void Finder::states() {
 void Finder::old_rows(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.before.mode)[k];
-  const Sight m = see(c, k, record_.before);
-  const WitnessLimits& tol = bench_.limits;
+  const ContactKinematics m = kinematics(c, k, record_.before);
+  const LawLimits& tol = context_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const double held = c.takes_impulses() ? force_noise() : 0.0;
   // In modes, forces and displacements are two different sums, each with its own round-trip error.
@@ -135,9 +135,9 @@ void Finder::old_rows(std::size_t k) {
 void Finder::state_of(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
-  const Sight m = see(c, k, record_.after);
+  const ContactKinematics m = kinematics(c, k, record_.after);
   const int contact = static_cast<int>(k);
-  for (const SeenGuard& guard : guards_of(c, state, m, bench_.limits)) {
+  for (const SeenGuard& guard : guards_of(c, state, m, context_.limits)) {
     // An engine that finds states at ends of steps checks the slip of a whole step.
     if (std::string_view(guard.law) == "slip direction" && (c.sliding_point() || !record_.located)) continue;
     // Such an engine also stops a contact for one step if its slip reverses.
@@ -146,9 +146,9 @@ void Finder::state_of(std::size_t k) {
     // A contact held by others slips at the rounding of the constraints that hold it.
     const bool of_slip = std::string_view(guard.law) == "slip direction";
     if (std::string_view(guard.law) == "rest" || (of_slip && held_beside(model_, k)))
-      zero += bench_.slowest(record_, k);
+      zero += context_.slowest(record_, k);
     if (guard.value < -zero && of_slip)
-      zero += (1.0 + record_.forgiven) * noise_of_slip_rate(bench_, record_.after, k);
+      zero += (1.0 + record_.forgiven) * noise_of_slip_rate(context_, record_.after, k);
     if (guard.value < -zero)
       add(contact, guard.law, -guard.value, zero, guard.unit(), -guard.value > gross * guard.size);
   }
@@ -171,7 +171,7 @@ void Finder::state_of(std::size_t k) {
 }
 
 /// Checks that T satisfies the state's row.
-void Finder::friction_of(std::size_t k, const Sight& m) {
+void Finder::friction_of(std::size_t k, const ContactKinematics& m) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
   const int s = sign_of_slip(state.state);
@@ -183,7 +183,7 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
     size += std::abs(asked) + f * size_of_normal(c, m);
   } else if (kind_of(state.state) == State::stick) {
     if (c.holds_tangent(state.state) || c.sliding_point()) {
-      const double zero = bench_.slowest(record_, k);
+      const double zero = context_.slowest(record_, k);
       if (std::abs(m.dut) > zero)
         add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
       return;
@@ -197,17 +197,17 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
 }
 
 /// True if the contact acts on massless degrees of freedom: its velocities are those of its new state.
-bool Finder::moves_at_once(std::size_t k) const { return bench_.own_response(k) == nullptr; }
+bool Finder::moves_at_once(std::size_t k) const { return context_.own_response(k) == nullptr; }
 
 /// Contact k in its old state, with u, v+ and the new states of all others. nullopt: its old rows do not determine its
 /// forces.
 std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState& old = (*record_.before.mode)[k];
-  const OwnResponse* own = bench_.own_response(k);
+  const OwnResponse* own = context_.own_response(k);
   if (own == nullptr) return std::nullopt;
-  Old result{see(c, k, record_.after)};
-  Sight& m = result.m;
+  Old result{kinematics(c, k, record_.after)};
+  ContactKinematics& m = result.m;
   const bool solved_N = c.takes_impulses() && !is_open(old.state), solved_T = c.holds_tangent(old.state);
   const double N = m.N, T = m.T;
   const auto sliding = [&] { return -sign_of_slip(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N; };
@@ -222,20 +222,20 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
               : sliding();
   Vector push = -(m.N - N) * own->by_n;
   if (!solved_T) push -= (m.T - T) * own->by_t;
-  HeldRows held;
-  const Vector swung = bench_.swung(record_);
+  ConstraintRows held;
+  const Vector swung = context_.swung(record_);
   held.add(c, old, *own, m, swung, true);
   for (std::size_t j = 0; j < model_.contacts.size(); ++j) {
     const Contact& other = model_.contacts[j];
     const ContactState& state = (*record_.after.mode)[j];
     const bool rigid = other.takes_impulses() || other.holds_tangent(state.state);
     if (j == k || !other.obeys_coulomb() || is_open(state.state) || !rigid) continue;
-    const OwnResponse* response = bench_.own_response(j);
+    const OwnResponse* response = context_.own_response(j);
     if (response == nullptr) return std::nullopt;
-    held.add(other, state, *response, see(other, j, record_.after), swung, false);
+    held.add(other, state, *response, kinematics(other, j, record_.after), swung, false);
   }
   if (solved_T && held.is_shared(solved_N ? 1 : 0)) return std::nullopt;
-  const HeldRows::Change change = held.solve(push);
+  const ConstraintRows::Change change = held.solve(push);
   if (solved_N) {
     m.N = N + change.forces[0];
     result.unsure_N = change.unsure[0];
@@ -253,10 +253,11 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
 /// True if its own g', ut', N or T jumps: the motion before does not determine its guard after the jump.
 bool Finder::jumps(std::size_t k) const {
   const Contact& c = model_.contacts[k];
-  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
-  const double speed = rounding::of_elimination * a.speed + of_tolerance * bench_.limits.velocity;
-  const double force = rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
-                       of_tolerance * (bench_.limits.force + c.normal_stiffness * bench_.limits.displacement);
+  const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
+  const double speed = rounding::of_elimination * a.speed + of_tolerance * context_.limits.velocity;
+  const double force =
+      rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
+      of_tolerance * (context_.limits.force + c.normal_stiffness * context_.limits.displacement);
   const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;  // N = kn g is continuous, as u is
   return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
          (may_jump && std::abs(a.N - b.N) > force);
@@ -281,7 +282,7 @@ void Finder::transitions() {
 
 /// True if a rigidly sticking contact slides, however slowly, after a hit that its friction could not withstand:
 /// |Pt| = fk Pn.
-bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& after) const {
+bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const ContactKinematics& after) const {
   const Contact& c = model_.contacts[k];
   if (kind_of(old.state) != State::stick || c.tangential_stiffness) return false;
   if (std::abs(after.dut) > rounding::of_elimination * after.speed) return true;
@@ -300,7 +301,7 @@ namespace {
 
 /// True if N jumps. With a dashpot its part of the jump is tested alone, since u is continuous: N is known to the
 /// rounding of kn u, cn (g'+ - g'-) to that of velocities.
-bool force_jumps(const Contact& c, const Sight& before, const Sight& after) {
+bool force_jumps(const Contact& c, const ContactKinematics& before, const ContactKinematics& after) {
   const double of_N = rounding::of_many * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
   const double of_rate = rounding::of_many * (before.speed + after.speed);
   return std::abs(after.N - before.N) > of_N ||
@@ -314,7 +315,7 @@ void Finder::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (!c.forces_follow_motion() || (moves_at_once(k) && record_.breakpoint)) return;
-  const Sight before = see(c, k, record_.before), after = see(c, k, record_.after);
+  const ContactKinematics before = kinematics(c, k, record_.before), after = kinematics(c, k, record_.after);
   if (c.normal_force_given() && (is_open(old.state) || is_open(now.state)))
     return;  // the compression decides
   const double rest = rounding::of_elimination * after.speed;
@@ -329,7 +330,7 @@ void Finder::necessity(std::size_t k) {
   if (its_own_falls(k, old, before)) return;
   const std::optional<Old> before_it = as_before(k);
   if (!before_it) return;
-  const SeenGuards guards = guards_of(c, old, before_it->m, bench_.limits);
+  const SeenGuards guards = guards_of(c, old, before_it->m, context_.limits);
   const RecordedEvent* event = event_of(k);
   const SeenGuard* nearest = nullptr;
   double limit = 0.0;
@@ -352,11 +353,11 @@ void Finder::necessity(std::size_t k) {
 }
 
 /// True if a guard of its own was zero before, although changes of other contacts at this instant would have lifted it.
-bool Finder::its_own_falls(std::size_t k, const ContactState& old, const Sight& before) const {
+bool Finder::its_own_falls(std::size_t k, const ContactState& old, const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];
   const RecordedEvent* event = event_of(k);
   const double off = event != nullptr && event->t_uncertainty >= 0.0 ? event->t_uncertainty : 0.0;
-  for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits))
+  for (const SeenGuard& guard : guards_of(c, old, before, context_.limits))
     if (guard.value <= zero_of(guard, c) + of_uncertainty * off * std::abs(guard.rate)) return true;
   return false;
 }
@@ -368,10 +369,10 @@ void Finder::guard_of(const RecordedEvent& event) {
   if (!c.forces_follow_motion()) return;
   const ContactState& old = (*record_.before.mode)[k];
   if (sign_of_slip(old.state) != 0 && c.normal_damping > 0.0 && record_.before.a == nullptr) return;
-  const Sight m = see(c, k, record_.before);
+  const ContactKinematics m = kinematics(c, k, record_.before);
   double least = std::numeric_limits<double>::infinity(), limit = 0.0;
   const SeenGuard* which = nullptr;
-  const SeenGuards guards = guards_of(c, old, m, bench_.limits);
+  const SeenGuards guards = guards_of(c, old, m, context_.limits);
   for (const SeenGuard& guard : guards) {
     // The zero was located with u and v themselves: no tolerance of the engine remains.
     const double zero = zero_of(guard, c) - of_tolerance * guard.tolerance +
@@ -385,4 +386,4 @@ void Finder::guard_of(const RecordedEvent& event) {
     add(static_cast<int>(k), "time of the event", std::abs(least), limit, which->unit(), false);
 }
 
-}  // namespace signorini
+}  // namespace signorini::law_check

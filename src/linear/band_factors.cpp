@@ -7,7 +7,7 @@
 #include "base/rounding.hpp"
 #include "base/wide_lanes.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 namespace {
 
 // Three digits: the same loss as for pivots kept for another length (linear/klu.cpp).
@@ -18,7 +18,7 @@ constexpr std::size_t lanes = 4;
 [[gnu::always_inline]] inline void eliminate(double factor, const double* pivots, std::size_t count,
                                              double* row) {
   for (std::size_t c = 0; c < count; c += lanes)
-    lanes_at<Four>(row + c).v -= factor * lanes_at<Four>(pivots + c).v;
+    base::lanes_at<base::Four>(row + c).v -= factor * base::lanes_at<base::Four>(pivots + c).v;
 }
 
 struct Band {
@@ -122,4 +122,4 @@ void BandFactors::solve(double* b) const {
   with(std::make_index_sequence<most_unrolled + 1>());
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

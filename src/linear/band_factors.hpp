@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace signorini {
+namespace signorini::linear {
 
 class BandFactors {
  public:
@@ -41,4 +41,4 @@ class BandFactors {
   std::vector<double> diagonal_, sums_;  // a_ii and the sums above
 };
 
-}  // namespace signorini
+}  // namespace signorini::linear

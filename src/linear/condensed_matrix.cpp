@@ -6,12 +6,12 @@
 
 #include "linear/unknowns.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 namespace {
 
 using Neighbours = std::vector<std::vector<int>>;
 
-Neighbours neighbours_of(const Model& model, const Structure& structure) {
+Neighbours neighbours_of(const Model& model, const SystemMatrices& structure) {
   std::vector<std::set<int>> sets(static_cast<std::size_t>(structure.size));
   const auto couple = [&](int i, int j) {
     if (i == j) return;
@@ -54,7 +54,7 @@ std::vector<int> levels_from(int first, const Neighbours& neighbours, std::vecto
 
 }  // namespace
 
-BandOrder band_order(const Model& model, const Structure& structure) {
+BandOrder band_order(const Model& model, const SystemMatrices& structure) {
   const Neighbours neighbours = neighbours_of(model, structure);
   const std::size_t n = neighbours.size();
   BandOrder result{std::vector<int>(n, 0), 0};
@@ -91,13 +91,13 @@ CondensedRows::Held held_by(const Rows& rows) {
                            tangent.gap, tangent.ut, tangent.vn, tangent.vt, false,     false};
   held.on_motion = moves(normal) || moves(tangent);
   // N from its own row, then T: no elimination that could lose digits.
-  held.told = !accelerates && normal.T == 0.0 && normal.N != 0.0 && tangent.T != 0.0;
+  held.known = !accelerates && normal.T == 0.0 && normal.N != 0.0 && tangent.T != 0.0;
   return held;
 }
 
 }  // namespace
 
-std::optional<CondensedRows> CondensedRows::of(const Model& model, const Structure& structure,
+std::optional<CondensedRows> CondensedRows::of(const Model& model, const SystemMatrices& structure,
                                                std::size_t most_width) {
   const BandOrder order = band_order(model, structure);
   if (order.width > most_width) return std::nullopt;
@@ -141,14 +141,14 @@ std::optional<CondensedRows> CondensedRows::of(const Model& model, const Structu
     result.at_place_end_.push_back(result.at_place_.size());
   }
   result.held_.resize(model.contacts.size());
-  result.untold_ = result.held_.size();
+  result.unknown_ = result.held_.size();
   return result;
 }
 
 void CondensedRows::put(std::size_t c, const Rows& rows) {
-  untold_ -= held_[c].told ? 0 : 1;
+  unknown_ -= held_[c].known ? 0 : 1;
   held_[c] = held_by(rows);
-  untold_ += held_[c].told ? 0 : 1;
+  unknown_ += held_[c].known ? 0 : 1;
   if (changed_.size() == most_remembered) {  // discards the earlier half
     constexpr std::size_t half = most_remembered / 2;
     changed_.erase(changed_.begin(), changed_.begin() + half);
@@ -198,7 +198,7 @@ constexpr std::size_t rows_at_once = 32;
 
 }  // namespace
 
-bool is_economical(const Model& model, const Structure& structure, const SharedRows& shared) {
+bool is_economical(const Model& model, const SystemMatrices& structure, const RedundantRows& shared) {
   return !has_massless(model) && shared.groups().empty() &&
          structure.size + static_cast<int>(model.force_count()) >= economical_from;
 }
@@ -267,7 +267,7 @@ bool CondensedMatrix::set(const Weights& weights) {
   weights_ = weights;
   set_ = true;
   if (at_them && changed->empty()) return holds_;
-  holds_ = rows_.tell() && (at_them && holds_ ? renew(*changed) : factor());
+  holds_ = rows_.note_known() && (at_them && holds_ ? renew(*changed) : factor());
   return holds_;
 }
 
@@ -300,4 +300,4 @@ void CondensedMatrix::solve(double* x) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

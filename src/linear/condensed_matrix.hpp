@@ -21,7 +21,7 @@
 #include "linear/system_matrices.hpp"
 #include "linear/system_matrix.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
 // An order of degrees of freedom in which matrices have a narrow band (Cuthill, McKee 1969).
 //
@@ -35,7 +35,7 @@ struct BandOrder {
   std::size_t width = 0;
 };
 
-[[nodiscard]] BandOrder band_order(const Model& model, const Structure& structure);
+[[nodiscard]] BandOrder band_order(const Model& model, const SystemMatrices& structure);
 
 // Compliant contacts in force on a structure, row by row of its band.
 //
@@ -62,11 +62,11 @@ class CondensedRows {
     double normal_gap = 0.0, normal_ut = 0.0, normal_vn = 0.0, normal_vt = 0.0;
     double tangent_gap = 0.0, tangent_ut = 0.0, tangent_vn = 0.0, tangent_vt = 0.0;
     bool on_motion = false;  ///< its forces follow the motion
-    bool told = false;       ///< own rows determine its forces, without accelerations
+    bool known = false;      ///< own rows determine its forces, without accelerations
   };
 
   /// Rows of a model with is_economical(), without contacts in force. nullopt: the band is wider.
-  [[nodiscard]] static std::optional<CondensedRows> of(const Model& model, const Structure& structure,
+  [[nodiscard]] static std::optional<CondensedRows> of(const Model& model, const SystemMatrices& structure,
                                                        std::size_t most_width);
 
   [[nodiscard]] std::size_t size() const { return dof_at_.size(); }
@@ -78,7 +78,7 @@ class CondensedRows {
   void put(std::size_t contact, const Rows& rows);
   void put(const std::vector<Rows>& rows);
   /// False: a row contains an acceleration or does not determine its force.
-  [[nodiscard]] bool tell() const { return untold_ == 0; }
+  [[nodiscard]] bool note_known() const { return unknown_ == 0; }
   /// Version number; each change increases it.
   [[nodiscard]] long version() const { return forgotten_ + static_cast<long>(changed_.size()); }
   /// Contacts put in force since that version, some possibly twice. nullopt: the record does not reach back so far.
@@ -117,7 +117,7 @@ class CondensedRows {
   std::vector<std::uint32_t> at_place_;      // touches, place by place
   std::vector<std::size_t> at_place_end_{0};
   std::vector<Held> held_;
-  std::size_t untold_ = 0;            // number of contacts
+  std::size_t unknown_ = 0;           // number of contacts
   std::vector<std::size_t> changed_;  // the last changed contacts
   long forgotten_ = 0;                // number of earlier changes
 };
@@ -126,7 +126,8 @@ class CondensedRows {
 /// unit/engine/newmark cover both sides.
 inline constexpr int economical_from = 200;
 /// True if all degrees of freedom have mass, contacts share no rows, and there are at least economical_from unknowns.
-[[nodiscard]] bool is_economical(const Model& model, const Structure& structure, const SharedRows& shared);
+[[nodiscard]] bool is_economical(const Model& model, const SystemMatrices& structure,
+                                 const RedundantRows& shared);
 
 class CondensedMatrix {
  public:
@@ -165,4 +166,4 @@ class CondensedMatrix {
   std::vector<std::size_t> touched_;  // affected places
 };
 
-}  // namespace signorini
+}  // namespace signorini::linear

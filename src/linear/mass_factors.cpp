@@ -6,9 +6,9 @@
 #include "base/eigen_dense.hpp"
 #include "linear/klu.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
-std::shared_ptr<const TriangularFactors> mass_factors(const Structure& structure) {
+std::shared_ptr<const TriangularFactors> mass_factors(const SystemMatrices& structure) {
   std::vector<std::int64_t> start(1, 0), row;
   std::vector<double> value;
   for (std::size_t j = 0; j < static_cast<std::size_t>(structure.size); ++j) {
@@ -109,7 +109,7 @@ bool UpdatedFactors::set(std::vector<ChangedRow> rows) {
   shares_.resize(m);
   if (m == 0) return true;
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(m, m);
-  inverse_ = solve_dense(one + added, one);
+  inverse_ = base::solve_dense(one + added, one);
   const double size = 1.0 + norm(added);
   return least_quality * size * std::max(1.0, norm(inverse_)) <= 1.0;  // false for NaN
 }
@@ -125,4 +125,4 @@ void UpdatedFactors::solve(double* b, double* work) {
     if (shares_[j] != 0.0) x.noalias() -= shares_[j] * *in_force_[static_cast<std::size_t>(j)];
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

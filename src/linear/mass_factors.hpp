@@ -18,10 +18,10 @@
 #include "linear/klu.hpp"
 #include "linear/system_matrices.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
 /// Factors of M. Null: M is singular to working precision.
-[[nodiscard]] std::shared_ptr<const TriangularFactors> mass_factors(const Structure& structure);
+[[nodiscard]] std::shared_ptr<const TriangularFactors> mass_factors(const SystemMatrices& structure);
 
 /// B of each contact: N and T in its normal row, then in its tangent row.
 struct OwnForces {
@@ -90,4 +90,4 @@ class UpdatedFactors {
   long solves_ = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::linear

@@ -8,7 +8,7 @@
 #include "base/eigen_dense.hpp"
 #include "contact/motion.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 namespace {
 
 // Relative remainder of a row after removal of all others; rounding is below.
@@ -47,7 +47,7 @@ Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
     }
     null(j, null.cols() - 1) = -1.0;
   }
-  return null.cols() == 0 ? null : orthonormal(null);
+  return null.cols() == 0 ? null : base::orthonormal(null);
 }
 
 bool has_share(const Eigen::MatrixXd& null, Eigen::Index i) { return null.row(i).norm() > dependent; }
@@ -66,7 +66,7 @@ const Combination& form_of(const Model& model, std::size_t row) {
 
 }  // namespace
 
-bool SharedRows::has_mass(const Combination& form) const {
+bool RedundantRows::has_mass(const Combination& form) const {
   return !form.terms.empty() && std::all_of(form.terms.begin(), form.terms.end(), [&](const auto& term) {
     return lightness_[static_cast<std::size_t>(term.first)] > 0.0;
   });
@@ -74,8 +74,8 @@ bool SharedRows::has_mass(const Combination& form) const {
 
 /// Rigid contacts that act on common degrees of freedom; separately, sliders on ground at rest: their normal forces are
 /// prescribed, and contacts that stick to differently moving surfaces hold no common motion.
-std::vector<std::vector<std::size_t>> SharedRows::together() const {
-  DisjointSets sets(model_.contacts.size());
+std::vector<std::vector<std::size_t>> RedundantRows::together() const {
+  base::DisjointSets sets(model_.contacts.size());
   std::unordered_map<int, std::size_t> feet, sliders;  // the first that acts on a degree of freedom
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
@@ -90,7 +90,7 @@ std::vector<std::vector<std::size_t>> SharedRows::together() const {
   return groups;
 }
 
-SharedRows::SharedRows(const Model& model, const Structure& structure)
+RedundantRows::RedundantRows(const Model& model, const SystemMatrices& structure)
     : model_(model),
       lightness_(static_cast<std::size_t>(structure.size), 0.0),
       grouped_(model.contacts.size(), false) {
@@ -117,13 +117,14 @@ SharedRows::SharedRows(const Model& model, const Structure& structure)
   }
 }
 
-Eigen::MatrixXd SharedRows::columns(const std::vector<std::size_t>& rows) const {
+Eigen::MatrixXd RedundantRows::columns(const std::vector<std::size_t>& rows) const {
   std::vector<const Combination*> forms;
   for (const std::size_t row : rows) forms.push_back(&form_of(model_, row));
-  return form_columns(forms, [&](int dof) { return std::sqrt(lightness_[static_cast<std::size_t>(dof)]); });
+  return contact::form_columns(forms,
+                               [&](int dof) { return std::sqrt(lightness_[static_cast<std::size_t>(dof)]); });
 }
 
-std::vector<SharedForces> SharedRows::in_force(const std::vector<Rows>& rows) const {
+std::vector<SharedForces> RedundantRows::in_force(const std::vector<Rows>& rows) const {
   std::vector<SharedForces> result;
   for (const std::vector<std::size_t>& group : groups_) {
     SharedForces shared;
@@ -159,4 +160,4 @@ std::vector<SharedForces> SharedRows::in_force(const std::vector<Rows>& rows) co
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

@@ -17,7 +17,7 @@
 #include "contact/law.hpp"
 #include "linear/system_matrices.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
 /// s Z (D Y)' on rows of forces, numbered as the forces are (signorini/force_layout.hpp).
 struct SharedForces {
@@ -32,9 +32,9 @@ struct SharedForces {
 /// True if row i participates in one of these combinations (orthonormal columns) by more than rounding.
 [[nodiscard]] bool has_share(const Eigen::MatrixXd& null, Eigen::Index i);
 
-class SharedRows {
+class RedundantRows {
  public:
-  SharedRows(const Model& model, const Structure& structure);
+  RedundantRows(const Model& model, const SystemMatrices& structure);
 
   /// Lists of two or more contacts, some of which may constrain one motion together.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
@@ -55,4 +55,4 @@ class SharedRows {
   [[nodiscard]] Eigen::MatrixXd columns(const std::vector<std::size_t>& rows) const;
 };
 
-}  // namespace signorini
+}  // namespace signorini::linear

@@ -7,9 +7,9 @@
 #include "base/rounding.hpp"
 #include "base/wide_lanes.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
-Structure::Structure(const Model& model) : size(model.size()) {
+SystemMatrices::SystemMatrices(const Model& model) : size(model.size()) {
   // A sum of magnitudes cannot cancel, so its pattern is the union.
   SparseMatrix pattern = model.mass.cwiseAbs() + model.damping.cwiseAbs() + model.stiffness.cwiseAbs();
   pattern.makeCompressed();
@@ -40,7 +40,7 @@ Structure::Structure(const Model& model) : size(model.size()) {
   }
 }
 
-void Structure::subtract_forces(const double* v, const double* u, double* r) const {
+void SystemMatrices::subtract_forces(const double* v, const double* u, double* r) const {
   if (!banded_.empty()) return banded_.subtract(v, u, r);
   for (int j = 0; j < size; ++j) {
     const double vj = v[j], uj = u[j];
@@ -50,7 +50,7 @@ void Structure::subtract_forces(const double* v, const double* u, double* r) con
   }
 }
 
-double Structure::damping_power(const double* v) const {
+double SystemMatrices::damping_power(const double* v) const {
   double total = 0.0;
   int p = 0;
   for (const HalfColumn& half : half_) {
@@ -63,7 +63,7 @@ double Structure::damping_power(const double* v) const {
   return total;
 }
 
-void Structure::add_product(const double* a, const double* v, const double* u, double* r) const {
+void SystemMatrices::add_product(const double* a, const double* v, const double* u, double* r) const {
   for (int j = 0; j < size; ++j) {
     const double aj = a[j], vj = v[j], uj = u[j];
     const auto begin = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j)]);
@@ -72,7 +72,7 @@ void Structure::add_product(const double* a, const double* v, const double* u, d
   }
 }
 
-void Structure::add_product(const std::vector<double>& values, const double* x, double* r) const {
+void SystemMatrices::add_product(const std::vector<double>& values, const double* x, double* r) const {
   for (int j = 0; j < size; ++j) {
     const double xj = x[j];
     if (xj == 0.0) continue;
@@ -82,7 +82,7 @@ void Structure::add_product(const std::vector<double>& values, const double* x, 
   }
 }
 
-double Structure::magnitude(const std::vector<double>& values, const double* x) const {
+double SystemMatrices::magnitude(const std::vector<double>& values, const double* x) const {
   double total = 0.0;
   for (int j = 0; j < size; ++j) {
     const auto begin = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j)]);
@@ -92,7 +92,7 @@ double Structure::magnitude(const std::vector<double>& values, const double* x) 
   return total;
 }
 
-double Structure::quadratic(const std::vector<double>& values, const double* x) const {
+double SystemMatrices::quadratic(const std::vector<double>& values, const double* x) const {
   double total = 0.0;
   for (int j = 0; j < size; ++j) {
     const auto begin = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j)]);
@@ -128,11 +128,11 @@ SIGNORINI_WIDE_LANES void subtract_blocks(InnerBlocks blocks, std::size_t width,
   for (std::size_t block = blocks.first; block < blocks.last; ++block) {
     const std::size_t row = block * rows_of_lanes;
     const double* entry = forces + block * diagonals * 2 * rows_of_lanes;
-    Four sum = lanes_at<Four>(r + row).v;
+    base::Four sum = base::lanes_at<base::Four>(r + row).v;
     for (std::size_t j = row - width; j <= row + width; ++j, entry += 2 * rows_of_lanes)
-      sum -= lanes_at<Four>(entry).v * lanes_at<Four>(v + j).v +
-             lanes_at<Four>(entry + rows_of_lanes).v * lanes_at<Four>(u + j).v;
-    lanes_at<Four>(r + row).v = sum;
+      sum -= base::lanes_at<base::Four>(entry).v * base::lanes_at<base::Four>(v + j).v +
+             base::lanes_at<base::Four>(entry + rows_of_lanes).v * base::lanes_at<base::Four>(u + j).v;
+    base::lanes_at<base::Four>(r + row).v = sum;
   }
 }
 
@@ -183,7 +183,7 @@ void BandedForces::subtract(const double* v, const double* u, double* r) const {
   });
 }
 
-Momentum::Momentum(const Model& model, const Structure& structure)
+StructuralForces::StructuralForces(const Model& model, const SystemMatrices& structure)
     : alpha_(model.alpha),
       beta_(model.beta),
       row_start_(static_cast<std::size_t>(structure.size) + 1, 0),
@@ -210,7 +210,7 @@ Momentum::Momentum(const Model& model, const Structure& structure)
   if (!rest_.empty()) v_.resize(n);
 }
 
-void Momentum::apply(double* r) const {
+void StructuralForces::apply(double* r) const {
   // Both products of an entry at once: pairs are one register.
   using Pair = Eigen::Map<const Eigen::Array2d>;
   const double *value = values_.data(), *x = x_.data();
@@ -225,4 +225,4 @@ void Momentum::apply(double* r) const {
   for (const Entry& entry : rest_) r[entry.row] += entry.value * v_[entry.column];
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

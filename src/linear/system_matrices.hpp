@@ -11,7 +11,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
 // Forces of a structure with narrow band matrices, four equations at once.
 //
@@ -37,8 +37,8 @@ class BandedForces {
   std::vector<double> values_;  // four rows, diagonal by diagonal: c of each, k of each
 };
 
-struct Structure {
-  explicit Structure(const Model& model);
+struct SystemMatrices {
+  explicit SystemMatrices(const Model& model);
 
   int size = 0;
   std::vector<std::int64_t> column_start;
@@ -79,9 +79,9 @@ struct Structure {
 //   for (i) product.put(i, a[i], v[i], u[i]);
 //   product.apply(r);
 
-class Momentum {
+class StructuralForces {
  public:
-  Momentum(const Model& model, const Structure& structure);
+  StructuralForces(const Model& model, const SystemMatrices& structure);
 
   /// Sets the motion of degree of freedom i.
   void put(std::size_t i, double a, double v, double u) {
@@ -104,4 +104,4 @@ class Momentum {
   std::vector<double> x_, v_;   // factors of the rows, (for M, for K) of each column
 };
 
-}  // namespace signorini
+}  // namespace signorini::linear

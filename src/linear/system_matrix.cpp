@@ -4,7 +4,7 @@
 #include <array>
 #include <set>
 
-namespace signorini {
+namespace signorini::linear {
 namespace {
 
 /// The pattern as sets of rows by column, and the look-up of positions once it is complete.
@@ -72,7 +72,7 @@ std::vector<int> touched(const Contact& contact) {
   return {dofs.begin(), dofs.end()};
 }
 
-Pattern pattern_of(const Model& model, const Structure& structure, const SharedRows& shared) {
+Pattern pattern_of(const Model& model, const SystemMatrices& structure, const RedundantRows& shared) {
   const ForcePlaces at{structure.size, model.layout};
   Pattern pattern(structure.size + static_cast<int>(model.force_count()));
   for (int j = 0; j < structure.size; ++j) {
@@ -120,13 +120,13 @@ double component(const Combination& combination, int dof) {
   return sum;
 }
 
-std::vector<Rows> rows_of(const Model& model, const Mode& mode) {
+std::vector<Rows> rows_of(const Model& model, const contact::ContactStates& mode) {
   std::vector<Rows> result;
-  for (std::size_t k = 0; k < mode.size(); ++k) result.push_back(rows(model.contacts[k], mode[k]));
+  for (std::size_t k = 0; k < mode.size(); ++k) result.push_back(contact::rows(model.contacts[k], mode[k]));
   return result;
 }
 
-SystemMatrix::SystemMatrix(const Model& model, const Structure& structure)
+SystemMatrix::SystemMatrix(const Model& model, const SystemMatrices& structure)
     : size_(structure.size + static_cast<int>(model.force_count())),
       layout_(model.layout),
       structure_(structure),
@@ -239,4 +239,4 @@ bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>
   return fresh ? klu_.factor(values_) : klu_.refactor(values_);
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

@@ -22,7 +22,7 @@
 #include "linear/system_matrices.hpp"
 #include "linear/undamped_motion.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
 /// Acceleration, velocity and displacement per unit of the unknown in a column.
 struct Weights {
@@ -39,11 +39,11 @@ struct Weights {
 }
 
 /// Rows of all contacts in a contact state.
-[[nodiscard]] std::vector<Rows> rows_of(const Model& model, const Mode& mode);
+[[nodiscard]] std::vector<Rows> rows_of(const Model& model, const contact::ContactStates& mode);
 
 class SystemMatrix {
  public:
-  SystemMatrix(const Model& model, const Structure& structure);
+  SystemMatrix(const Model& model, const SystemMatrices& structure);
 
   /// Fills the values; weights: one for each degree of freedom. `fresh`: choose new pivots (after a state change).
   /// False: singular.
@@ -51,7 +51,7 @@ class SystemMatrix {
            const std::vector<UndampedMotion>& undamped = {});
   /// b := A^-1 b, length size().
   void solve(double* b) { klu_.solve(b); }
-  [[nodiscard]] const SharedRows& shared_rows() const { return shared_; }
+  [[nodiscard]] const RedundantRows& shared_rows() const { return shared_; }
   /// Shared forces in the rows that were set last.
   [[nodiscard]] const std::vector<SharedForces>& shared() const { return in_force_; }
   [[nodiscard]] int size() const { return size_; }
@@ -72,8 +72,8 @@ class SystemMatrix {
 
   int size_;
   const ForceLayout layout_;
-  const Structure& structure_;
-  SharedRows shared_;
+  const SystemMatrices& structure_;
+  RedundantRows shared_;
   std::vector<SharedForces> in_force_;
   bool united_;  // some columns also have the rows of others
   std::vector<std::int64_t> column_start_, row_;
@@ -84,4 +84,4 @@ class SystemMatrix {
   Klu klu_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::linear

@@ -8,7 +8,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 namespace {
 
 /// x_dof = (normal r + tangent q)/divisor.
@@ -189,4 +189,4 @@ std::vector<std::vector<int>> undamped_together(const std::vector<DofKind>& own,
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

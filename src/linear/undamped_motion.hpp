@@ -15,7 +15,7 @@
 #include "linear/unknowns.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
 // Motions of degrees of freedom that a single contact prescribes.
 //
@@ -59,4 +59,4 @@ struct MotionKinds {
 [[nodiscard]] std::vector<std::vector<int>> undamped_together(const std::vector<DofKind>& own,
                                                               const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::linear

@@ -6,9 +6,9 @@
 
 #include "contact/constants.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
-std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure) {
+std::vector<DofKind> dof_kinds(const Model& model, const SystemMatrices& structure) {
   const auto n = static_cast<std::size_t>(structure.size);
   std::vector<double> damping(n, 0.0);
   for (std::size_t p = 0; p < structure.row.size(); ++p)
@@ -81,11 +81,11 @@ Model restricted(const Model& whole, const std::vector<int>& dofs, const std::ve
   };
   for (const std::size_t k : contacts) {
     Contact contact = whole.contacts[k];
-    visit_forms(contact, renumber);
+    contact::visit_forms(contact, renumber);
     model.contacts.push_back(std::move(contact));
     if (!whole.continues.empty()) model.continues.push_back(whole.continues[k]);
   }
   return model;
 }
 
-}  // namespace signorini
+}  // namespace signorini::linear

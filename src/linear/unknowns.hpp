@@ -10,7 +10,7 @@
 #include "signorini/force_layout.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::linear {
 
 struct Unknowns {
   std::size_t dofs = 0, contacts = 0;
@@ -32,7 +32,7 @@ struct Unknowns {
 enum class DofKind : unsigned char { massive, damped, algebraic };
 
 /// Kinds by the structure alone; in a contact state: linear/undamped_motion.hpp.
-[[nodiscard]] std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure);
+[[nodiscard]] std::vector<DofKind> dof_kinds(const Model& model, const SystemMatrices& structure);
 /// True if there is a degree of freedom without mass.
 [[nodiscard]] bool has_massless(const Model& model);
 
@@ -50,4 +50,4 @@ enum class DofKind : unsigned char { massive, damped, algebraic };
 /// The same load without a direction: it acts on no degree of freedom yet.
 [[nodiscard]] Load without_direction(const Load& load);
 
-}  // namespace signorini
+}  // namespace signorini::linear

@@ -12,7 +12,7 @@
 #include "mesh/mesh_quality.hpp"
 #include "mesh/plane_shapes.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 namespace {
 
 constexpr std::size_t longest_word = 200;
@@ -62,7 +62,7 @@ void GmshWords::end_section(const std::string& name) {
 
 long GmshWords::integer(const char* what) {
   const std::string text = word();
-  const auto value = parse_integer(text);
+  const auto value = base::parse_integer(text);
   if (!value) fail(fmt::format("found {}, expected {}, an integer", found(text), what));
   return static_cast<long>(*value);
 }
@@ -76,7 +76,7 @@ long GmshWords::count(const char* what) {
 
 double GmshWords::number(const char* what) {
   const std::string text = word();
-  const auto value = parse_number(text);
+  const auto value = base::parse_number(text);
   if (!value || !std::isfinite(*value))
     fail(fmt::format("found {}, expected {}, a number", found(text), what));
   return *value;
@@ -499,4 +499,4 @@ PlaneMesh read_gmsh(std::istream& in, const std::string& file, const std::string
   return BodyBuilder(content, file, key).build(surfaces);
 }
 
-}  // namespace signorini
+}  // namespace signorini::mesh

@@ -18,7 +18,7 @@
 #include "signorini/error.hpp"
 #include "signorini/plane_mesh.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 
 // Reads the words of a mesh file one by one, with their line numbers.
 //
@@ -64,4 +64,4 @@ class GmshWords {
 /// place. Reverses the elements first if all run clockwise.
 void check_elements(PlaneMesh& mesh, const std::string& key);
 
-}  // namespace signorini
+}  // namespace signorini::mesh

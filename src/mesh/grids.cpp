@@ -6,7 +6,7 @@
 #include "base/rounding.hpp"
 #include "mesh/plane_shapes.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 namespace {
 
 /// Lattice of nodes over u and v; quadratic elements have half steps.
@@ -153,4 +153,4 @@ PlaneMesh ring_mesh(const RingSpec& ring, const GridSpec& grid) {
   return std::move(lattice.mesh);
 }
 
-}  // namespace signorini
+}  // namespace signorini::mesh

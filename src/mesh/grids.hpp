@@ -12,7 +12,7 @@
 
 #include "signorini/plane_mesh.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 
 struct GridSpec {
   PlaneShape shape = PlaneShape::q4;
@@ -32,4 +32,4 @@ struct RingSpec {
 [[nodiscard]] PlaneMesh rectangle_mesh(const RectangleSpec& rectangle, const GridSpec& grid);
 [[nodiscard]] PlaneMesh ring_mesh(const RingSpec& ring, const GridSpec& grid);
 
-}  // namespace signorini
+}  // namespace signorini::mesh

@@ -7,7 +7,7 @@
 
 #include "mesh/plane_shapes.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 
 MeshQuality quality_of(const std::vector<PlaneMesh::Element>& elements, const PlaceOf& place) {
   MeshQuality quality;
@@ -29,4 +29,4 @@ MeshQuality quality_of(const std::vector<PlaneMesh::Element>& elements, const Pl
   return quality;
 }
 
-}  // namespace signorini
+}  // namespace signorini::mesh

@@ -16,7 +16,7 @@
 #include "mesh/plane_shapes.hpp"
 #include "signorini/plane_mesh.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 
 struct MeshQuality {
   struct Worst {
@@ -51,4 +51,4 @@ inline void add_edges(const std::vector<PlaneMesh::Element>& elements, SharedEdg
     }
 }
 
-}  // namespace signorini
+}  // namespace signorini::mesh

@@ -11,7 +11,7 @@
 #include "base/rounding.hpp"
 #include "mesh/plane_shapes.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 namespace {
 
 using Point2 = Eigen::Vector2d;
@@ -310,4 +310,4 @@ MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const Plane
   return seam;
 }
 
-}  // namespace signorini
+}  // namespace signorini::mesh

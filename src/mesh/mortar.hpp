@@ -20,7 +20,7 @@
 
 #include "signorini/plane_mesh.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 
 using PlanePoint = std::array<double, 2>;
 using PlaceOf = std::function<PlanePoint(int node)>;
@@ -51,4 +51,4 @@ struct MortarSeam {
 [[nodiscard]] MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const PlanePoint& point,
                                         const PlanePoint& normal, const PlaceOf& place);
 
-}  // namespace signorini
+}  // namespace signorini::mesh

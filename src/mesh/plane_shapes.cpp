@@ -1,6 +1,6 @@
 #include "mesh/plane_shapes.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 namespace {
 
 // Corners and middle nodes of a quadrilateral.
@@ -159,4 +159,4 @@ EdgeValues edge_shapes_at(std::size_t nodes, double s) {
 
 std::span<const EdgePoint> edge_points() { return line_5; }
 
-}  // namespace signorini
+}  // namespace signorini::mesh

@@ -15,7 +15,7 @@
 
 #include "signorini/plane_mesh.hpp"
 
-namespace signorini {
+namespace signorini::mesh {
 
 [[nodiscard]] std::size_t node_count(PlaneShape shape);
 [[nodiscard]] constexpr std::size_t corner_count(PlaneShape shape) {
@@ -64,4 +64,4 @@ struct EdgePoint {
 };
 [[nodiscard]] std::span<const EdgePoint> edge_points();
 
-}  // namespace signorini
+}  // namespace signorini::mesh

@@ -38,7 +38,16 @@
 #include "model/statics/statics.hpp"
 #include "scene/saved_state.hpp"
 
-namespace signorini {
+namespace signorini::model {
+
+using assembly::assemble_matrices;
+using assembly::assemble_nodes;
+using assembly::Assembly;
+using assembly::DofMap;
+using assembly::place_of_structure;
+using modes::hold_contacts;
+using modes::lowest_frequency;
+
 namespace {
 
 /// Takes from a saved run the shears of contacts, from which the anchors follow, their slip directions, and the states
@@ -84,10 +93,11 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
     throw SceneError(scene.initial.place, "run.initial",
                      "with [matrices] a static start needs loads with a constant history that say what the "
                      "weight is");
-  Equilibrium found = scene.run.geometric
-                          ? second_pass(scene, map, model, pressed)
-                          : find_equilibrium(model.stiffness, static_load(model.loads, model.size()),
-                                             model.contacts, map, scene.initial.place, scene.units);
+  statics::Equilibrium found =
+      scene.run.geometric
+          ? second_pass(scene, map, model, pressed)
+          : statics::find_equilibrium(model.stiffness, assembly::static_load(model.loads, model.size()),
+                                      model.contacts, map, scene.initial.place, scene.units);
   model.u0 = std::move(found.u);
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;
@@ -121,7 +131,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   model.alpha = spec.alpha;
   model.beta = spec.beta;
   const SavedState* before = same_run(scene);
-  const auto saved = before ? saved_motion(*before, saved_alpha) : std::nullopt;
+  const auto saved = before ? scene::saved_motion(*before, scene::saved_alpha) : std::nullopt;
   if (spec.alpha_over_omega1 && saved) {
     model.alpha = *saved;
   } else if (spec.alpha_over_omega1) {
@@ -168,15 +178,15 @@ void start(const Scene& scene, DofMap& map, Model& model) {
 }
 
 /// Adds the mapping from computed to displayed degrees of freedom.
-void add_results(const Scene& scene, const DofMap& map, const std::optional<BorrowedSprings>& borrowed,
+void add_results(const Scene& scene, const DofMap& map, const std::optional<ComplianceSplit>& borrowed,
                  Model& model) {
   if (borrowed) {
     check_unique(scene, model);
     show_borrowed(*borrowed, model);
   }
   add_shear_elements(scene, model);
-  name_tied(map, model);
-  make_outputs(scene, map, model);
+  assembly::name_tied(map, model);
+  outputs::make_outputs(scene, map, model);
 }
 
 /// Sets velocities of rounding size in a saved state to zero. Displacements are known to rounding; the fastest mode
@@ -224,19 +234,19 @@ void take_out_rounding_of_statics(Model& model) {
 
 /// Merges times that double precision cannot separate.
 void resolve_times(double t_end, Model& model) {
-  for (Load& load : model.loads) load.history = resolved(load.history, t_end);
+  for (Load& load : model.loads) load.history = history::resolved(load.history, t_end);
   for (Contact& c : model.contacts) {
-    c.normal_force = resolved(c.normal_force, t_end);
-    c.surface_motion = resolved(c.surface_motion, t_end);
+    c.normal_force = history::resolved(c.normal_force, t_end);
+    c.surface_motion = history::resolved(c.surface_motion, t_end);
   }
 }
 
 /// Frozen forces are not damped: beta times the model's stiffness would include their stiffness.
 void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly) {
-  assembly.dampers -= scene.damping.beta * assemble_geometric(scene, map).matrix;
+  assembly.dampers -= scene.damping.beta * assembly::assemble_geometric(scene, map).matrix;
 }
 
-/// Those of the run that this one goes on from, if there is one.
+/// Data of the run that this one continues, if there is one.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
   const SavedState* before = same_run(scene);
@@ -249,11 +259,11 @@ enum class Extent { structure, undoubted, all };
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
-  DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+  DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
   map.shown_length = unit.length;
   if (map.size() == 0)
     throw SceneError(place_of_structure(scene), "", "the scene has no degree of freedom that could move");
-  if (!scene.matrices) check_stiffness_range(scene, map);
+  if (!scene.matrices) assembly::check_stiffness_range(scene, map);
   Assembly assembly = scene.matrices ? assemble_matrices(scene, map) : assemble_nodes(scene, map);
 
   Model model;
@@ -263,40 +273,40 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   model.dofs = map.dofs;
   model.columns = map.columns;
   mark_massless(scene, map, assembly, model.dofs);
-  add_ties(scene, map, model);
-  model.contacts = make_contacts(scene, map);
-  model.loads = make_loads(scene, map, assembly);
+  assembly::add_ties(scene, map, model);
+  model.contacts = assembly::make_contacts(scene, map);
+  model.loads = assembly::make_loads(scene, map, assembly);
   model.mass = std::move(assembly.mass);
   model.stiffness = std::move(assembly.stiffness);
-  if (!scene.matrices) add_drawing(scene, map, model);
+  if (!scene.matrices) assembly::add_drawing(scene, map, model);
   model.damping = assembly.dampers;
-  const std::optional<BorrowedSprings> borrowed = borrow_springs(scene, assembly.dampers, model);
+  const std::optional<ComplianceSplit> borrowed = split_compliance(scene, assembly.dampers, model);
   start(scene, map, model);
-  if (borrowed) continue_borrowed(*borrowed, scene, model);
-  if (!scene.matrices) find_hangers(scene, map, model);
+  if (borrowed) continue_split(*borrowed, scene, model);
+  if (!scene.matrices) outputs::find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
   if (model.geometric && scene.damping.beta != 0.0) leave_out_frozen(scene, map, assembly);
   set_damping(scene, assembly.dampers, model);
-  add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
-  model.omega_max = highest_frequency(model);
+  assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
+  model.omega_max = modes::highest_frequency(model);
   if (scene.initial.saved) take_out_rounding(*scene.initial.saved, model);
   model.scales = scales_of(scene, map, closed, model);
   if (model.static_start) take_out_rounding_of_statics(model);
   check_rigid_contacts(scene, model);
   if (extent == Extent::all)
-    for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
+    for (std::string& doubt : model_warnings(scene, map, model)) model.warnings.push_back(std::move(doubt));
   resolve_times(scene.run.t_end, model);
   if (extent == Extent::structure) {
     if (borrowed) show_borrowed(*borrowed, model);
     return model;
   }
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
-    reduce(scene, assembly.dampers, dashpots, model);
+    reduce::reduce(scene, assembly.dampers, dashpots, model);
     check_rigid_contacts(scene, model);  // contact gaps that are zero at the start become exactly zero
-    model.omega_max = highest_frequency(model);
+    model.omega_max = modes::highest_frequency(model);
   } else {
     separate_undamped(model);
     if (scene.reduction)
@@ -311,7 +321,8 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
 Model built(const Scene& scene, Extent extent) {
   const Factors machine = machine_units(scene);
   try {
-    Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine, extent), machine);
+    Model model =
+        rescaled(assembled(scene::rescaled(scene, scene::inverse(machine)), machine, extent), machine);
     model.machine = machine;
     // The same to the last bit; one object for all models of a scene.
     for (std::size_t k = 0; k < scene.contacts.size(); ++k)
@@ -325,8 +336,16 @@ Model built(const Scene& scene, Extent extent) {
 
 }  // namespace
 
-Model build_model(const Scene& scene) { return built(scene, Extent::all); }
-Model build_undoubted(const Scene& scene) { return built(scene, Extent::undoubted); }
+}  // namespace signorini::model
+
+namespace signorini {
+
+Model build_model(const Scene& scene) { return model::built(scene, model::Extent::all); }
+
+}  // namespace signorini
+
+namespace signorini::model {
+Model build_without_warnings(const Scene& scene) { return built(scene, Extent::undoubted); }
 Model build_structure(const Scene& scene) { return built(scene, Extent::structure); }
 
 namespace {
@@ -357,4 +376,4 @@ bool same_load_directions(const Model& a, const Model& b) {
                     [](const Load& x, const Load& y) { return x.direction.terms == y.direction.terms; });
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

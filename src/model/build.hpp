@@ -3,10 +3,10 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 /// The same model without model warnings (model_warnings.hpp), which take as long as all other steps together.
-[[nodiscard]] Model build_undoubted(const Scene& scene);
+[[nodiscard]] Model build_without_warnings(const Scene& scene);
 
 /// The structure that a reduction starts from: all degrees of freedom of build_model's M, C and K, whatever [reduction] says. The
 /// dashpots of contacts are no part of it, massless motions stay among the others, and there are no outputs.
@@ -21,4 +21,4 @@ namespace signorini {
 /// True if loads act along the same directions; histories may differ.
 [[nodiscard]] bool same_load_directions(const Model& a, const Model& b);
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -9,7 +9,7 @@
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 constexpr double independent = 1e-9;  // relative to 1: remainder of a direction after the others are removed
@@ -75,7 +75,7 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
   Eigen::MatrixXd square = Eigen::MatrixXd(SparseMatrix(b.transpose() * b));
   const Eigen::VectorXd size = square.diagonal().cwiseSqrt();
   for (Eigen::Index j = 0; j < m; ++j) square.col(j).array() /= size.array() * size[j];
-  const EigenPairs pairs = symmetric_eigen(square);
+  const base::EigenPairs pairs = base::symmetric_eigen(square);
   if (!(pairs.values[0] > independent)) {
     Eigen::Index most = 0;
     pairs.vectors.col(0).cwiseAbs().maxCoeff(&most);
@@ -88,7 +88,7 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
             row.dof->displacement));
   }
   square = size.asDiagonal() * square * size.asDiagonal();
-  const Eigen::MatrixXd inverse = solve_dense(square, Eigen::MatrixXd::Identity(m, m));
+  const Eigen::MatrixXd inverse = base::solve_dense(square, Eigen::MatrixXd::Identity(m, m));
   SparseMatrix s = b * SparseMatrix(inverse.sparseView(1.0, rounding::eps * inverse.cwiseAbs().maxCoeff()));
   return s;
 }
@@ -116,7 +116,7 @@ void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::Mat
   std::vector<Vector> pushes;
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     Combination& direction = model.loads[i].direction;
-    const Vector f = full(direction, model.size());
+    const Vector f = assembly::full(direction, model.size());
     Vector along = s.transpose() * f;
     const Vector terms = s.cwiseAbs().transpose() * f.cwiseAbs();
     for (Eigen::Index j = 0; j < along.size(); ++j)
@@ -146,7 +146,7 @@ SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eige
     for (SparseMatrix::InnerIterator it(a, j); it; ++it) any[it.row()] = 1.0;
   for (int i = 0; i < any.size(); ++i)
     if (any[i] != 0.0) touched.push_back(i);
-  const SparseMatrix pick = selection(touched, static_cast<int>(a.rows()));
+  const SparseMatrix pick = assembly::selection(touched, static_cast<int>(a.rows()));
   const Eigen::MatrixXd part(SparseMatrix(pick.transpose() * a));
   const Eigen::MatrixXd block = part * x * part.transpose();
   std::vector<Eigen::Triplet<double>> entries;
@@ -178,18 +178,18 @@ Compliance compliance_of(const Model& model) {
   std::vector<int> light;
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
-  const SparseMatrix pick = selection(light, model.size());
-  const SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
+  const SparseMatrix pick = assembly::selection(light, model.size());
+  const assembly::SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
   const auto m = static_cast<Eigen::Index>(f.contacts.size());
   Eigen::MatrixXd n(static_cast<Eigen::Index>(light.size()), m), t = n, of_n = n;
   t.setZero();
   f.friction = Eigen::VectorXd::Zero(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Contact& c = model.contacts[f.contacts[static_cast<std::size_t>(i)]];
-    n.col(i) = pick.transpose() * full(c.normal, model.size());
+    n.col(i) = pick.transpose() * assembly::full(c.normal, model.size());
     of_n.col(i) = solver.solve(Vector(n.col(i)));
     if (!c.has_friction()) continue;
-    t.col(i) = pick.transpose() * full(c.tangent, model.size());
+    t.col(i) = pick.transpose() * assembly::full(c.tangent, model.size());
     f.friction[i] = std::max(c.friction.static_, c.friction.kinetic);
   }
   f.nn = of_n.transpose() * n;
@@ -201,7 +201,8 @@ Compliance compliance_of(const Model& model) {
 
 }  // namespace
 
-std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMatrix& dampers, Model& model) {
+std::optional<ComplianceSplit> split_compliance(const Scene& scene, const SparseMatrix& dampers,
+                                                Model& model) {
   const std::vector<Row> rows = rows_of(scene, model);
   if (rows.empty()) return std::nullopt;
   const SparseMatrix s = shifts(scene, model, rows);
@@ -224,11 +225,11 @@ std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMa
       c.tangential_stiffness = stiffness;
   }
   const auto m = g.rows();
-  const Eigen::MatrixXd x = solve_dense(Eigen::MatrixXd(l.asDiagonal()) - 0.5 * (g + g.transpose()),
-                                        Eigen::MatrixXd::Identity(m, m));
+  const Eigen::MatrixXd x = base::solve_dense(Eigen::MatrixXd(l.asDiagonal()) - 0.5 * (g + g.transpose()),
+                                              Eigen::MatrixXd::Identity(m, m));
   model.stiffness = with_block(model.stiffness, ks, x);
   shift_loads(s, ks, x, model);
-  BorrowedSprings springs;
+  ComplianceSplit springs;
   for (const Row& row : rows) springs.rows.push_back({row.contact, row.normal});
   springs.shifts = s;
   const SparseMatrix seen = SparseMatrix(x.sparseView()) * SparseMatrix(ks.transpose());
@@ -238,7 +239,7 @@ std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMa
   return springs;
 }
 
-void continue_borrowed(const BorrowedSprings& springs, const Scene& scene, Model& model) {
+void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& model) {
   if (!scene.initial.saved) return;
   if (model.continues.empty())
     throw SceneError(scene.initial.place, "run.initial",
@@ -257,7 +258,7 @@ void continue_borrowed(const BorrowedSprings& springs, const Scene& scene, Model
   model.u0 += springs.shifts * given;
 }
 
-void show_borrowed(const BorrowedSprings& springs, Model& model) {
+void show_borrowed(const ComplianceSplit& springs, Model& model) {
   const SparseMatrix& p = springs.displacements;
   if (model.reduction)
     model.reduction->shapes = p * model.reduction->shapes;
@@ -281,7 +282,7 @@ void check_unique(const Scene& scene, Model& model) {
   }
   if (f.contacts.size() < 2) return;
   const Eigen::MatrixXd coupling = f.nt * f.friction.asDiagonal();
-  const Eigen::VectorXd mu = generalized_eigenvalues(0.5 * (coupling + coupling.transpose()), f.nn);
+  const Eigen::VectorXd mu = base::generalized_eigenvalues(0.5 * (coupling + coupling.transpose()), f.nn);
   const double most = mu.size() > 0 ? mu.cwiseAbs().maxCoeff() : 0.0;
   if (most < 1.0) return;
   model.warnings.push_back(
@@ -293,4 +294,4 @@ void check_unique(const Scene& scene, Model& model) {
                   f.contacts.size(), 1.0 / most));
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -19,9 +19,9 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
-struct BorrowedSprings {
+struct ComplianceSplit {
   struct Row {
     std::size_t contact = 0;
     bool normal = true;
@@ -34,15 +34,15 @@ struct BorrowedSprings {
 /// Changes K, loads and contacts (law, stiffnesses, `borrows`); nullopt: no rigid contact acts on parts without mass.
 /// To be called after the loads, before the initial state; dampers: C without alpha M + beta K. Errors: SceneError if a
 /// damper acts on these parts, if contacts share a motion of theirs, or if a contact acts on them only partly.
-[[nodiscard]] std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMatrix& dampers,
-                                                            Model& model);
+[[nodiscard]] std::optional<ComplianceSplit> split_compliance(const Scene& scene, const SparseMatrix& dampers,
+                                                              Model& model);
 
 /// For a continued run: u' from u, gaps and positions likewise. Errors: SceneError if that run has no row of its
 /// contacts.
-void continue_borrowed(const BorrowedSprings& springs, const Scene& scene, Model& model);
+void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& model);
 
 /// Makes outputs, columns and drawing refer to u; to be called when the model is complete or reduced.
-void show_borrowed(const BorrowedSprings& springs, Model& model);
+void show_borrowed(const ComplianceSplit& springs, Model& model);
 
 /// Errors: SceneError if the forces of a sliding contact would not be unique: f |F_nt| >= F_nn, F being the compliance
 /// of parts without mass at it. A warning if the forces of contacts that slide in the same direction may not be unique
@@ -50,4 +50,4 @@ void show_borrowed(const BorrowedSprings& springs, Model& model);
 /// uniqueness).
 void check_unique(const Scene& scene, Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::model

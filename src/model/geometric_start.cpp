@@ -8,15 +8,15 @@
 #include "model/assembly/prestress.hpp"
 #include "model/modes/stability.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 constexpr int shown_factors = 5;
 constexpr const char* asked_by = "run.geometric";
 
 /// Normals of closed contacts, and tangents of sticking ones.
-Holding held_at(const std::vector<Contact>& contacts, const std::vector<State>& states) {
-  Holding holding;
+modes::Holding held_at(const std::vector<Contact>& contacts, const std::vector<State>& states) {
+  modes::Holding holding;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     if (is_open(states[k])) continue;
@@ -40,15 +40,15 @@ std::vector<State> sticking(const std::vector<Contact>& contacts, const std::vec
   return states;
 }
 
-std::vector<double> factors_at(const Scene& scene, const DofMap& map, const Model& model,
+std::vector<double> factors_at(const Scene& scene, const assembly::DofMap& map, const Model& model,
                                const std::vector<State>& states, int count) {
-  const SparseMatrix geometric = assemble_geometric(scene, map).matrix;
+  const SparseMatrix geometric = assembly::assemble_geometric(scene, map).matrix;
   const SparseMatrix elastic = model.stiffness - geometric;
-  return load_factors(elastic, geometric, held_at(model.contacts, states), count);
+  return modes::load_factors(elastic, geometric, held_at(model.contacts, states), count);
 }
 
 /// Refuses a start beyond the buckling load, which is no stable equilibrium.
-void refuse_buckled(const Scene& scene, const DofMap& map, const Model& model,
+void refuse_buckled(const Scene& scene, const assembly::DofMap& map, const Model& model,
                     const std::vector<State>& states) {
   const std::vector<double> factors = factors_at(scene, map, model, states, 1);
   if (factors.empty() || factors.front() > 1.0) return;
@@ -63,44 +63,46 @@ void refuse_buckled(const Scene& scene, const DofMap& map, const Model& model,
 
 }  // namespace
 
-FirstPass first_pass(const Scene& scene, const DofMap& map, const Model& model) {
+FirstPass first_pass(const Scene& scene, const assembly::DofMap& map, const Model& model) {
   if (scene.initial.saved && scene.initial.saved->frozen) return {*scene.initial.saved->frozen, {}};
   std::vector<bool> acts;
   for (const Load& load : model.loads) acts.push_back(load.is_static);
-  const EquilibriumSearch search{asked_by, true, {}};
+  const statics::EquilibriumSearch search{asked_by, true, {}};
   const SourcePlace& place = scene.run.geometric_place;
-  Equilibrium found = find_equilibrium(model.stiffness, static_load(model.loads, model.size()),
-                                       model.contacts, map, place, scene.units, search);
+  statics::Equilibrium found =
+      statics::find_equilibrium(model.stiffness, assembly::static_load(model.loads, model.size()),
+                                model.contacts, map, place, scene.units, search);
   std::vector<double> N, T(model.contacts.size(), 0.0);
   for (const double reaction : found.start.reactions) N.push_back(-reaction);
-  return {frozen_forces(scene, map, model, {found.u, std::move(N), std::move(T), std::move(acts)}),
+  return {assembly::prestress(scene, map, model, {found.u, std::move(N), std::move(T), std::move(acts)}),
           std::move(found.closed)};
 }
 
-void stiffen(const Scene& scene, FrozenForces forces, DofMap& map, Model& model) {
-  freeze(forces, scene, map);
+void stiffen(const Scene& scene, Prestress forces, assembly::DofMap& map, Model& model) {
+  assembly::freeze(forces, scene, map);
   model.geometric = Geometric{std::move(forces), {}};
-  const GeometricStiffness own = assemble_geometric(scene, map);
+  const assembly::GeometricStiffness own = assembly::assemble_geometric(scene, map);
   if (own.matrix.nonZeros() == 0)
     model.warnings.emplace_back(
         "run.geometric changes nothing: the static loads leave no axial force in members and no forces on "
         "rigid bodies that could turn");
   model.stiffness = SparseMatrix(model.stiffness + own.matrix);
-  add_geometric_supports(scene, map, own.moving, model.loads);
+  assembly::add_geometric_supports(scene, map, own.moving, model.loads);
 }
 
-Equilibrium second_pass(const Scene& scene, const DofMap& map, const Model& model,
-                        const std::vector<bool>& closed) {
+statics::Equilibrium second_pass(const Scene& scene, const assembly::DofMap& map, const Model& model,
+                                 const std::vector<bool>& closed) {
   refuse_buckled(scene, map, model, sticking(model.contacts, closed));
-  Equilibrium found =
-      find_equilibrium(model.stiffness, static_load(model.loads, model.size()), model.contacts, map,
-                       scene.initial.place, scene.units, {"run.initial", true, closed});
+  statics::Equilibrium found = statics::find_equilibrium(
+      model.stiffness, assembly::static_load(model.loads, model.size()), model.contacts, map,
+      scene.initial.place, scene.units, {"run.initial", true, closed});
   if (found.closed != closed) refuse_buckled(scene, map, model, sticking(model.contacts, found.closed));
   return found;
 }
 
-FrictionalEquilibrium stiffened_end(const Scene& scene, const std::vector<bool>& acts,
-                                    FrictionalEquilibrium found, DofMap& map, Model& model) {
+statics::FrictionalEquilibrium stiffened_end(const Scene& scene, const std::vector<bool>& acts,
+                                             statics::FrictionalEquilibrium found, assembly::DofMap& map,
+                                             Model& model) {
   const auto load_now = [&] {
     Vector p = Vector::Zero(model.size());
     for (std::size_t i = 0; i < model.loads.size(); ++i)
@@ -110,23 +112,25 @@ FrictionalEquilibrium stiffened_end(const Scene& scene, const std::vector<bool>&
   };
   std::vector<double> N, T;
   std::vector<State> states;
-  for (const Standing& s : found.standing) {
+  for (const statics::LimitMargin& s : found.standing) {
     N.push_back(s.N);
     T.push_back(s.T);
     states.push_back(s.state);
   }
   const Vector before = load_now(), stiff = model.stiffness * found.u;
-  stiffen(scene, frozen_forces(scene, map, model, {found.u, std::move(N), std::move(T), acts}), map, model);
+  stiffen(scene, assembly::prestress(scene, map, model, {found.u, std::move(N), std::move(T), acts}), map,
+          model);
   refuse_buckled(scene, map, model, states);
-  const Stage stage{"geometric", load_now() - before - (model.stiffness * found.u - stiff), 1};
-  return gone_on(std::move(found), model.stiffness, model.contacts, stage, map, scene.initial.place);
+  const statics::Stage stage{"geometric", load_now() - before - (model.stiffness * found.u - stiff), 1};
+  return statics::gone_on(std::move(found), model.stiffness, model.contacts, stage, map, scene.initial.place);
 }
 
-void set_load_factors(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, Model& model) {
+void set_load_factors(const Scene& scene, const assembly::DofMap& map, const std::vector<bool>& closed,
+                      Model& model) {
   const bool slid = model.statics.frictional && !model.statics.stages.empty();
   model.geometric->load_factors =
       factors_at(scene, map, model,
                  slid ? model.statics.stages.back().states : sticking(model.contacts, closed), shown_factors);
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -15,29 +15,31 @@
 #include "model/statics/frictional.hpp"
 #include "model/statics/statics.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 struct FirstPass {
-  FrozenForces forces;
+  Prestress forces;
   std::vector<bool> closed;  ///< one per contact; empty if the forces come from another run
 };
 
 /// First pass of a start without friction. Errors: SceneError if there is no equilibrium.
-[[nodiscard]] FirstPass first_pass(const Scene& scene, const DofMap& map, const Model& model);
+[[nodiscard]] FirstPass first_pass(const Scene& scene, const assembly::DofMap& map, const Model& model);
 
 /// Sets Model::geometric, freezes the forces and adds their stiffness to the model and to the loads of supports.
-void stiffen(const Scene& scene, FrozenForces forces, DofMap& map, Model& model);
+void stiffen(const Scene& scene, Prestress forces, assembly::DofMap& map, Model& model);
 
 /// Errors: SceneError where the structure buckles under its static loads.
-[[nodiscard]] Equilibrium second_pass(const Scene& scene, const DofMap& map, const Model& model,
-                                      const std::vector<bool>& closed);
+[[nodiscard]] statics::Equilibrium second_pass(const Scene& scene, const assembly::DofMap& map,
+                                               const Model& model, const std::vector<bool>& closed);
 
 /// Freezes the forces at the end of a frictional start and increases their stiffness; acts: one per load. Errors:
 /// SceneError if the structure buckles.
-[[nodiscard]] FrictionalEquilibrium stiffened_end(const Scene& scene, const std::vector<bool>& acts,
-                                                  FrictionalEquilibrium found, DofMap& map, Model& model);
+[[nodiscard]] statics::FrictionalEquilibrium stiffened_end(const Scene& scene, const std::vector<bool>& acts,
+                                                           statics::FrictionalEquilibrium found,
+                                                           assembly::DofMap& map, Model& model);
 
 /// Sets Model::geometric's load factors, with contacts closed; for a frictional start with their states.
-void set_load_factors(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, Model& model);
+void set_load_factors(const Scene& scene, const assembly::DofMap& map, const std::vector<bool>& closed,
+                      Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::model

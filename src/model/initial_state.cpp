@@ -17,7 +17,7 @@
 #include "scene/saved_state.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 Vector given_vector(const std::vector<double>& values, int n, const InitialSpec& spec, const char* key) {
@@ -42,7 +42,7 @@ void check_saved_contacts(const Scene& scene) {
     if (contact.friction.any() && !saved.contains(contact.name))
       refuse_saved(scene.initial, fmt::format("the saved state has no shear of contact '{}'", contact.name));
     if (contact.friction.any() && contact.tangential_damping > 0.0 &&
-        !saved_motion(*scene.initial.saved, contact.name + ".slip"))
+        !scene::saved_motion(*scene.initial.saved, contact.name + ".slip"))
       refuse_saved(scene.initial, fmt::format("the saved state has no {}.slip, which a contact with "
                                               "tangential_damping needs",
                                               contact.name));
@@ -66,7 +66,7 @@ std::string key_of(const InitialSpec::Component& c) {
 }
 
 /// State of a run: values of the degrees of freedom with the same names.
-InitialState saved_state(const Scene& scene, const DofMap& map) {
+InitialState saved_state(const Scene& scene, const assembly::DofMap& map) {
   const InitialSpec& spec = scene.initial;
   InitialState state{Vector::Zero(map.size()), Vector::Zero(map.size())};
   std::unordered_map<std::string, double> values;
@@ -79,12 +79,12 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
     return value;
   };
   check_saved_contacts(scene);
-  values.erase(saved_alpha);
+  values.erase(scene::saved_alpha);
   for (int i = 0; i < map.size(); ++i) {
     state.u[i] = value_of(map.dofs[static_cast<std::size_t>(i)].displacement);
     state.v[i] = value_of(map.dofs[static_cast<std::size_t>(i)].velocity);
   }
-  for (const TiedDof& tied : map.tied) {  // they follow others
+  for (const assembly::TiedDof& tied : map.tied) {  // they follow others
     values.erase(tied.dof.displacement);
     values.erase(tied.dof.velocity);
   }
@@ -103,23 +103,23 @@ struct GivenPlace {
   int dof = 0;
 };
 /// The degrees of freedom that a tied motion follows.
-std::string given_for(const DofMap& map, int tied) {
+std::string given_for(const assembly::DofMap& map, int tied) {
   std::vector<std::string> names;
-  for (const TiedTerm& term : map.terms(tied))
+  for (const assembly::TiedTerm& term : map.terms(tied))
     if (term.number >= 0) names.push_back(map.dofs[static_cast<std::size_t>(term.number)].displacement);
-  return names.empty() ? std::string("none: supports move it") : listed(names, 3);
+  return names.empty() ? std::string("none: supports move it") : base::listed(names, 3);
 }
 
-std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap& map) {
+std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assembly::DofMap& map) {
   const std::string key = key_of(c);
-  const auto named = component_named(c.component);
+  const auto named = scene::component_named(c.component);
   if (!named || named->name() != c.component)
     throw SceneError(c.place, key, fmt::format("found '{}', expected ux, uy, rz, vx, vy or wz", c.component));
-  const int node = find_node(map.mesh, c.node, c.place, key);
+  const int node = element::find_node(map.mesh, c.node, c.place, key);
   const int number = map.number[static_cast<std::size_t>(node)][named->index];
-  if (number == DofMap::absent)
+  if (number == assembly::DofMap::absent)
     throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
-  if (number == DofMap::fixed && c.value != 0.0)
+  if (number == assembly::DofMap::fixed && c.value != 0.0)
     throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
   if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
     return std::nullopt;  // a tied seam
@@ -166,7 +166,7 @@ std::string unused(const Model& model, const GivenPlace& at, double value, const
 
 }  // namespace
 
-std::vector<std::string> unused_values(const Scene& scene, const DofMap& map, const Model& model) {
+std::vector<std::string> unused_values(const Scene& scene, const assembly::DofMap& map, const Model& model) {
   const InitialSpec& spec = scene.initial;
   if (spec.saved || scene.reduction) return {};
   const std::vector<bool> begins = begins_from(model);
@@ -186,7 +186,7 @@ std::vector<std::string> unused_values(const Scene& scene, const DofMap& map, co
   return result;
 }
 
-InitialState given_state(const Scene& scene, const DofMap& map) {
+InitialState given_state(const Scene& scene, const assembly::DofMap& map) {
   const InitialSpec& spec = scene.initial;
   const int n = map.size();
   if (spec.saved) return saved_state(scene, map);
@@ -249,15 +249,15 @@ bool has_pressed_pendulums(const Scene& scene) {
 }
 
 void carry(const Scene& scene, const std::vector<double>& forces, Model& model) {
-  std::vector<LineSpring> springs;
+  std::vector<assembly::LineSpring> springs;
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
     if (!scene.contacts[k].bowl) continue;
     Contact& contact = model.contacts[k];
     contact.bowl->carried = forces[k];
-    if (const double more = beyond_spring(scene.contacts[k], contact); more != 0.0)
+    if (const double more = contact::beyond_spring(scene.contacts[k], contact); more != 0.0)
       springs.push_back({contact.tangent, more});
   }
-  if (!springs.empty()) model.stiffness = with_springs(model.stiffness, springs);
+  if (!springs.empty()) model.stiffness = assembly::with_springs(model.stiffness, springs);
 }
 
 void start_on_pendulums(const Scene& scene, Model& model, const std::function<Model(Model)>& start) {
@@ -328,7 +328,7 @@ std::string word_of(LoadKind kind) {
       if (!known.empty() && std::find(names.begin(), names.end(), known) == names.end())
         names.push_back(known);
   throw SceneError(spec.load_places[index], key,
-                   fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
+                   fmt::format("no load is called \"{}\"{}", name, base::suggestion(name, names)));
 }
 
 /// True for a kind of load whose values are all zero, as an override may set them: the stage then changes nothing.
@@ -347,10 +347,10 @@ bool is_called(const Load& load, const std::string& name) {
 }
 
 /// Adds up the loads of one stage, and counts how often each load was taken.
-Stage made(const Scene& scene, std::size_t number, const Model& model, std::vector<int>& taken) {
+statics::Stage made(const Scene& scene, std::size_t number, const Model& model, std::vector<int>& taken) {
   const StageSpec& spec = scene.initial.stages[number - 1];
   const std::string key = fmt::format("run.stages.{}.loads", number);
-  Stage stage{spec.name, Vector::Zero(model.size()), spec.steps};
+  statics::Stage stage{spec.name, Vector::Zero(model.size()), spec.steps};
   for (std::size_t j = 0; j < spec.loads.size(); ++j) {
     bool any = false;
     for (std::size_t i = 0; i < model.loads.size(); ++i) {
@@ -370,10 +370,10 @@ Stage made(const Scene& scene, std::size_t number, const Model& model, std::vect
 }
 
 /// acts: loads that act in some stage.
-std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector<bool>& acts) {
-  std::vector<Stage> stages;
+std::vector<statics::Stage> stages_of(const Scene& scene, const Model& model, std::vector<bool>& acts) {
+  std::vector<statics::Stage> stages;
   if (scene.initial.stages.empty()) {
-    Stage all{"loads", Vector::Zero(model.size()), 1};
+    statics::Stage all{"loads", Vector::Zero(model.size()), 1};
     for (const Load& load : model.loads) {
       acts.push_back(load.is_static);
       if (load.is_static) load.direction.add_to(all.load, load.history.value(0.0));
@@ -406,7 +406,7 @@ bool presses(const StageSpec& spec, const Model& model) {
 
 }  // namespace
 
-void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
+void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
     if (model.contacts[k].friction.by_force())
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("friction"),
@@ -418,9 +418,9 @@ void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
                        "has no meaning beside initial = \"frictional\", which finds it");
   std::vector<bool> acts;
-  const std::vector<Stage> stages = stages_of(scene, model, acts);
-  FrictionalEquilibrium found =
-      frictional_equilibrium(model.stiffness, model.contacts, stages, map, scene.initial.place);
+  const std::vector<statics::Stage> stages = stages_of(scene, model, acts);
+  statics::FrictionalEquilibrium found =
+      statics::frictional_equilibrium(model.stiffness, model.contacts, stages, map, scene.initial.place);
   if (scene.run.geometric) found = stiffened_end(scene, acts, std::move(found), map, model);
   for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
     if (stages[i].load.isZero(0.0) && !(scene.run.geometric && presses(scene.initial.stages[i], model)))
@@ -436,9 +436,9 @@ void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
     if (!c.tangential_stiffness || !c.has_friction()) continue;
     // The run computes N anew: the shear stays within its limit to the last digit.
     const double N = c.resting_force(model.u0).value_or(-model.statics.reactions[k]);
-    const double limit = sticking_limit(c, N);
+    const double limit = contact::sticking_limit(c, N);
     c.initial_shear = std::clamp(found.shears[k], -limit, limit);
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -7,7 +7,7 @@
 #include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 struct InitialState {
   Vector u, v;  ///< n
@@ -15,12 +15,12 @@ struct InitialState {
 
 /// Values by node, or vectors of a matrix scene; not for initial = "static". Errors: SceneError for a component that
 /// does not exist, or a nonzero value of a fixed one.
-[[nodiscard]] InitialState given_state(const Scene& scene, const DofMap& map);
+[[nodiscard]] InitialState given_state(const Scene& scene, const assembly::DofMap& map);
 
 /// One sentence for each nonzero value without effect on the motion. Without mass a velocity follows from equilibrium,
 /// and so does a displacement, unless a damper, or the dashpot or friction of a contact, needs it. The model: damping
 /// set, neither reduced nor with shear elements.
-[[nodiscard]] std::vector<std::string> unused_values(const Scene& scene, const DofMap& map,
+[[nodiscard]] std::vector<std::string> unused_values(const Scene& scene, const assembly::DofMap& map,
                                                      const Model& model);
 
 // Forces on pendulums that the structure presses, for a start in equilibrium.
@@ -53,6 +53,6 @@ void start_on_pendulums(const Scene& scene, Model& model, const std::function<Mo
 
 /// Sets u0, v0, statics and the shears of contacts. Errors: SceneError for stages that name no load, omit a static one
 /// or name one twice, and for a start without equilibrium.
-void start_with_friction(const Scene& scene, DofMap& map, Model& model);
+void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -7,7 +7,7 @@
 #include "contact/constants.hpp"
 #include "scene/components.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 // Limit of the exponents: products of four units then stay in the range of a double (mass = force time^2 / length).
@@ -58,7 +58,7 @@ void add_matrices(const MatricesSpec& matrices, Sizes& sizes) {
 
 void add_initial(const InitialSpec& initial, Sizes& sizes) {
   for (const InitialSpec::Component& c : initial.components) {
-    const auto named = component_named(c.component);
+    const auto named = scene::component_named(c.component);
     if (named && !named->component().rotation)
       (named->rate ? sizes.velocity : sizes.displacement).add(c.value);
   }
@@ -134,7 +134,7 @@ class Rescaling {
  public:
   Rescaling(const Factors& factors, const std::vector<Dof>& dofs) : factors_(factors), dofs_(dofs) {}
 
-  void operator()(double& x, const Unit& of) const { x *= factor_of(of, factors_); }
+  void operator()(double& x, const Unit& of) const { x *= scene::factor_of(of, factors_); }
   void operator()(std::optional<double>& x, const Unit& of) const {
     if (x) (*this)(*x, of);
   }
@@ -144,23 +144,23 @@ class Rescaling {
     return dofs_[static_cast<std::size_t>(i)].rotation ? 1.0 : factors_.length;
   }
   void operator()(Vector& x, const Unit& over_displacement) const {
-    const double factor = factor_of(over_displacement, factors_);
+    const double factor = scene::factor_of(over_displacement, factors_);
     for (int i = 0; i < x.size(); ++i) x[i] *= of_dof(i) * factor;
   }
   /// Scales a matrix that gives an energy, times `more`, with two displacements.
   void operator()(SparseMatrix& a, const Unit& more) const {
-    const double factor = factor_of(unit::energy, factors_) * factor_of(more, factors_);
+    const double factor = scene::factor_of(unit::energy, factors_) * scene::factor_of(more, factors_);
     for (int j = 0; j < a.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(a, j); it; ++it)
         it.valueRef() *= factor / (of_dof(static_cast<int>(it.row())) * of_dof(j));
   }
   /// Scales a form that gives a length from displacements or acts as a force along them; times `more`.
   void operator()(Combination& form, const Unit& more = unit::plain) const {
-    const double length = factor_of(more, factors_) * factors_.length;
+    const double length = scene::factor_of(more, factors_) * factors_.length;
     for (auto& [i, factor] : form.terms) factor *= length / of_dof(i);
   }
   void operator()(History& history, const Unit& of) const {
-    visit_numbers(history, of, [this](double& x, const Unit& unit) { (*this)(x, unit); });
+    scene::visit_numbers(history, of, [this](double& x, const Unit& unit) { (*this)(x, unit); });
   }
 
   /// Scales a matrix that converts displacements to displacements.
@@ -188,7 +188,7 @@ class Rescaling {
 
   /// Scales a form on displacements whose value has this unit.
   void value_of(Combination& form, const Unit& of) const {
-    const double value = factor_of(of, factors_);
+    const double value = scene::factor_of(of, factors_);
     for (auto& [i, factor] : form.terms) factor *= value / of_dof(i);
   }
   void operator()(Output& o) const {
@@ -202,26 +202,26 @@ class Rescaling {
     for (Output::Restoring& r : o.restoring) {
       (*this)(r.slip);
       (*this)(r.factor, {of.force - 1, of.length - 1, of.time});
-      (*this)(r.said, unit::force);
+      (*this)(r.scene_force, unit::force);
     }
     for (Output::Given& given : o.given) {
       (*this)(given.history, of);
-      given.factor *= factor_of(of, factors_) / factor_of(given.of_load, factors_);
+      given.factor *= scene::factor_of(of, factors_) / scene::factor_of(given.of_load, factors_);
     }
     (*this)(o.constant, of);
   }
 
   void operator()(Contact& c) const {
-    visit_forms(c, [this](Combination& form) { (*this)(form); });
-    visit_constants(c, [this](double& x, const Unit& of) { (*this)(x, of); });
+    contact::visit_forms(c, [this](Combination& form) { (*this)(form); });
+    contact::visit_constants(c, [this](double& x, const Unit& of) { (*this)(x, of); });
     (*this)(c.normal_force, unit::force);
     (*this)(c.surface_motion, unit::length);
   }
 
-  void operator()(FrozenForces& forces) const {
-    for (FrozenForces::Element& e : forces.elements)
+  void operator()(Prestress& forces) const {
+    for (Prestress::Element& e : forces.elements)
       for (double* n : {&e.at_from, &e.at_to}) (*this)(*n, unit::force);
-    for (FrozenForces::Body& body : forces.bodies) (*this)(body.stiffness, unit::energy);
+    for (Prestress::Body& body : forces.bodies) (*this)(body.stiffness, unit::energy);
   }
 
   void operator()(Scales& s) const {
@@ -264,7 +264,8 @@ void rescale_drawing(Model& model, const Rescaling& rescale) {
 }  // namespace
 
 History rescaled(History history, const Unit& of, const Factors& factors) {
-  visit_numbers(history, of, [&](double& x, const Unit& unit) { x *= factor_of(unit, factors); });
+  scene::visit_numbers(history, of,
+                       [&](double& x, const Unit& unit) { x *= scene::factor_of(unit, factors); });
   return history;
 }
 
@@ -303,11 +304,11 @@ Model rescaled(Model model, const Factors& factors) {
   rescale(model.omega_max, unit::rate);
   for (SeenLoad& seen : model.seen_loads) {
     const Dof* const dofs = model.reduction ? model.reduction->dofs.data() : model.dofs.data();
-    const double of_history = factor_of(model.loads[seen.load].of_history, factors);
+    const double of_history = scene::factor_of(model.loads[seen.load].of_history, factors);
     for (Eigen::Index j = 0; j < seen.energies.size(); ++j) {
       const SeenLoad& other = model.seen_loads[static_cast<std::size_t>(j)];
-      seen.energies[j] *= factor_of(unit::energy, factors) /
-                          (of_history * factor_of(model.loads[other.load].of_history, factors));
+      seen.energies[j] *= scene::factor_of(unit::energy, factors) /
+                          (of_history * scene::factor_of(model.loads[other.load].of_history, factors));
     }
     for (Eigen::Index i = 0; i < seen.displacements.size(); ++i)
       seen.displacements[i] *= (dofs[i].rotation ? 1.0 : factors.length) / of_history;
@@ -320,4 +321,4 @@ Model rescaled(Model model, const Factors& factors) {
   return model;
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

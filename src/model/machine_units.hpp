@@ -13,7 +13,7 @@
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 /// One internal unit of each kind, in the scene's units.
 [[nodiscard]] Factors machine_units(const Scene& scene);
@@ -35,9 +35,11 @@ namespace signorini {
 //
 //   value in scene units = value * factor of its unit          Model::unit; for whole results: run/physical.hpp
 
-[[nodiscard]] inline double said(const Model& model, double value, const Unit& of) {
-  return value * factor_of(of, model.unit);
+[[nodiscard]] inline double in_scene_units(const Model& model, double value, const Unit& of) {
+  return value * scene::factor_of(of, model.unit);
 }
-[[nodiscard]] inline double said_time(const Model& model, double t) { return said(model, t, unit::time); }
+[[nodiscard]] inline double time_in_scene_units(const Model& model, double t) {
+  return in_scene_units(model, t, unit::time);
+}
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -11,7 +11,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/statics/mechanisms.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 /// Factor that gives C as much weight as K, where K alone does not resist: half of the digits.
@@ -36,7 +36,8 @@ double largest_diagonal(const SparseMatrix& a) {
 
 }  // namespace
 
-void mark_massless(const Scene& scene, const DofMap& map, const Assembly& assembly, std::vector<Dof>& dofs) {
+void mark_massless(const Scene& scene, const assembly::DofMap& map, const assembly::Assembly& assembly,
+                   std::vector<Dof>& dofs) {
   const auto n = static_cast<int>(dofs.size());
   Vector row_size = Vector::Zero(n), held = Vector::Zero(n), s = Vector::Zero(n);
   auto add_rows = [](const SparseMatrix& a, Vector& rows) {
@@ -53,31 +54,31 @@ void mark_massless(const Scene& scene, const DofMap& map, const Assembly& assemb
     dof.massless = row_size[i] == 0.0;
     if (dof.massless && held[i] == 0.0)
       throw SceneError(
-          place_of_dof(scene, map, i), "",
+          assembly::place_of_dof(scene, map, i), "",
           fmt::format("{} has neither mass nor stiffness nor damping, so nothing decides its motion",
                       dof.displacement));
     if (dof.massless) continue;
     const double diagonal = assembly.mass.coeff(i, i);
     if (!(diagonal > 0.0))
       throw SceneError(
-          place_of_structure(scene), "matrices.mass",
+          assembly::place_of_structure(scene), "matrices.mass",
           fmt::format("found {} on the diagonal at {}, expected a number > 0, or a row of zeros for a "
                       "massless degree of freedom",
                       diagonal, dof.displacement));
     s[i] = 1.0 / std::sqrt(diagonal);
     position[static_cast<std::size_t>(i)] = heavy++;
   }
-  if (heavy == 0) throw SceneError(place_of_structure(scene), "", "nothing in the scene has mass");
+  if (heavy == 0) throw SceneError(assembly::place_of_structure(scene), "", "nothing in the scene has mass");
   // After scaling to a unit diagonal the pivots are dimensionless.
-  const SymmetricSolver solver(block(assembly.mass, position, heavy, s));
+  const assembly::SymmetricSolver solver(block(assembly.mass, position, heavy, s));
   if (!solver.ok() || solver.smallest_pivot() <= rounding::of_many * heavy)
     throw SceneError(
-        place_of_structure(scene), "matrices.mass",
+        assembly::place_of_structure(scene), "matrices.mass",
         "the mass matrix must be positive definite on the degrees of freedom whose rows are not zero; "
         "a massless degree of freedom must have a row of zeros only");
 }
 
-void check_massless(const Scene& scene, const Model& model, const DofMap& map) {
+void check_massless(const Scene& scene, const Model& model, const assembly::DofMap& map) {
   std::vector<int> position, where;
   for (int i = 0; i < model.size(); ++i) {
     const bool massless = model.dofs[static_cast<std::size_t>(i)].massless;
@@ -89,12 +90,13 @@ void check_massless(const Scene& scene, const Model& model, const DofMap& map) {
     Vector motion = Vector::Zero(model.size());
     for (std::size_t j = 0; j < where.size(); ++j)
       motion[where[j]] = motions(static_cast<Eigen::Index>(j), 0);
-    return describe_motion(motion, map);
+    return assembly::describe_motion(motion, map);
   };
   const auto count = static_cast<int>(where.size());
   const Vector ones = Vector::Ones(model.size());
   const SparseMatrix k =
-      block(with_springs(model.stiffness, contact_springs(model.contacts)), position, count, ones);
+      block(assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts)), position,
+            count, ones);
   const SparseMatrix c = block(model.damping, position, count, ones);
   const SparseMatrix symmetric = 0.5 * (c + SparseMatrix(c.transpose()));
   // If K resists all motions, any positive weights will do; these make both matrices count. If it does not, C must
@@ -102,16 +104,16 @@ void check_massless(const Scene& scene, const Model& model, const DofMap& map) {
   const double weight = largest_diagonal(c) > 0.0 && largest_diagonal(k) > 0.0
                             ? largest_diagonal(k) / largest_diagonal(c)
                             : 1.0;
-  Eigen::MatrixXd null = null_motions(SparseMatrix(k + weight * symmetric));
+  Eigen::MatrixXd null = statics::null_motions(SparseMatrix(k + weight * symmetric));
   if (null.cols() == 0) return;
-  null = null_motions(SparseMatrix(k + by_far * weight * symmetric));
+  null = statics::null_motions(SparseMatrix(k + by_far * weight * symmetric));
   if (null.cols() == 0) return;
   const Vector motion = null.col(0) / null.col(0).cwiseAbs().maxCoeff();
   const double energy = motion.dot(k * motion);
   Eigen::Index most = 0;
   motion.cwiseAbs().maxCoeff(&most);
-  const SourcePlace place = place_of_dof(scene, map, where[static_cast<std::size_t>(most)]);
-  if (energy < -rounding::of_many * term_size(k, motion))
+  const SourcePlace place = assembly::place_of_dof(scene, map, where[static_cast<std::size_t>(most)]);
+  if (energy < -rounding::of_many * assembly::term_size(k, motion))
     throw SceneError(
         place, scene.matrices ? "matrices.stiffness" : "",
         fmt::format("the {} is unstable: it moves no mass and no damper, and its stiffness is negative, "
@@ -209,7 +211,7 @@ void change_basis(Model& model, const SparseMatrix& basis, const std::vector<boo
 void separate_undamped(Model& model) {
   const std::vector<int> damped = damped_without_mass(model);
   if (damped.empty()) return;
-  Eigen::MatrixXd z = null_motions(part_of(model.damping, damped));
+  Eigen::MatrixXd z = statics::null_motions(part_of(model.damping, damped));
   if (z.cols() == 0) return;
   const std::vector<Eigen::Index> rows = give_rows(z);
   const int n = model.size();
@@ -235,13 +237,13 @@ constexpr std::size_t rotation = 2, most_listed = 3;
 /// Rotations of nodes that elements connect to.
 class Turning {
  public:
-  explicit Turning(const DofMap& map) : map_(map), nodes_(map.mesh.nodes.size()) {
+  explicit Turning(const assembly::DofMap& map) : map_(map), nodes_(map.mesh.nodes.size()) {
     for (const auto& e : map.mesh.elements) {
       for (const int node : e->nodes()) {
         at(node).carried = true;
         at(node).plane = at(node).plane || e->nodes().size() > 2;
       }
-      for (const ElementUnknown& unknown : e->unknowns())
+      for (const element::ElementUnknown& unknown : e->unknowns())
         if (!unknown.own && unknown.component == rotation) at(e->nodes()[unknown.place]).turns = true;
     }
   }
@@ -249,7 +251,7 @@ class Turning {
   [[nodiscard]] bool idle(const std::string& node) const {
     const int n = map_.mesh.by_name.at(node);
     const Node& here = nodes_[static_cast<std::size_t>(n)];
-    return here.carried && !here.turns && map_.body[static_cast<std::size_t>(n)] == DofMap::absent;
+    return here.carried && !here.turns && map_.body[static_cast<std::size_t>(n)] == assembly::DofMap::absent;
   }
   [[nodiscard]] bool of_plane_elements(const std::string& node) const {
     return nodes_[static_cast<std::size_t>(map_.mesh.by_name.at(node))].plane;
@@ -261,7 +263,7 @@ class Turning {
   };
   Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
 
-  const DofMap& map_;
+  const assembly::DofMap& map_;
   std::vector<Node> nodes_;
 };
 
@@ -274,12 +276,12 @@ void name(Named& list, const std::string& key, const std::string& node) {
 }
 
 std::string nodes_of(const std::vector<std::string>& nodes) {
-  return (nodes.size() == 1 ? "node " : "nodes ") + listed(nodes, most_listed);
+  return (nodes.size() == 1 ? "node " : "nodes ") + base::listed(nodes, most_listed);
 }
 
 }  // namespace
 
-std::vector<std::string> idle_rotations(const Scene& scene, const DofMap& map) {
+std::vector<std::string> idle_rotations(const Scene& scene, const assembly::DofMap& map) {
   if (map.matrices()) return {};
   const Turning turning(map);
   Named moved, held;
@@ -293,16 +295,16 @@ std::vector<std::string> idle_rotations(const Scene& scene, const DofMap& map) {
   for (const Support& support : scene.supports)
     if (support.rz && turning.idle(support.node) && turning.of_plane_elements(support.node))
       name(held, support.key, support.node);
-  std::vector<std::string> said;
+  std::vector<std::string> warnings;
   for (const auto& [what, nodes] : moved)
-    said.push_back(fmt::format("{} at {}: no element turns with {}, so nothing else feels it", what,
-                               nodes_of(nodes), nodes.size() == 1 ? "it" : "them"));
+    warnings.push_back(fmt::format("{} at {}: no element turns with {}, so nothing else feels it", what,
+                                   nodes_of(nodes), nodes.size() == 1 ? "it" : "them"));
   for (const auto& [key, nodes] : held)
-    said.push_back(
+    warnings.push_back(
         fmt::format("{}.fix: rz at {} holds nothing, since elements of bodies have no rotations; to clamp a "
                     "body hold ux and uy of several nodes",
                     key, nodes_of(nodes)));
-  return said;
+  return warnings;
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -11,15 +11,16 @@
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 /// Marks massless degrees of freedom (zero rows of M). Errors: SceneError if nothing has mass, if M is not positive
 /// definite on the rest, or if a massless degree of freedom has neither stiffness nor damping.
-void mark_massless(const Scene& scene, const DofMap& map, const Assembly& assembly, std::vector<Dof>& dofs);
+void mark_massless(const Scene& scene, const assembly::DofMap& map, const assembly::Assembly& assembly,
+                   std::vector<Dof>& dofs);
 
 /// Errors: SceneError if a motion without mass is resisted neither by K nor by C nor by any contact, or if it is
 /// unstable by a negative stiffness.
-void check_massless(const Scene& scene, const Model& model, const DofMap& map);
+void check_massless(const Scene& scene, const Model& model, const assembly::DofMap& map);
 
 // Separates massless motions without damping from damped massless degrees of freedom.
 //
@@ -41,6 +42,6 @@ void separate_undamped(Model& model);
 // elements
 
 /// One sentence per table of the scene. map: of this scene.
-[[nodiscard]] std::vector<std::string> idle_rotations(const Scene& scene, const DofMap& map);
+[[nodiscard]] std::vector<std::string> idle_rotations(const Scene& scene, const assembly::DofMap& map);
 
-}  // namespace signorini
+}  // namespace signorini::model

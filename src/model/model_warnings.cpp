@@ -25,7 +25,7 @@
 #include "model/statics/static_system.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 constexpr double greatest_friction = 2.0;
@@ -37,7 +37,7 @@ constexpr std::size_t most_named = 3;
 std::string names(const Model& model, const std::vector<std::size_t>& contacts) {
   std::vector<std::string> list;
   for (const std::size_t k : contacts) list.push_back(model.contacts[k].name);
-  return (list.size() == 1 ? "contact " : "contacts ") + listed(list, most_named);
+  return (list.size() == 1 ? "contact " : "contacts ") + base::listed(list, most_named);
 }
 
 /// True if f has values between these starts that exceed those before and after. Evaluated with a clock that begins at
@@ -50,7 +50,7 @@ bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
   const auto known = [&](std::size_t i, double t, double s) {
     Piece piece = f.pieces()[i];
     piece.origin -= t;
-    return Known{piece.value(s), roundoff(piece, s)};
+    return Known{piece.value(s), history::roundoff(piece, s)};
   };
   const Known before = known(first, starts[first], 0.0), after = known(last + 1, starts[last], 0.0);
   for (std::size_t i = first + 1; i <= last; ++i) {
@@ -66,10 +66,10 @@ bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
   return false;
 }
 
-class Doubts {
+class ModelWarnings {
  public:
-  Doubts(const Scene& scene, const DofMap& map, const Model& model)
-      : scene_(scene), map_(map), model_(model), weight_(static_load(model.loads, model.size())) {}
+  ModelWarnings(const Scene& scene, const assembly::DofMap& map, const Model& model)
+      : scene_(scene), map_(map), model_(model), weight_(assembly::static_load(model.loads, model.size())) {}
 
   std::vector<std::string> all() {
     idle_loads();
@@ -84,7 +84,7 @@ class Doubts {
     sudden_supports();
     sudden_heat();
     growth();
-    for (std::string& doubt : hanger_doubts(scene_, model_)) found_.push_back(std::move(doubt));
+    for (std::string& doubt : outputs::hanger_warnings(scene_, model_)) found_.push_back(std::move(doubt));
     runs_away();
     for (std::string& unused : unused_values(scene_, map_, model_)) found_.push_back(std::move(unused));
     return std::move(found_);
@@ -100,7 +100,7 @@ class Doubts {
       const auto& terms = load.direction.terms;
       const bool idle =
           std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });
-      if (idle && magnitude(load.history, scene_.run.t_end) > 0.0)
+      if (idle && history::magnitude(load.history, scene_.run.t_end) > 0.0)
         found_.push_back(load.name +
                          " acts only along directions that supports or rigid bodies hold: it moves nothing");
     }
@@ -109,7 +109,7 @@ class Doubts {
   /// Checks the contacts of each part separately; sliders have no normal and may hold a part by friction.
   void falls() {
     if (weight_.isZero(0.0)) return;
-    const Parts parts({&model_.mass, &model_.stiffness});
+    const assembly::Parts parts({&model_.mass, &model_.stiffness});
     std::vector<std::vector<std::size_t>> supports(parts.count());
     std::vector<bool> gripped(parts.count(), false);
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
@@ -122,7 +122,7 @@ class Doubts {
       }
     }
     std::size_t number = 0;
-    for (const Part& part : parts) {
+    for (const assembly::Part& part : parts) {
       const std::vector<std::size_t>& own = supports[number];
       if (!own.empty() && !gripped[number] && flees(part, own))
         falling_.insert(falling_.end(), own.begin(), own.end());
@@ -135,13 +135,13 @@ class Doubts {
                     names(model_, falling_)));
   }
 
-  [[nodiscard]] bool flees(const Part& part, const std::vector<std::size_t>& contacts) const {
-    const Eigen::MatrixXd z = null_motions(part.matrix(model_.stiffness));
+  [[nodiscard]] bool flees(const assembly::Part& part, const std::vector<std::size_t>& contacts) const {
+    const Eigen::MatrixXd z = statics::null_motions(part.matrix(model_.stiffness));
     if (z.cols() == 0) return false;
     const SparseMatrix mass = part.matrix(model_.mass);
     const Vector force = z.transpose() * Vector(weight_(part.dofs()));
     Vector fall = Vector::Zero(model_.size());
-    fall(part.dofs()) = z * solve_dense(z.transpose() * (mass * z), force);
+    fall(part.dofs()) = z * base::solve_dense(z.transpose() * (mass * z), force);
     const double size = fall.cwiseAbs().maxCoeff();
     bool away = false;
     for (const std::size_t k : contacts) {
@@ -176,8 +176,8 @@ class Doubts {
   void drag() {
     if (!(model_.alpha * scene_.run.t_end > least_drag)) return;
     std::vector<bool> closed(model_.contacts.size(), true);
-    const StaticProblem problem{model_.stiffness, weight_, model_.contacts, map_};
-    const Eigen::MatrixXd free = null_motions(problem.matrix(closed));
+    const statics::StaticProblem problem{model_.stiffness, weight_, model_.contacts, map_};
+    const Eigen::MatrixXd free = statics::null_motions(problem.matrix(closed));
     if (free.cols() == 0 || (model_.mass * free).isZero(0.0)) return;
     found_.push_back(fmt::format(
         "mass-proportional damping (alpha = {:.4g} 1/{}) also damps rigid-body motions: sliding and flying "
@@ -207,8 +207,9 @@ class Doubts {
     for (const Load& load : model_.loads) {
       const std::vector<double>& starts = load.history.starts();
       for (std::size_t first = 0, next = 0; first < starts.size(); first = next) {
-        next = end_of_instant(load.history, first, scene_.run.t_end);
-        const double a = starts[first], b = starts[next - 1], least = resolution_at(a, scene_.run.t_end);
+        next = history::end_of_instant(load.history, first, scene_.run.t_end);
+        const double a = starts[first], b = starts[next - 1],
+                     least = motion::resolution_at(a, scene_.run.t_end);
         if (!(a >= 0.0 && b < scene_.run.t_end && leaves_a_peak(load.history, first, next - 1))) continue;
         found_.push_back(fmt::format(
             "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} that times of sixteen "
@@ -222,12 +223,13 @@ class Doubts {
   void sudden_supports() {
     for (const Load& load : model_.loads) {
       if (load.kind != LoadKind::support || scene_.initial.saved) continue;
-      const History f = resolved(load.history, scene_.run.t_end);
+      const History f = history::resolved(load.history, scene_.run.t_end);
       const Piece &before = f.piece_before(0.0), &after = f.piece(0.0);
       for (const int order : {0, 1}) {
         const double a = before.value(0.0, order), b = after.value(0.0, order);
-        const double rounded = order == 0 ? roundoff(before, 0.0) + roundoff(after, 0.0)
-                                          : roundoff_of_rate(before, 0.0) + roundoff_of_rate(after, 0.0);
+        const double rounded =
+            order == 0 ? history::roundoff(before, 0.0) + history::roundoff(after, 0.0)
+                       : history::roundoff_of_rate(before, 0.0) + history::roundoff_of_rate(after, 0.0);
         if (std::abs(b - a) <= rounded) continue;
         found_.push_back(
             fmt::format("the {} of '{}' jumps at t = 0: the initial state is taken as the one just after, "
@@ -257,13 +259,13 @@ class Doubts {
   void another_run() {
     if (!scene_.initial.saved) return;
     const std::string& run = scene_.initial.saved->run;
-    if (const std::string why = run.empty() ? "" : why_unchecked(run); !why.empty())
+    if (const std::string why = run.empty() ? "" : base::why_unchecked(run); !why.empty())
       found_.push_back("continues from the run in " + why);
     if (scene_.initial.saved->differing.empty()) return;
     found_.push_back(
         fmt::format("continues from a run in {} whose scene has other {}: its displacements, velocities and "
                     "shears are used unchanged",
-                    scene_.initial.saved->run, listed_plainly(scene_.initial.saved->differing)));
+                    scene_.initial.saved->run, base::listed_plainly(scene_.initial.saved->differing)));
   }
 
   void shear() {
@@ -298,7 +300,7 @@ class Doubts {
   /// run.geometric: some motion has negative energy while contacts are open.
   void runs_away() {
     if (!model_.geometric) return;
-    const auto fastest = fastest_growth(model_.stiffness, model_.mass);
+    const auto fastest = modes::fastest_growth(model_.stiffness, model_.mass);
     if (!fastest) return;
     const std::vector<double>& factors = model_.geometric->load_factors;
     const bool at_once = !factors.empty() && factors.front() <= 1.0;
@@ -308,11 +310,11 @@ class Doubts {
                     model_.contacts.empty() ? "from the start"
                     : at_once               ? "from the start, and with all its contacts open"
                                             : "with all its contacts open",
-                    describe_motion(fastest->motion, map_), fastest->rate / model_.unit.time));
+                    assembly::describe_motion(fastest->motion, map_), fastest->rate / model_.unit.time));
   }
 
   const Scene& scene_;
-  const DofMap& map_;
+  const assembly::DofMap& map_;
   const Model& model_;
   Vector weight_;
   std::vector<std::size_t> falling_;  // indices of contacts
@@ -321,8 +323,8 @@ class Doubts {
 
 }  // namespace
 
-std::vector<std::string> doubts(const Scene& scene, const DofMap& map, const Model& model) {
-  return Doubts(scene, map, model).all();
+std::vector<std::string> model_warnings(const Scene& scene, const assembly::DofMap& map, const Model& model) {
+  return ModelWarnings(scene, map, model).all();
 }
 
 namespace {
@@ -337,15 +339,16 @@ constexpr double of_free = 64.0;
 
 /// Effective over full amplitude at this frequency.
 double share_at(const History& f, double amplitude, double t_end, double omega) {
-  return std::min(1.0, omega * greatest_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
+  return std::min(1.0, omega * history::greatest_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
 }
 
 /// Frequencies of the oscillations along the static responses to loads; 0 if there is none.
-class Swings {
+class HalfPeriods {
  public:
-  Swings(const Model& model, const Holding& holding) : model_(model) {
-    const SparseMatrix k = with_springs(model.stiffness, holding.springs);
-    if (null_motions(with_grips(k, holding.fixed)).cols() == 0) structure_.emplace(k, holding.fixed);
+  HalfPeriods(const Model& model, const modes::Holding& holding) : model_(model) {
+    const SparseMatrix k = assembly::with_springs(model.stiffness, holding.springs);
+    if (statics::null_motions(modes::with_grips(k, holding.fixed)).cols() == 0)
+      structure_.emplace(k, holding.fixed);
   }
   [[nodiscard]] double along(const Vector& p) const {
     if (!structure_) return 0.0;
@@ -356,36 +359,38 @@ class Swings {
 
  private:
   const Model& model_;
-  std::optional<HeldStructure> structure_;
+  std::optional<modes::HeldStructure> structure_;
 };
 
 }  // namespace
 
-Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, double t_end) {
-  std::optional<Swings> swings;
+EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::Holding& holding, double omega,
+                                         double t_end) {
+  std::optional<HalfPeriods> swings;
   const auto own = [&](double along) { return along * t_end > 1.0 ? along : of_free / t_end; };
   // The share increases with the frequency, and the lowest frequency is known.
   const double lowest = std::max(omega, 1.0 / t_end);
   const auto lasts = [&](const History& f, double amplitude) {
     return f.is_constant() || !(amplitude > 0.0) || share_at(f, amplitude, t_end, lowest) == 1.0;
   };
-  Felt felt;
+  EffectiveAmplitudes effective;
   for (const Load& load : model.loads) {
-    FeltLoad& part = felt.loads.emplace_back();
-    const double amplitude = magnitude(load.history, t_end);
+    EffectiveLoad& part = effective.loads.emplace_back();
+    const double amplitude = history::magnitude(load.history, t_end);
     if (lasts(load.history, amplitude)) continue;
     if (!swings) swings.emplace(model, holding);
-    const double along = swings->along(full(load.direction, model.size()));
+    const double along = swings->along(assembly::full(load.direction, model.size()));
     part.share = share_at(load.history, amplitude, t_end, own(along > 0.0 ? along : omega));
     if (part.share < 1.0) part.thrown = share_at(load.history, amplitude, t_end, 1.0 / t_end);
   }
   for (const Contact& contact : model.contacts) {
-    double& share = felt.compressions.emplace_back(1.0);
-    const double amplitude = contact.normal_force_given() ? magnitude(contact.normal_force, t_end) : 0.0;
+    double& share = effective.compressions.emplace_back(1.0);
+    const double amplitude =
+        contact.normal_force_given() ? history::magnitude(contact.normal_force, t_end) : 0.0;
     if (!lasts(contact.normal_force, amplitude))
       share = share_at(contact.normal_force, amplitude, t_end, own(omega));
   }
-  return felt;
+  return effective;
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

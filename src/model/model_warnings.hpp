@@ -24,11 +24,12 @@
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 /// One sentence per warning. Errors: SceneError, as above. The model must be complete (damping and initial state set),
 /// but not yet reduced, and without shear elements.
-[[nodiscard]] std::vector<std::string> doubts(const Scene& scene, const DofMap& map, const Model& model);
+[[nodiscard]] std::vector<std::string> model_warnings(const Scene& scene, const assembly::DofMap& map,
+                                                      const Model& model);
 
 // Effective amplitude of a load or a compression that acts only for a short time.
 //
@@ -41,17 +42,18 @@ namespace signorini {
 // rad during the run is free: w = 64 / t_end, so a thousandth of the run counts in full.
 
 /// Fractions of each load's largest amplitude.
-struct FeltLoad {
+struct EffectiveLoad {
   double share = 1.0;   ///< effective / full amplitude; exactly 1 for lasting loads
   double thrown = 1.0;  ///< the same for a free motion over the whole run: J over all of the run
 };
 
-struct Felt {
-  std::vector<FeltLoad> loads;
+struct EffectiveAmplitudes {
+  std::vector<EffectiveLoad> loads;
   std::vector<double> compressions;  ///< fraction for each slider's normal_force, with w the lowest frequency
 };
 
 /// omega: lowest frequency of the constrained structure; 0: it has none.
-[[nodiscard]] Felt felt_amplitudes(const Model& model, const Holding& holding, double omega, double t_end);
+[[nodiscard]] EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::Holding& holding,
+                                                       double omega, double t_end);
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -14,7 +14,7 @@
 #include "model/assembly/springs.hpp"
 #include "scene/saved_state.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 constexpr double takes_part = 1e-9;       // relative to a unit normal: less is the error of an elimination
@@ -30,7 +30,7 @@ constexpr double dependent = 1e-12;       // remainder of a unit normal after al
 /// instant.
 void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
-  const bool varies = friction_varies(contact), curved = contact.curved_surface() != nullptr;
+  const bool varies = contact::friction_varies(contact), curved = contact.curved_surface() != nullptr;
   const bool beside_spring = contact.tangential_stiffness.has_value();
   if (contact.is_linear()) return;
   for (const Combination* form : {&contact.tangent, &contact.normal}) {
@@ -38,9 +38,10 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
     for (const auto& [dof, factor] : form->terms)
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
         refuse(scene, k, varies ? "friction" : "radius",
-               fmt::format("{} needs mass where it acts, and {} has none",
-                           varies ? named_friction(contact) : "a curved surface under a force that varies",
-                           d.displacement));
+               fmt::format(
+                   "{} needs mass where it acts, and {} has none",
+                   varies ? contact::named_friction(contact) : "a curved surface under a force that varies",
+                   d.displacement));
   }
 }
 
@@ -87,13 +88,14 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
 void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   Eigen::MatrixXd normals(model.size(), static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    normals.col(static_cast<Eigen::Index>(i)) = full(model.contacts[contacts[i]].normal, model.size());
+    normals.col(static_cast<Eigen::Index>(i)) =
+        assembly::full(model.contacts[contacts[i]].normal, model.size());
   for (int round = 0; round < 2; ++round) {
     Eigen::VectorXd gaps(normals.cols());
     for (std::size_t i = 0; i < contacts.size(); ++i)
       gaps[static_cast<Eigen::Index>(i)] = model.contacts[contacts[i]].gap_at(model.u0);
     if (gaps.isZero(0.0)) return;
-    model.u0 -= normals * least_squares(Eigen::MatrixXd(normals.transpose() * normals), gaps);
+    model.u0 -= normals * base::least_squares(Eigen::MatrixXd(normals.transpose() * normals), gaps);
   }
 }
 
@@ -106,9 +108,9 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
   std::vector<std::size_t> members;
   const auto consider = [&](std::size_t k) {
     const Contact& contact = model.contacts[k];
-    const Vector normal = full(contact.normal, model.size());
+    const Vector normal = assembly::full(contact.normal, model.size());
     if (!members.empty()) {
-      const Eigen::VectorXd x = combination_of_columns(normals, normal);
+      const Eigen::VectorXd x = base::combination_of_columns(normals, normal);
       if ((normal - normals * x).norm() <= dependent * normal.norm()) {
         double gap = contact.gap, size = std::abs(contact.gap);
         std::vector<std::string> names;
@@ -124,7 +126,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
                  fmt::format(
                      "this contact closes at the same time as {}, so the share of each rigid contact in the "
                      "force is not determined; remove this contact, or give all of them law = \"compliant\"",
-                     listed(names)));
+                     base::listed(names)));
         return;
       }
     }
@@ -152,7 +154,7 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
     normals.push_back(contact.normal);
   }
   // Normals without a common degree of freedom are independent.
-  for (const std::vector<std::size_t>& group : coupled_forms(normals)) {
+  for (const std::vector<std::size_t>& group : assembly::coupled_forms(normals)) {
     std::vector<std::size_t> members;
     for (const std::size_t i : group) members.push_back(rigid[i]);
     std::vector<std::size_t> touching;
@@ -176,7 +178,7 @@ SparseMatrix enlarged(const SparseMatrix& matrix, int size) {
 }  // namespace
 
 void add_shear_elements(const Scene& scene, Model& model) {
-  std::vector<LineSpring> stiffness, damping;
+  std::vector<assembly::LineSpring> stiffness, damping;
   std::vector<double> u, v;
   const int before = model.size();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -201,7 +203,7 @@ void add_shear_elements(const Scene& scene, Model& model) {
     model.dofs.push_back({contact.name + ".slip", contact.name + ".slip_rate", false, true});
     const double body = contact.tangent.dot(model.u0);
     std::optional<double> saved;
-    if (scene.initial.saved) saved = saved_motion(*scene.initial.saved, contact.name + ".slip");
+    if (scene.initial.saved) saved = scene::saved_motion(*scene.initial.saved, contact.name + ".slip");
     const double element = saved ? body - *saved : contact.initial_shear / kt;  // deformation of the element
     u.push_back((relative ? 0.0 : body) - element);
     v.push_back(contact.surface_motion.piece(0.0).value(0.0, 1));
@@ -217,8 +219,8 @@ void add_shear_elements(const Scene& scene, Model& model) {
   const int size = model.size();
   if (size == before) return;
   model.mass = enlarged(model.mass, size);
-  model.stiffness = with_springs(enlarged(model.stiffness, size), stiffness);
-  model.damping = with_springs(enlarged(model.damping, size), damping);
+  model.stiffness = assembly::with_springs(enlarged(model.stiffness, size), stiffness);
+  model.damping = assembly::with_springs(enlarged(model.damping, size), damping);
   for (Vector* x : {&model.u0, &model.v0}) x->conservativeResize(size);
   for (int i = before; i < size; ++i) {
     model.u0[i] = u[static_cast<std::size_t>(i - before)];
@@ -226,4 +228,4 @@ void add_shear_elements(const Scene& scene, Model& model) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -8,7 +8,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 /// Errors: SceneError at the contact's place; it proposes law = "compliant". Gaps at u0 that are zero up to rounding
 /// become zero.
@@ -29,4 +29,4 @@ void check_rigid_contacts(const Scene& scene, Model& model);
 /// complete.
 void add_shear_elements(const Scene& scene, Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::model

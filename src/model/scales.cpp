@@ -13,7 +13,7 @@
 #include "model/modes/modes.hpp"
 #include "model/statics/mechanisms.hpp"
 
-namespace signorini {
+namespace signorini::model {
 namespace {
 
 constexpr double only_rounding = 1e-10;  // relative to the response of the free structure: rounding of the
@@ -31,7 +31,7 @@ double first_usable(const Candidate&... candidates) {
 
 /// Force on one point per unit of a load's history: the plane vector's length in node scenes, the largest factor in
 /// matrix scenes.
-double force_factor(const Combination& direction, const DofMap& map) {
+double force_factor(const Combination& direction, const assembly::DofMap& map) {
   double greatest = 0.0, square = 0.0;
   for (const auto& [i, a] : direction.terms) {
     // A force on a rigid body includes its arm; its direction is a unit vector.
@@ -43,7 +43,7 @@ double force_factor(const Combination& direction, const DofMap& map) {
 }
 
 /// Largest distance of two nodes; independent of the scene's orientation. Inner nodes lie between named ones.
-double length_of(const DofMap& map) {
+double length_of(const assembly::DofMap& map) {
   const auto named = static_cast<std::size_t>(map.mesh.named);
   double squared = 0.0;
   for (std::size_t i = 0; i < named; ++i)
@@ -57,14 +57,15 @@ double length_of(const DofMap& map) {
 
 /// True for a rigid body that supports hold in part, so that forces act on its rotation alone, as moments; their arm is
 /// the length of the structure.
-bool turns_alone(const DofMap& map, std::size_t node) {
+bool turns_alone(const assembly::DofMap& map, std::size_t node) {
   const auto& n = map.number[node];
   return map.body[node] >= 0 && n[2] >= 0 && !map.is_tied(n[2]) &&
-         (n[0] == DofMap::fixed || map.is_tied(n[0]) || n[1] == DofMap::fixed || map.is_tied(n[1]));
+         (n[0] == assembly::DofMap::fixed || map.is_tied(n[0]) || n[1] == assembly::DofMap::fixed ||
+          map.is_tied(n[1]));
 }
 
 /// Force on the degrees of freedom of a node. Tied nodes have their forces at the nodes that they follow.
-double force_at(const Vector& p, const DofMap& map, std::size_t node, double arm) {
+double force_at(const Vector& p, const assembly::DofMap& map, std::size_t node, double arm) {
   const auto part = [&](int n) { return n >= 0 && !map.is_tied(n) ? p[n] : 0.0; };
   const auto& n = map.number[node];
   const double force = std::hypot(part(n[0]), part(n[1]));
@@ -72,7 +73,7 @@ double force_at(const Vector& p, const DofMap& map, std::size_t node, double arm
 }
 
 /// Sum over all nodes; independent of the scene's orientation.
-double weight_of(const Vector& p, const DofMap& map) {
+double weight_of(const Vector& p, const assembly::DofMap& map) {
   if (map.matrices()) return p.cwiseAbs().sum();
   const double arm = length_of(map);
   double weight = 0.0;
@@ -81,8 +82,8 @@ double weight_of(const Vector& p, const DofMap& map) {
 }
 
 /// Force on the most loaded node.
-double greatest_force(const Vector& p, const DofMap& map) {
-  if (map.matrices()) return greatest_translation(p, map);
+double greatest_force(const Vector& p, const assembly::DofMap& map) {
+  if (map.matrices()) return assembly::greatest_translation(p, map);
   const double arm = length_of(map);
   double greatest = 0.0;
   for (std::size_t i = 0; i < map.number.size(); ++i) greatest = std::max(greatest, force_at(p, map, i, arm));
@@ -90,7 +91,7 @@ double greatest_force(const Vector& p, const DofMap& map) {
 }
 
 /// Mass of a node along the direction in which it is largest; independent of the scene's orientation.
-double greatest_mass(const Model& model, const DofMap& map) {
+double greatest_mass(const Model& model, const assembly::DofMap& map) {
   double greatest = 0.0;
   if (map.matrices()) {
     for (int i = 0; i < model.size(); ++i) greatest = std::max(greatest, model.mass.coeff(i, i));
@@ -98,7 +99,7 @@ double greatest_mass(const Model& model, const DofMap& map) {
   }
   const double arm = length_of(map);
   for (std::size_t i = 0; i < map.number.size(); ++i) {
-    const auto own = [&](int n) { return map.is_tied(n) ? DofMap::absent : n; };
+    const auto own = [&](int n) { return map.is_tied(n) ? assembly::DofMap::absent : n; };
     const int x = own(map.number[i][0]), y = own(map.number[i][1]);
     const double mx = x >= 0 ? model.mass.coeff(x, x) : 0.0, my = y >= 0 ? model.mass.coeff(y, y) : 0.0;
     const double mxy = x >= 0 && y >= 0 ? model.mass.coeff(x, y) : 0.0;
@@ -110,20 +111,21 @@ double greatest_mass(const Model& model, const DofMap& map) {
   return greatest;
 }
 
-double force_of(const Model& model, const DofMap& map, const Felt& felt, double t_end) {
+double force_of(const Model& model, const assembly::DofMap& map, const EffectiveAmplitudes& effective,
+                double t_end) {
   double force = 0.0;
   for (double reaction : model.statics.reactions) force = std::max(force, reaction);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     if (c.normal_force_given())
-      force = std::max(force, felt.compressions[k] * magnitude(c.normal_force, t_end));
+      force = std::max(force, effective.compressions[k] * history::magnitude(c.normal_force, t_end));
     if (const auto N = c.resting_force(model.u0)) force = std::max(force, -*N);
   }
   double held = 0.0;  // forces of constrained deformation (heat, supports), for want of others
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
-    const double most = felt.loads[i].share * magnitude(load.history, t_end);
-    const Vector direction = full(load.direction, model.size());
+    const double most = effective.loads[i].share * history::magnitude(load.history, t_end);
+    const Vector direction = assembly::full(load.direction, model.size());
     switch (load.kind) {
       case LoadKind::weight:
       case LoadKind::base:
@@ -163,18 +165,18 @@ struct Answer {
   double gripped = 0.0;
 };
 
-Answer answer_to(const std::vector<Vector>& forces, const Model& model, const DofMap& map,
-                 const Holding& holding) {
+Answer answer_to(const std::vector<Vector>& forces, const Model& model, const assembly::DofMap& map,
+                 const modes::Holding& holding) {
   if (forces.empty()) return {};
-  const SparseMatrix k = with_springs(model.stiffness, holding.springs);
-  const SparseMatrix gripped = with_grips(k, holding.fixed);
-  if (null_motions(gripped).cols() > 0) return {};
-  const HeldStructure structure(k, holding.fixed);
-  const SymmetricSolver loose(gripped);
+  const SparseMatrix k = assembly::with_springs(model.stiffness, holding.springs);
+  const SparseMatrix gripped = modes::with_grips(k, holding.fixed);
+  if (statics::null_motions(gripped).cols() > 0) return {};
+  const modes::HeldStructure structure(k, holding.fixed);
+  const assembly::SymmetricSolver loose(gripped);
   Answer result;
   for (const Vector& p : forces) {
-    const double answer = greatest_translation(structure.solve(p), map);
-    const double free = greatest_translation(loose.solve(p), map);
+    const double answer = assembly::greatest_translation(structure.solve(p), map);
+    const double free = assembly::greatest_translation(loose.solve(p), map);
     // If everything movable is fixed, the response is rounding only.
     if (answer > only_rounding * free) result.held = std::max(result.held, answer);
     result.gripped = std::max(result.gripped, free);
@@ -182,47 +184,52 @@ Answer answer_to(const std::vector<Vector>& forces, const Model& model, const Do
   return result;
 }
 
-std::vector<Vector> amplitudes_of_loads(const Model& model, const Felt& felt, double t_end) {
+std::vector<Vector> amplitudes_of_loads(const Model& model, const EffectiveAmplitudes& effective,
+                                        double t_end) {
   std::vector<Vector> forces;
   for (std::size_t i = 0; i < model.loads.size(); ++i)
-    forces.emplace_back(full(model.loads[i].direction, model.size()) *
-                        (felt.loads[i].share * magnitude(model.loads[i].history, t_end)));
+    forces.emplace_back(assembly::full(model.loads[i].direction, model.size()) *
+                        (effective.loads[i].share * history::magnitude(model.loads[i].history, t_end)));
   return forces;
 }
 
 /// f N along the tangents of sliders, whose normal forces are given.
-std::vector<Vector> limits_of_friction(const Model& model, const Felt& felt, double t_end) {
+std::vector<Vector> limits_of_friction(const Model& model, const EffectiveAmplitudes& effective,
+                                       double t_end) {
   std::vector<Vector> forces;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (const double limit = static_friction(c) * (felt.compressions[k] * magnitude(c.normal_force, t_end));
+    if (const double limit = contact::static_friction(c) *
+                             (effective.compressions[k] * history::magnitude(c.normal_force, t_end));
         c.normal_force_given() && limit > 0.0)
-      forces.emplace_back(full(c.tangent, model.size()) * limit);
+      forces.emplace_back(assembly::full(c.tangent, model.size()) * limit);
   }
   return forces;
 }
 
 /// Distance that the loads could throw the unsupported structure during the run.
-double thrown(const Model& model, const DofMap& map, const Felt& felt, double t_end) {
+double thrown(const Model& model, const assembly::DofMap& map, const EffectiveAmplitudes& effective,
+              double t_end) {
   SparseMatrix mass = model.mass;
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) mass.coeffRef(i, i) = 1.0;
-  const SymmetricSolver solver(mass);
+  const assembly::SymmetricSolver solver(mass);
   double acceleration = 0.0;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const Load& load = model.loads[k];
-    Vector p = full(load.direction, model.size()) * (felt.loads[k].thrown * magnitude(load.history, t_end));
+    Vector p = assembly::full(load.direction, model.size()) *
+               (effective.loads[k].thrown * history::magnitude(load.history, t_end));
     for (int i = 0; i < model.size(); ++i)
       if (model.dofs[static_cast<std::size_t>(i)].massless) p[i] = 0.0;
-    acceleration += greatest_translation(solver.solve(p), map);
+    acceleration += assembly::greatest_translation(solver.solve(p), map);
   }
-  return greatest_translation(model.u0, map) + greatest_translation(model.v0, map) * t_end +
-         0.5 * acceleration * t_end * t_end;
+  return assembly::greatest_translation(model.u0, map) +
+         assembly::greatest_translation(model.v0, map) * t_end + 0.5 * acceleration * t_end * t_end;
 }
 
 /// Solver error of a response that contacts prevent completely: rounding of the force's effect on the stiffest degree
 /// of freedom. Rotations over the length of the structure.
-double least_answer(const Model& model, const DofMap& map, double force) {
+double least_answer(const Model& model, const assembly::DofMap& map, double force) {
   const double arm = length_of(map);
   double stiffest = 0.0;
   for (int i = 0; i < model.size(); ++i) {
@@ -248,21 +255,22 @@ double spring_answer(const Model& model, double force) {
 
 }  // namespace
 
-Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool>& closed, double t_end) {
+Scales find_scales(const Model& model, const assembly::DofMap& map, const std::vector<bool>& closed,
+                   double t_end) {
   Scales scales;
   const double length = length_of(map);
-  const double v0 = greatest_translation(model.v0, map);
-  const Holding holding = hold_contacts(model.contacts, closed);
-  Holding rested;  // without friction on closed rigid contacts
+  const double v0 = assembly::greatest_translation(model.v0, map);
+  const modes::Holding holding = modes::hold_contacts(model.contacts, closed);
+  modes::Holding rested;  // without friction on closed rigid contacts
   for (std::size_t k = 0; k < closed.size(); ++k)
     if (closed[k] && model.contacts[k].takes_impulses()) rested.fixed.push_back(model.contacts[k].normal);
   const double omega =
-      model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, rested);
-  const Felt felt = felt_amplitudes(model, holding, omega, t_end);
-  const double force = force_of(model, map, felt, t_end);
+      model.omega1 > 0.0 ? model.omega1 : modes::lowest_frequency(model.mass, model.stiffness, rested);
+  const EffectiveAmplitudes effective = effective_amplitudes(model, holding, omega, t_end);
+  const double force = force_of(model, map, effective, t_end);
 
-  double displacement = greatest_translation(model.u0, map);
-  const std::vector<Vector> loads = amplitudes_of_loads(model, felt, t_end);
+  double displacement = assembly::greatest_translation(model.u0, map);
+  const std::vector<Vector> loads = amplitudes_of_loads(model, effective, t_end);
   const auto [held, gripped] = answer_to(loads, model, map, holding);
   displacement = std::max(displacement, held > 0.0 ? held : answer_to(loads, model, map, rested).held);
   if (displacement < only_rounding * gripped) displacement = gripped;
@@ -270,13 +278,13 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const auto answers = [&](double x) { return usable(x) && x > least; };
   if (!answers(displacement)) displacement = 0.0;
   // A free motion that is constrained by rounding alone, or hardly, has an unbounded response.
-  if (const double farthest = thrown(model, map, felt, t_end); usable(farthest))
+  if (const double farthest = thrown(model, map, effective, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
   // An initial velocity moves the structure at least as far as the fastest oscillation would.
   if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
   // A motion driven by friction alone goes as far as the friction limit deforms the structure.
   if (!usable(displacement))
-    displacement = answer_to(limits_of_friction(model, felt, t_end), model, map, rested).held;
+    displacement = answer_to(limits_of_friction(model, effective, t_end), model, map, rested).held;
   if (!answers(displacement)) displacement = spring_answer(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))
@@ -300,4 +308,4 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   return scales;
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

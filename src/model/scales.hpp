@@ -17,11 +17,11 @@
 #include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 /// The rest of the model must be complete. All scales are positive and finite; a scale that the scene does not
 /// determine is 1.
-[[nodiscard]] Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool>& closed,
-                                 double t_end);
+[[nodiscard]] Scales find_scales(const Model& model, const assembly::DofMap& map,
+                                 const std::vector<bool>& closed, double t_end);
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -10,7 +10,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 double diagonal_decay(const Vector& mass, const Vector& damping, const Vector& stiffness) {
   double rate = 0.0;
@@ -71,9 +71,9 @@ struct Slipping {
 
 Slipping slipping(const Model& model, const std::vector<State>& states) {
   Slipping result;
-  std::vector<LineSpring> springs;
+  std::vector<assembly::LineSpring> springs;
   const auto spring = [&](const Combination& form, std::optional<double> k) {
-    return LineSpring{form, k ? *k : rigid * own_stiffness(model.stiffness, form)};
+    return assembly::LineSpring{form, k ? *k : rigid * statics::own_stiffness(model.stiffness, form)};
   };
   for (std::size_t k = 0; k < states.size(); ++k) {
     const Contact& c = model.contacts[k];
@@ -81,20 +81,20 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
     const int s = slip_sign(states[k]);
     if (s == 0 && c.has_friction()) springs.push_back(spring(c.tangent, c.tangential_stiffness));
     if (c.normal_force_given()) continue;
-    const LineSpring normal = spring(c.normal, c.normal_spring());
+    const assembly::LineSpring normal = spring(c.normal, c.normal_spring());
     if (s == 0) {
       springs.push_back(normal);
       continue;
     }
-    const Vector n = full(c.normal, model.size());
+    const Vector n = assembly::full(c.normal, model.size());
     const double f = c.friction.by_force()
-                         ? friction_limit_slope(c.friction, -c.normal_stiffness * c.gap_at(model.u0))
-                         : kinetic_friction(c);
-    const Vector push = n - s * f * full(c.tangent, model.size());
+                         ? contact::friction_limit_slope(c.friction, -c.normal_stiffness * c.gap_at(model.u0))
+                         : contact::kinetic_friction(c);
+    const Vector push = n - s * f * assembly::full(c.tangent, model.size());
     result.drives.push_back({n, push, normal.stiffness, c.normal_damping});
     result.contacts.push_back(k);
   }
-  result.stiffness = with_springs(model.stiffness, springs);
+  result.stiffness = assembly::with_springs(model.stiffness, springs);
   return result;
 }
 
@@ -110,7 +110,8 @@ Window window(const Model& model, const Slipping& slip, double sigma) {
   Eigen::MatrixXd k = slip.stiffness;
   for (const Drive& drive : slip.drives) k += drive.stiffness * drive.normal * drive.normal.transpose();
   // Relative to the largest 1 / (omega^2 + sigma^2).
-  const EigenPairs pairs = generalized_eigen(model.mass, k + sigma * sigma * Eigen::MatrixXd(model.mass));
+  const base::EigenPairs pairs =
+      base::generalized_eigen(model.mass, k + sigma * sigma * Eigen::MatrixXd(model.mass));
   if (pairs.values.size() < n) return {Eigen::MatrixXd(n, 0)};
   const double last = pairs.values[n - all_up_to];
   const double square = last > 0.0 ? 1.0 / last - sigma * sigma : 0.0;
@@ -124,13 +125,13 @@ std::vector<std::complex<double>> exponents(const Eigen::MatrixXd& m, const Eige
   Eigen::MatrixXd right(n, 2 * n);
   right << c + 2.0 * sigma * m, m;
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  a.topRows(n) = -solve_dense(k + sigma * c + sigma * sigma * m, right);
+  a.topRows(n) = -base::solve_dense(k + sigma * c + sigma * sigma * m, right);
   a.bottomLeftCorner(n, n).setIdentity();
   // In units of 1/sigma, so that the halves of z have equal size.
   a.topRightCorner(n, n) *= sigma;
   a.bottomLeftCorner(n, n) /= sigma;
   std::vector<std::complex<double>> found;
-  for (const std::complex<double> nu : general_eigenvalues(sigma * a))
+  for (const std::complex<double> nu : base::general_eigenvalues(sigma * a))
     if (std::abs(nu) > no_growth) found.push_back(sigma * (1.0 + 1.0 / nu));
   return found;
 }
@@ -160,4 +161,4 @@ std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<Stat
   return fastest.rate > 0.0 ? std::optional(fastest) : std::nullopt;
 }
 
-}  // namespace signorini
+}  // namespace signorini::model

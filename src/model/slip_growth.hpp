@@ -18,7 +18,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::model {
 
 // Decay rates of motions, without computing a mode.
 //
@@ -47,4 +47,4 @@ struct SlipGrowth {
 /// elements.
 [[nodiscard]] std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<State>& states);
 
-}  // namespace signorini
+}  // namespace signorini::model

@@ -8,21 +8,21 @@
 
 #include "motion/taylor.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 class ConsistentMotion {
  public:
-  explicit ConsistentMotion(ModeSystems& systems) : taylor_(systems) {}
+  explicit ConsistentMotion(StateSystems& systems) : taylor_(systems) {}
 
   /// Computes forces, accelerations and v of massless degrees of freedom that are consistent with u and v.
-  void make(const ModeSystemPtr& system, const Forcing& forcing, double t, Point& point) {
+  void make(const StateSystemPtr& system, const Forcing& forcing, double t, Point& point) {
     taylor_.expand(system, forcing, t, point.u, point.v, taylor_.massless() ? 1 : 0, 1.0, series_);
     point = {series_.u.col(0), series_.u.col(1), series_.forces.col(0), 2.0 * series_.u.col(2)};
   }
 
   /// Writes all accelerations that are consistent with u and v into the point, including massless degrees of freedom;
   /// u, v and forces remain unchanged.
-  void accelerate(const ModeSystemPtr& system, const Forcing& forcing, double t, Point& point) {
+  void accelerate(const StateSystemPtr& system, const Forcing& forcing, double t, Point& point) {
     taylor_.expand(system, forcing, t, point.u, point.v, taylor_.massless() ? 2 : 0, 1.0, series_);
     point.a = 2.0 * series_.u.col(2);
   }
@@ -35,4 +35,4 @@ class ConsistentMotion {
   Series series_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace signorini {
+namespace signorini::motion {
 
 void ContactSeries::fill(const Contact& contact, std::size_t index, const Series& series,
                          std::size_t degree) {
@@ -14,7 +14,7 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   values_.resize(fields * stride());
   there_.fill(false);
   for (const Field field : {N, T, gap, ut, slide}) there_[field] = true;
-  there_[pressing_rate] = contact.normal_force_given();
+  there_[applied_normal_force_rate] = contact.normal_force_given();
   double *const g = place(gap), *const slip = place(ut), *const normal = place(N), *const tangent = place(T);
   for (std::size_t k = 0; k < stride(); ++k) {
     g[k] = gap_coefficient(contact, series, k);
@@ -32,10 +32,10 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
       place(slide)[k] =
           contact.body_tangent().dot(series.u.col(static_cast<Eigen::Index>(k)).data()) - surface[k];
   }
-  if (there_[pressing_rate]) {
-    const double* pressing = series.forcing.pressing.data() + index * series.forcing.count;
+  if (there_[applied_normal_force_rate]) {
+    const double* applied = series.forcing.applied_normal_force.data() + index * series.forcing.count;
     for (std::size_t k = 0; k <= degree; ++k)
-      place(pressing_rate)[k] = static_cast<double>(k + 1) / series.scale * pressing[k + 1];
+      place(applied_normal_force_rate)[k] = static_cast<double>(k + 1) / series.scale * applied[k + 1];
   }
 }
 
@@ -78,7 +78,7 @@ void ContactSeries::combine(const Form& form, double* out) const {
   add(form.vn, vn);
   add(form.vt, vt);
   add(form.an, an);
-  add(form.pressing_rate, pressing_rate);
+  add(form.applied_normal_force_rate, applied_normal_force_rate);
   out[0] += form.constant;
 }
 
@@ -114,4 +114,4 @@ ContactSeries::GuardSeries ContactSeries::expand(const GuardForm& guard, double 
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

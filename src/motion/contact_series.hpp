@@ -12,7 +12,7 @@
 #include "contact/law.hpp"
 #include "motion/taylor.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 /// Value at x of a polynomial of degree + 1 coefficients, ascending.
 [[nodiscard]] inline double value_at(const double* a, std::size_t degree, double x) {
@@ -30,7 +30,7 @@ inline void shift(double* a, std::size_t degree, double x) {
 /// Polynomials of one contact; each has `degree + 1` coefficients.
 class ContactSeries {
  public:
-  enum Field : std::size_t { N, T, gap, ut, vn, vt, an, pressing_rate, slide, fields };
+  enum Field : std::size_t { N, T, gap, ut, vn, vt, an, applied_normal_force_rate, slide, fields };
 
   void fill(const Contact& contact, std::size_t index, const Series& series, std::size_t degree);
   /// Allocates polynomials to be filled by the caller; all are zero.
@@ -98,4 +98,4 @@ class ContactSeries {
   mutable std::vector<double> factor_, other_factor_;  // factors of a product
 };
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace signorini {
+namespace signorini::motion {
 namespace {
 
 const Piece* piece(const History& history, double t, Side side) {
@@ -36,24 +36,24 @@ Forcing::Forcing(const Model& model, double t, Side side) : Forcing(model) {
       constant_terms_[dof] += std::abs(factor * p->coefficients[0]);
   }
   for (const Contact& contact : model.contacts) {
-    pressing_.push_back(piece(contact.normal_force, t, side));
+    applied_normal_force_.push_back(piece(contact.normal_force, t, side));
     surface_.push_back(piece(contact.surface_motion, t, side));
     moves_.push_back(changes(*surface_.back()));
-    presses_.push_back(changes(*pressing_.back()));
+    presses_.push_back(changes(*applied_normal_force_.back()));
     still_surface_.push_back(surface_.back()->value(t));
-    still_pressing_.push_back(pressing_.back()->value(t));
+    still_pressing_.push_back(applied_normal_force_.back()->value(t));
     drives_.push_back(moves_.back() || presses_.back());
     varies_ = varies_ || drives_.back();
-    if (!vanishes(*pressing_.back())) pressed_.push_back(pressing_.size() - 1);
+    if (!vanishes(*applied_normal_force_.back())) pressed_.push_back(applied_normal_force_.size() - 1);
     if (!vanishes(*surface_.back())) carried_.push_back(surface_.size() - 1);
-    lifted_.push_back(contact.normal_force_given() && vanishes(*pressing_.back()));
+    lifted_.push_back(contact.normal_force_given() && vanishes(*applied_normal_force_.back()));
   }
   varies_ = varies_ || !varying_.empty();
   loaded_ = !varying_.empty() || !constant_.isZero(0.0);
 }
 
 double Forcing::surface_rounding(std::size_t k, double t) const {
-  return moves_[k] ? roundoff_of_rate(*surface_[k], t) : 0.0;
+  return moves_[k] ? history::roundoff_of_rate(*surface_[k], t) : 0.0;
 }
 
 void Forcing::add_load(double t, int order, double* P, double factor) const {
@@ -72,8 +72,8 @@ std::size_t Forcing::surface_terms(std::size_t k) const {
 Forcing Forcing::none(const Model& model) {
   static const Piece still;
   Forcing f(model);
-  f.pressing_.assign(model.contacts.size(), &still);
-  f.surface_ = f.pressing_;
+  f.applied_normal_force_.assign(model.contacts.size(), &still);
+  f.surface_ = f.applied_normal_force_;
   f.lifted_.assign(model.contacts.size(), false);
   f.moves_ = f.presses_ = f.drives_ = f.lifted_;
   f.still_pressing_.assign(model.contacts.size(), 0.0);
@@ -94,7 +94,7 @@ Forcing Forcing::on_part(const Model& part, const std::vector<int>& dofs,
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const std::size_t k = contacts[i];
-    f.pressing_.push_back(pressing_[k]);
+    f.applied_normal_force_.push_back(applied_normal_force_[k]);
     f.surface_.push_back(surface_[k]);
     f.moves_.push_back(moves_[k]);
     f.presses_.push_back(presses_[k]);
@@ -103,7 +103,7 @@ Forcing Forcing::on_part(const Model& part, const std::vector<int>& dofs,
     f.still_pressing_.push_back(still_pressing_[k]);
     f.still_surface_.push_back(still_surface_[k]);
     f.varies_ = f.varies_ || drives_[k];
-    if (!vanishes(*pressing_[k])) f.pressed_.push_back(i);
+    if (!vanishes(*applied_normal_force_[k])) f.pressed_.push_back(i);
     if (!vanishes(*surface_[k])) f.carried_.push_back(i);
   }
   f.varies_ = f.varies_ || !f.varying_.empty();
@@ -113,12 +113,12 @@ Forcing Forcing::on_part(const Model& part, const std::vector<int>& dofs,
 
 void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& out) const {
   const auto clear = [&](std::vector<double>& rows, const std::vector<std::size_t>& held) {
-    if (out.count != count || rows.size() != pressing_.size() * count)
-      rows.assign(pressing_.size() * count, 0.0);
+    if (out.count != count || rows.size() != applied_normal_force_.size() * count)
+      rows.assign(applied_normal_force_.size() * count, 0.0);
     else
       for (const std::size_t k : held) std::fill_n(rows.data() + k * count, count, 0.0);
   };
-  clear(out.pressing, out.pressed);
+  clear(out.applied_normal_force, out.pressed);
   clear(out.surface, out.carried);
   out.pressed = pressed_;
   out.carried = carried_;
@@ -128,7 +128,8 @@ void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& o
   for (std::size_t k = 0; k < surface_.size(); ++k) out.rounding[k] = surface_rounding(k, t);
   for (std::size_t i = 0; i < varying_.size(); ++i)
     varying_[i].second->taylor(t, scale, count, out.loads.data() + i * count);
-  for (const std::size_t k : pressed_) pressing_[k]->taylor(t, scale, count, out.pressing.data() + k * count);
+  for (const std::size_t k : pressed_)
+    applied_normal_force_[k]->taylor(t, scale, count, out.applied_normal_force.data() + k * count);
   for (const std::size_t k : carried_) surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
 }
 
@@ -162,7 +163,7 @@ double Forcing::greatest_omega() const {
     if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
   };
   for (const auto& [load, p] : varying_) consider(p);
-  for (const std::size_t k : pressed_) consider(pressing_[k]);
+  for (const std::size_t k : pressed_) consider(applied_normal_force_[k]);
   for (const std::size_t k : carried_) consider(surface_[k]);
   return omega;
 }
@@ -181,9 +182,9 @@ std::size_t Forcing::greatest_degree() const {
       if (p->coefficients[j] != 0.0) degree = j;
   };
   for (const auto& [load, p] : varying_) consider(p);
-  for (const std::size_t k : pressed_) consider(pressing_[k]);
+  for (const std::size_t k : pressed_) consider(applied_normal_force_[k]);
   for (const std::size_t k : carried_) consider(surface_[k]);
   return degree;
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -8,14 +8,14 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 enum class Side { before, after };
 
 /// Taylor coefficients of a Forcing: rows of `count`, one for each varying load, one for each contact.
 struct ForcingSeries {
   std::size_t count = 0;
-  std::vector<double> loads, pressing, surface;
+  std::vector<double> loads, applied_normal_force, surface;
   std::vector<double> rounding;  ///< rounding of each surface's velocity
   /// Contacts whose rows may be nonzero.
   std::vector<std::size_t> pressed, carried;
@@ -63,8 +63,8 @@ class Forcing {
   /// Greatest degree of a polynomial in the forcing.
   [[nodiscard]] std::size_t greatest_degree() const;
   /// Derivative of normal_force of contact k.
-  [[nodiscard]] double pressing(std::size_t k, double t, int order) const {
-    return presses_[k] ? pressing_[k]->value(t, order) : order == 0 ? still_pressing_[k] : 0.0;
+  [[nodiscard]] double applied_normal_force(std::size_t k, double t, int order) const {
+    return presses_[k] ? applied_normal_force_[k]->value(t, order) : order == 0 ? still_pressing_[k] : 0.0;
   }
   /// Derivative of the motion of the surface of contact k (order 1: surface velocity).
   [[nodiscard]] double surface(std::size_t k, double t, int order) const {
@@ -89,7 +89,7 @@ class Forcing {
   const Model* model_;
   Vector constant_, constant_terms_;                           // constant loads; sums of their magnitudes
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load and its piece
-  std::vector<const Piece*> pressing_, surface_;
+  std::vector<const Piece*> applied_normal_force_, surface_;
   std::vector<bool> lifted_, moves_, presses_, drives_;
   std::vector<std::size_t> pressed_, carried_;  // contacts with nonzero compression, with moving surface
   std::vector<double> still_pressing_, still_surface_;  // used if the forcing is constant
@@ -102,4 +102,4 @@ void Forcing::add_varying(double t, const Wanted& wanted, double* P) const {
     if (wanted(load)) model_->loads[load].direction.add_to(P, p->value(t, 0));
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

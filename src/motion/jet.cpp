@@ -7,11 +7,11 @@
 #include "base/rounding.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 namespace {
 
 // Factor between the difference due to some roundings and noise: the difference is a single sample.
-constexpr double noise_factor = rounding::of_many / rounding::eps / Disturbance::most;
+constexpr double noise_factor = rounding::of_many / rounding::eps / DataPerturbation::most;
 
 // Noise of a form on data: the largest sample of their rounding, and the rounding of the sum.
 constexpr double of_data = 2.0 * rounding::of_many;
@@ -27,13 +27,13 @@ struct Derivatives {
 /// rate.
 void fill_limit(const Contact& contact, std::size_t c, const Series& series, std::size_t last,
                 Derivatives& d) {
-  const double* pressing = series.forcing.pressing.data() + c * series.forcing.count;
+  const double* applied = series.forcing.applied_normal_force.data() + c * series.forcing.count;
   const auto load = [&](std::size_t k) {
-    return contact.normal_force_given() ? pressing[k]
+    return contact.normal_force_given() ? applied[k]
                                         : -contact.normal_stiffness * gap_coefficient(contact, series, k);
   };
-  LimitSeries limit(contact.friction, load(0));
-  d.limit[0] = friction_limit(contact.friction, load(0));
+  contact::LimitSeries limit(contact.friction, load(0));
+  d.limit[0] = contact::friction_limit(contact.friction, load(0));
   double factorial = 1.0;
   for (std::size_t k = 1; k < last + 2; ++k) {
     factorial *= static_cast<double>(k);
@@ -68,7 +68,7 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
 }
 
 /// The k-th derivative; pressing: coefficients, factorial: k!.
-ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double* pressing, double factorial) {
+ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double* applied, double factorial) {
   ContactMotion m;
   m.N = d.N[k];
   m.T = d.T[k];
@@ -78,8 +78,8 @@ ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double*
   m.vt = d.ut[k + 1];
   m.an = d.gap[k + 2];
   m.at = d.ut[k + 2];
-  m.pressing = factorial * pressing[k];
-  m.pressing_rate = factorial * static_cast<double>(k + 1) * pressing[k + 1];
+  m.applied_normal_force = factorial * applied[k];
+  m.applied_normal_force_rate = factorial * static_cast<double>(k + 1) * applied[k + 1];
   m.limit = d.limit[k];
   m.limit_rate = d.limit[k + 1];
   return m;
@@ -87,13 +87,13 @@ ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double*
 
 }  // namespace
 
-JetMaker::JetMaker(ModeSystems& systems)
+JetMaker::JetMaker(StateSystems& systems)
     : model_(systems.model()),
       taylor_(systems),
       // u^(k) of massless degrees of freedom is known one or two levels later.
       levels_(taylor_.massless() ? Jet::orders + 2 : Jet::orders) {}
 
-Jet JetMaker::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+Jet JetMaker::expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                      const Vector& v) {
   taylor_.expand(system, forcing, t, u, v, levels_, 1.0, series_);
   Jet jet{t, series_.u, series_.forces, taylor_.system()};
@@ -106,15 +106,16 @@ Jet JetMaker::expand(const ModeSystemPtr& system, const Forcing& forcing, double
   return jet;
 }
 
-Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                   const Vector& v, std::vector<MotionJet>& result, const Told& told, const Forcing* second) {
+Jet JetMaker::make(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                   const Vector& v, std::vector<MotionJet>& result, const Enough& enough,
+                   const Forcing* second) {
   Jet jet = expand(system, forcing, t, u, v);
-  const Disturbance disturbance{series_};
+  const DataPerturbation disturbance{series_};
   const Forcing& again = second != nullptr ? *second : forcing;
   taylor_.begin(system, again, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
   result.resize(model_.contacts.size());
-  if (told && !taylor_.massless()) {
-    tell(*jet.system, again, disturbance, told, result);
+  if (enough && !taylor_.massless()) {
+    expand_open(*jet.system, again, disturbance, enough, result);
     return jet;
   }
   taylor_.extend(again, levels_, disturbed_, &disturbance);
@@ -124,22 +125,23 @@ Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t
 }
 
 /// Computes order by order, as far as requested.
-void JetMaker::tell(const ModeSystem& system, const Forcing& forcing, const Disturbance& disturbance,
-                    const Told& told, std::vector<MotionJet>& result) {
+void JetMaker::expand_open(const StateSystem& system, const Forcing& forcing,
+                           const DataPerturbation& disturbance, const Enough& enough,
+                           std::vector<MotionJet>& result) {
   constexpr std::size_t last = MotionJet::orders - 1;
   taylor_.extend(forcing, 0, disturbed_, &disturbance);
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < result.size(); ++c) {
     motions(system, c, 0, 0, result[c]);
     rates(c, 1, 1, result[c]);
-    if (told(c, result[c], 1)) continue;
+    if (enough(c, result[c], 1)) continue;
     open.push_back(c);
     rates(c, 2, last, result[c]);
   }
   for (std::size_t k = 1; k <= last && !open.empty(); ++k) {
     taylor_.extend(forcing, static_cast<int>(k), disturbed_, &disturbance);
     for (const std::size_t c : open) motions(system, c, k, k, result[c]);
-    std::erase_if(open, [&](std::size_t c) { return told(c, result[c], k + 1); });
+    std::erase_if(open, [&](std::size_t c) { return enough(c, result[c], k + 1); });
   }
 }
 
@@ -169,16 +171,16 @@ JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows,
 void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJet& result) const {
   Derivatives a;
   fill(model_, c, series_, last, false, a);
-  const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
+  const double* applied = series_.forcing.applied_normal_force.data() + c * series_.forcing.count;
   double factorial = 1.0;
   for (std::size_t k = 0; k <= last; ++k) {
     if (k > 1) factorial *= static_cast<double>(k);
-    if (k >= first) result.motion[k] = motion_of_order(a, k, pressing, factorial);
+    if (k >= first) result.motion[k] = motion_of_order(a, k, applied, factorial);
   }
 }
 
 /// Computes orders first .. last of a motion, with their noise.
-void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t first, std::size_t last,
+void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t first, std::size_t last,
                        MotionJet& result) const {
   // A single sample of rounding can be small by chance, so the terms of each sum count as well.
   const auto noise = [](double x, double y, double size) {
@@ -188,13 +190,13 @@ void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t firs
   const Rows& rows = system.rows()[c];
   fill(model_, c, series_, last, true, a);
   fill(model_, c, disturbed_, last, false, b);
-  const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
+  const double* applied = series_.forcing.applied_normal_force.data() + c * series_.forcing.count;
   double factorial = 1.0;
   for (std::size_t k = 0; k <= last; ++k) {
     if (k > 1) factorial *= static_cast<double>(k);
     if (k < first) continue;
     ContactMotion &m = result.motion[k], &d = result.noise[k];
-    m = motion_of_order(a, k, pressing, factorial);
+    m = motion_of_order(a, k, applied, factorial);
     // The sizes of the terms of each row bound the rounding of its force.
     ContactMotion terms;
     terms.gap = a.gap_terms[k];
@@ -203,8 +205,8 @@ void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t firs
     terms.vt = a.ut_terms[k + 1];
     terms.an = a.gap_terms[k + 2];
     terms.at = a.ut_terms[k + 2];
-    terms.pressing = std::abs(m.pressing);
-    terms.pressing_rate = std::abs(m.pressing_rate);
+    terms.applied_normal_force = std::abs(m.applied_normal_force);
+    terms.applied_normal_force_rate = std::abs(m.applied_normal_force_rate);
     const Balance balance = balance_of(model_.contacts[c], rows, factorial, k);
     terms.an += balance.an;
     terms.at += balance.at;
@@ -226,15 +228,16 @@ void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t firs
     d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
     d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
     d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
-    d.pressing = rounding::of_many * terms.pressing;
-    d.pressing_rate = rounding::of_many * terms.pressing_rate;
+    d.applied_normal_force = rounding::of_many * terms.applied_normal_force;
+    d.applied_normal_force_rate = rounding::of_many * terms.applied_normal_force_rate;
     if (const Friction& f = model_.contacts[c].friction; f.by_force()) {
       const double slope = std::max(f.static_, f.kinetic), kn = model_.contacts[c].normal_stiffness;
       d.limit = noise(a.limit[k], b.limit[k], slope * N + std::abs(m.limit));
-      d.limit_rate = noise(a.limit[k + 1], b.limit[k + 1],
-                           slope * (kn * terms.vn + terms.pressing_rate) + std::abs(m.limit_rate));
+      d.limit_rate =
+          noise(a.limit[k + 1], b.limit[k + 1],
+                slope * (kn * terms.vn + terms.applied_normal_force_rate) + std::abs(m.limit_rate));
     }
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -14,7 +14,7 @@
 #include "contact/law.hpp"
 #include "motion/taylor.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 /// Derivatives: column k of order k. u: n rows; forces: of all contacts, in the order of the model's layout.
 struct Jet {
@@ -23,7 +23,7 @@ struct Jet {
 
   double t = 0.0;
   Eigen::MatrixXd u, forces;
-  ModeSystemPtr system;  ///< system of the contact state, with friction at this instant's slip rates
+  StateSystemPtr system;  ///< system of the contact state, with friction at this instant's slip rates
 
   /// True for a jet by JetMaker. Local jets (motion/local_derivatives.hpp) end with accelerations and the rates of forces.
   [[nodiscard]] bool whole() const { return forces.cols() > orders; }
@@ -34,21 +34,21 @@ struct Jet {
 /// Computes jets; the memory for the underlying series belongs to this object.
 class JetMaker {
  public:
-  explicit JetMaker(ModeSystems& systems);
+  explicit JetMaker(StateSystems& systems);
 
   /// Predicate: true if all that will be requested of a contact is known once the noise of the first `orders` orders of
   /// its motion is known. The motion itself is known to one order more.
-  using Told = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
+  using Enough = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
 
   /// The jet at t from u and v (v of massless degrees of freedom is not read).
-  [[nodiscard]] Jet expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+  [[nodiscard]] Jet expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                            const Vector& v);
-  /// Same, with the motion of every contact in it, orders 0 to Jet::orders, and its noise. If `told` is given, orders
+  /// Same, with the motion of every contact in it, orders 0 to Jet::orders, and its noise. If `enough` is given, orders
   /// that no query needs are not computed, and are undefined. The motion of contacts that order 0 does not decide is
   /// complete. Computed values are bitwise the same. second: replaces `forcing` in the second computation, so that the
   /// difference between the two counts as noise, too.
-  [[nodiscard]] Jet make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                         const Vector& v, std::vector<MotionJet>& motions, const Told& told = {},
+  [[nodiscard]] Jet make(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                         const Vector& v, std::vector<MotionJet>& motions, const Enough& enough = {},
                          const Forcing* second = nullptr);
 
  private:
@@ -59,10 +59,10 @@ class JetMaker {
   /// forces: nonzero for rows that contain an acceleration.
   [[nodiscard]] Balance balance_of(const Contact& contact, const Rows& rows, double factorial,
                                    std::size_t k) const;
-  void tell(const ModeSystem& system, const Forcing& forcing, const Disturbance& disturbance,
-            const Told& told, std::vector<MotionJet>& result);
+  void expand_open(const StateSystem& system, const Forcing& forcing, const DataPerturbation& disturbance,
+                   const Enough& enough, std::vector<MotionJet>& result);
   void rates(std::size_t contact, std::size_t first, std::size_t last, MotionJet& result) const;
-  void motions(const ModeSystem& system, std::size_t contact, std::size_t first, std::size_t last,
+  void motions(const StateSystem& system, std::size_t contact, std::size_t first, std::size_t last,
                MotionJet& result) const;
 
   const Model& model_;
@@ -71,4 +71,4 @@ class JetMaker {
   int levels_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -8,7 +8,7 @@
 #include "base/wide_lanes.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 namespace {
 
 /// Elements added to the radius: each order spreads a change by one more element, by M^-1 and by K.
@@ -18,7 +18,7 @@ constexpr std::size_t most_open = 6;
 
 /// True if some guard contains an acceleration, whose order 1 is not known here.
 bool accelerates(const Contact& contact, const ContactState& state) {
-  for (const GuardForm& guard : guards(contact, state))
+  for (const GuardForm& guard : contact::guards(contact, state))
     if (guard.kind != Guard::none && (guard.form.an != 0.0 || guard.form.at != 0.0)) return true;
   return false;
 }
@@ -40,7 +40,7 @@ Vector from_outside(const Neighbourhood& near, const Point& now) {
 
 }  // namespace
 
-NearJets::NearJets(ModeSystems& systems, int least)
+LocalDerivatives::LocalDerivatives(StateSystems& systems, int least)
     : model_(systems.model()),
       possible_(model_.size() >= least && follows_from_motion(model_)),
       taylor_(systems) {
@@ -68,8 +68,8 @@ NearJets::NearJets(ModeSystems& systems, int least)
 
 /// Same results, bit by bit, as motion_of(), order_one() and bound_rounding() for a soft contact that is not driven and
 /// whose surface is at rest.
-void NearJets::tell_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
-                         MotionJet& result) const {
+void LocalDerivatives::settle_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
+                                   MotionJet& result) const {
   const Soft& c = soft_[contact];
   const double *u = now.u.data(), *v = now.v.data(), *a = now.a.data();
   ContactMotion &m = result.motion[0] = {}, &d = result.motion[1] = {}, &noise = result.noise[0] = {};
@@ -115,8 +115,8 @@ void NearJets::tell_soft(const Rows& rows, double surface, const Point& now, std
 }
 
 /// Rate of the motion without g''' and ut'''. Forces follow from their own rows.
-void NearJets::order_one(const ModeSystem& system, const Forcing& forcing, std::size_t contact,
-                         MotionJet& result) const {
+void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forcing, std::size_t contact,
+                                 MotionJet& result) const {
   const Rows& rows = system.rows()[contact];
   const ContactMotion& m = result.motion[0];
   ContactMotion& d = result.motion[1] = {};
@@ -124,8 +124,8 @@ void NearJets::order_one(const ModeSystem& system, const Forcing& forcing, std::
   d.ut = m.vt;
   d.vn = m.an;
   d.vt = m.at;
-  d.pressing = m.pressing_rate;
-  d.pressing_rate = forcing.pressing(contact, series_.t, 2);
+  d.applied_normal_force = m.applied_normal_force_rate;
+  d.applied_normal_force_rate = forcing.applied_normal_force(contact, series_.t, 2);
   d.N = -rows.normal.rate(d) / rows.normal.N;
   d.T = -rows.tangent.rate(d) / rows.tangent.T;
 }
@@ -133,8 +133,8 @@ void NearJets::order_one(const ModeSystem& system, const Forcing& forcing, std::
 /// Upper limit for the noise of motion/jet.cpp: there the terms count once, and |x - y| once for each disturbance:
 /// places and velocities as data, N in its row as well, T in its own row and through N. The rounding of x and y
 /// themselves is less than one more.
-void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now,
-                              std::size_t contact, MotionJet& result) const {
+void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
+                                      std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];
   const Rows& rows = system.rows()[contact];
   const ContactMotion& m = result.motion[0];
@@ -143,8 +143,8 @@ void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, 
   terms.ut = size_of(model_, c.tangent, now.u) + std::abs(forcing.surface(contact, series_.t, 0));
   terms.vn = size_of(model_, c.normal, now.v);
   terms.vt = size_of(model_, c.tangent, now.v) + std::abs(forcing.surface(contact, series_.t, 1));
-  terms.pressing = std::abs(m.pressing);
-  terms.pressing_rate = std::abs(m.pressing_rate);
+  terms.applied_normal_force = std::abs(m.applied_normal_force);
+  terms.applied_normal_force_rate = std::abs(m.applied_normal_force_rate);
   constexpr double once = rounding::of_many;
   terms.N = rows.normal.magnitude(terms) + std::abs(rows.normal.constant) + std::abs(m.N);
   terms.T = rows.tangent.magnitude(terms) + std::abs(rows.tangent.constant) + std::abs(m.T);
@@ -154,19 +154,19 @@ void NearJets::bound_rounding(const ModeSystem& system, const Forcing& forcing, 
   d.ut = 3.0 * once * terms.ut;
   d.vn = 3.0 * once * terms.vn;
   d.vt = 3.0 * once * terms.vt + forcing.surface_rounding(contact, series_.t);
-  d.pressing = once * terms.pressing;
-  d.pressing_rate = once * terms.pressing_rate;
+  d.applied_normal_force = once * terms.applied_normal_force;
+  d.applied_normal_force_rate = once * terms.applied_normal_force_rate;
 }
 
 /// False: the neighbourhood does not decide the contact's state.
-bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
-                         std::size_t contact, const JetMaker::Told& told, MotionJet& motion) {
+bool LocalDerivatives::look_near(const StateSystemPtr& system, const Forcing& forcing, const Point& now,
+                                 std::size_t contact, const JetMaker::Enough& enough, MotionJet& motion) {
   Neighbourhood* near = near_->around(contact, *system);
   if (near == nullptr) {
     possible_ = !near_->hopeless();
     return false;
   }
-  const ModeSystemPtr own = near->systems.of(near->mode_of(system->mode()));
+  const StateSystemPtr own = near->systems.of(near->mode_of(system->mode()));
   if (!own) return false;
   const auto at = static_cast<std::size_t>(
       std::lower_bound(near->contacts.begin(), near->contacts.end(), contact) - near->contacts.begin());
@@ -178,23 +178,23 @@ bool NearJets::look_near(const ModeSystemPtr& system, const Forcing& forcing, co
     return forcing.on_part(near->model, near->dofs, near->loads, near->contacts, more);
   };
   const Forcing given = with(outside), alone = with(Vector::Zero(outside.size()));
-  bool is_told = false;
+  bool is_enough = false;
   (void)work->jets.make(
       own, given, series_.t, now.u(near->dofs), now.v(near->dofs), work->motions,
       [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
         if (c != at) return true;
-        const bool enough = told(contact, jet, orders);
-        is_told = enough && orders < MotionJet::orders;
-        return enough;
+        const bool suffices = enough(contact, jet, orders);
+        is_enough = suffices && orders < MotionJet::orders;
+        return suffices;
       },
       &alone);
   motion = work->motions[at];
-  return is_told;
+  return is_enough;
 }
 
 /// True if order 0 decided the contact before and is bitwise unchanged: forces follow from its own rows, places and
 /// velocities.
-bool NearJets::stays(std::size_t contact, const Jet& jet, const Beside& beside) const {
+bool LocalDerivatives::stays(std::size_t contact, const Jet& jet, const Beside& beside) const {
   if (jet.system->mode()[contact] != beside.jet.system->mode()[contact] ||
       std::binary_search(beside.open.begin(), beside.open.end(), contact))
     return false;
@@ -205,8 +205,8 @@ bool NearJets::stays(std::size_t contact, const Jet& jet, const Beside& beside) 
 }
 
 /// Orders 0 to 2 of the whole structure; rates of forces are computed later.
-Jet NearJets::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                     const Vector& v) {
+Jet LocalDerivatives::expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                             const Vector& v) {
   taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
   taylor_.extend(forcing, 0, series_);
   Jet jet{t, series_.u, Eigen::MatrixXd(series_.forces.rows(), 2), system};
@@ -216,7 +216,8 @@ Jet NearJets::expand(const ModeSystemPtr& system, const Forcing& forcing, double
 }
 
 /// system: that of any state.
-const NearJets::Columns& NearJets::columns_of(std::size_t contact, const ModeSystem& system) {
+const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contact,
+                                                              const StateSystem& system) {
   columns_.resize(model_.contacts.size());
   Columns& columns = columns_[contact];
   if (std::exchange(columns.known, true)) return columns;
@@ -227,14 +228,14 @@ const NearJets::Columns& NearJets::columns_of(std::size_t contact, const ModeSys
     std::fill(column_.begin(), column_.end(), 0.0);
     form.add_to(column_, 1.0);
     system.solve(column_.data(), room_.data());
-    const auto felt = [&](std::size_t i) {
+    const auto weighted = [&](std::size_t i) {
       const auto at = static_cast<Eigen::Index>(i);
       return column_[i] * column_[i] * model_.mass.coeff(at, at);
     };
     double most = 0.0;
-    for (std::size_t i = 0; i < n; ++i) most = std::max(most, felt(i));
+    for (std::size_t i = 0; i < n; ++i) most = std::max(most, weighted(i));
     for (std::size_t i = 0; i < n; ++i)
-      if (felt(i) > of_nothing_here * of_nothing_here * most)
+      if (weighted(i) > of_nothing_here * of_nothing_here * most)
         column.emplace_back(static_cast<Eigen::Index>(i), column_[i]);
     column.shrink_to_fit();
     return part_of_structure * column.size() <= n;
@@ -246,9 +247,9 @@ const NearJets::Columns& NearJets::columns_of(std::size_t contact, const ModeSys
 }
 
 /// Same for states that differ from those of a known jet. nullopt: too many states differ, or the change reaches far.
-std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& forcing, double t,
-                                    const Beside& beside) {
-  const Mode &mode = system->mode(), &before = beside.jet.system->mode();
+std::optional<Jet> LocalDerivatives::follow(const StateSystemPtr& system, const Forcing& forcing, double t,
+                                            const Beside& beside) {
+  const contact::ContactStates &mode = system->mode(), &before = beside.jet.system->mode();
   std::vector<std::size_t> others;
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (mode[c] != before[c]) others.push_back(c);
@@ -261,9 +262,9 @@ std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& 
     const Contact& contact = model_.contacts[c];
     const Rows& rows = system->rows()[c];
     ContactMotion m;  // the part without forces
-    set_place(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
-    set_velocity(contact, jet.u.col(1), forcing.surface(c, t, 1), m);
-    m.pressing = forcing.pressing(c, t, 0);
+    contact::set_place(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
+    contact::set_velocity(contact, jet.u.col(1), forcing.surface(c, t, 1), m);
+    m.applied_normal_force = forcing.applied_normal_force(c, t, 0);
     const double N = -rows.normal.value(m) / rows.normal.N,
                  T = -(rows.tangent.value(m) + rows.tangent.N * N) / rows.tangent.T;
     const Columns& columns = columns_[c];
@@ -278,10 +279,9 @@ std::optional<Jet> NearJets::follow(const ModeSystemPtr& system, const Forcing& 
   return jet;
 }
 
-std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const Forcing& forcing, double t,
-                                             const Vector& u, const Vector& v,
-                                             std::vector<MotionJet>& motions, const JetMaker::Told& told,
-                                             const std::optional<Beside>& beside) {
+std::optional<LocalDerivatives::Made> LocalDerivatives::make(
+    const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
+    std::vector<MotionJet>& motions, const JetMaker::Enough& enough, const std::optional<Beside>& beside) {
   if (!possible_ || !system->factorised().by_mass) return std::nullopt;
   std::optional<Jet> followed = beside ? follow(system, forcing, t, *beside) : std::nullopt;
   Jet jet = followed ? *std::move(followed) : expand(system, forcing, t, u, v);
@@ -293,7 +293,7 @@ std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const 
     MotionJet& motion = motions[c];
     const bool known = beside && stays(c, jet, *beside), soft = soft_[c].is && !forcing.drives(c);
     if (!known && soft) {
-      tell_soft(system->rows()[c], forcing.surface(c, t, 0), now, c, motion);
+      settle_soft(system->rows()[c], forcing.surface(c, t, 0), now, c, motion);
     } else if (!known) {
       motion.motion[0] = motion_of(model_.contacts[c], c, forcing, t, now);
       order_one(*system, forcing, c, motion);
@@ -301,13 +301,13 @@ std::optional<NearJets::Made> NearJets::make(const ModeSystemPtr& system, const 
     }
     jet.forces(static_cast<Eigen::Index>(model_.layout.normal(c)), 1) = motion.motion[1].N;
     jet.forces(static_cast<Eigen::Index>(model_.layout.tangent(c)), 1) = motion.motion[1].T;
-    if (known || ((soft || !accelerates(model_.contacts[c], system->mode()[c])) && told(c, motion, 1)))
+    if (known || ((soft || !accelerates(model_.contacts[c], system->mode()[c])) && enough(c, motion, 1)))
       continue;
     open.push_back(c);
     if (open.size() > most_open) return std::nullopt;
   }
   for (const std::size_t c : open)
-    if (!look_near(system, forcing, now, c, told, motions[c])) return std::nullopt;
+    if (!look_near(system, forcing, now, c, enough, motions[c])) return std::nullopt;
   return Made{std::move(jet), std::move(open)};
 }
 
@@ -329,9 +329,9 @@ template <class T, std::size_t count>
   for (std::size_t j = 0; j < c.columns; ++j, a += c.rows, b += c.rows) {
     const double u = c.u[j], v = c.factor * c.w[j];
     for (std::size_t k = 0; k < count; ++k)
-      sum[k] += lanes_at<T>(a + k * lanes).v * u + lanes_at<T>(b + k * lanes).v * v;
+      sum[k] += base::lanes_at<T>(a + k * lanes).v * u + base::lanes_at<T>(b + k * lanes).v * v;
   }
-  for (std::size_t k = 0; k < count; ++k) lanes_at<T>(y + i + k * lanes).v = sum[k];
+  for (std::size_t k = 0; k < count; ++k) base::lanes_at<T>(y + i + k * lanes).v = sum[k];
 }
 
 }  // namespace
@@ -341,16 +341,16 @@ SIGNORINI_WIDE_LANES void both_products(const double* a, const double* b, std::s
                                         double* y) {
   const Columns c{a, b, rows, columns, u, w, factor};
   std::size_t i = 0;
-  for (; i + 16 <= rows; i += 16) some_rows<Four, 4>(c, i, y);
+  for (; i + 16 <= rows; i += 16) some_rows<base::Four, 4>(c, i, y);
   if (i + 8 <= rows) {
-    some_rows<Four, 2>(c, i, y);
+    some_rows<base::Four, 2>(c, i, y);
     i += 8;
   }
   if (i + 4 <= rows) {
-    some_rows<Four, 1>(c, i, y);
+    some_rows<base::Four, 1>(c, i, y);
     i += 4;
   }
   for (; i < rows; ++i) some_rows<double, 1>(c, i, y);
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -19,13 +19,13 @@
 #include "motion/neighbourhoods.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
-class NearJets {
+class LocalDerivatives {
  public:
   /// least: smallest number of degrees of freedom for which local jets save time. All arguments must outlive the
   /// object.
-  explicit NearJets(ModeSystems& systems, int least = large_structure);
+  explicit LocalDerivatives(StateSystems& systems, int least = large_structure);
 
   /// True if local jets suit the model, as far as is known; false once M^-1 was found to decay nowhere.
   [[nodiscard]] bool possible() const { return possible_; }
@@ -40,9 +40,9 @@ class NearJets {
   };
   /// Same meaning as JetMaker::make. nullopt: the whole structure is needed. beside: `motions` still contains its
   /// motions, which are kept if other states change neither row nor acceleration.
-  [[nodiscard]] std::optional<Made> make(const ModeSystemPtr& system, const Forcing& forcing, double t,
+  [[nodiscard]] std::optional<Made> make(const StateSystemPtr& system, const Forcing& forcing, double t,
                                          const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
-                                         const JetMaker::Told& told,
+                                         const JetMaker::Enough& enough,
                                          const std::optional<Beside>& beside = {});
 
  private:
@@ -57,20 +57,20 @@ class NearJets {
     bool known = false, few = false;  // few: a small part of the structure
     std::vector<std::pair<Eigen::Index, double>> by_N, by_T;
   };
-  [[nodiscard]] const Columns& columns_of(std::size_t contact, const ModeSystem& system);
-  [[nodiscard]] Jet expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+  [[nodiscard]] const Columns& columns_of(std::size_t contact, const StateSystem& system);
+  [[nodiscard]] Jet expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                            const Vector& v);
-  [[nodiscard]] std::optional<Jet> follow(const ModeSystemPtr& system, const Forcing& forcing, double t,
+  [[nodiscard]] std::optional<Jet> follow(const StateSystemPtr& system, const Forcing& forcing, double t,
                                           const Beside& beside);
-  void tell_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
+  void settle_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
+                   MotionJet& motion) const;
+  void order_one(const StateSystem& system, const Forcing& forcing, std::size_t contact,
                  MotionJet& motion) const;
-  void order_one(const ModeSystem& system, const Forcing& forcing, std::size_t contact,
-                 MotionJet& motion) const;
-  void bound_rounding(const ModeSystem& system, const Forcing& forcing, const Point& now, std::size_t contact,
-                      MotionJet& motion) const;
+  void bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
+                      std::size_t contact, MotionJet& motion) const;
   [[nodiscard]] bool stays(std::size_t contact, const Jet& jet, const Beside& beside) const;
-  [[nodiscard]] bool look_near(const ModeSystemPtr& system, const Forcing& forcing, const Point& now,
-                               std::size_t contact, const JetMaker::Told& told, MotionJet& motion);
+  [[nodiscard]] bool look_near(const StateSystemPtr& system, const Forcing& forcing, const Point& now,
+                               std::size_t contact, const JetMaker::Enough& enough, MotionJet& motion);
 
   const Model& model_;
   bool possible_;
@@ -82,7 +82,7 @@ class NearJets {
   std::vector<std::pair<std::size_t, double>> terms_;
   std::optional<Neighbourhoods> near_;
   struct Work {  // scratch for one neighbourhood
-    explicit Work(ModeSystems& systems) : jets(systems) {}
+    explicit Work(StateSystems& systems) : jets(systems) {}
     JetMaker jets;
     std::vector<MotionJet> motions;
   };
@@ -98,4 +98,4 @@ class NearJets {
 void both_products(const double* a, const double* b, std::size_t rows, std::size_t columns, const double* u,
                    const double* w, double factor, double* y);
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -5,7 +5,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 namespace {
 
 /// Elements beyond the place where M^-1 is rounding: each level of a series spreads a change by one more, with
@@ -26,9 +26,9 @@ std::size_t place_in(const std::vector<T>& of, T what) {
 
 }  // namespace
 
-NearSeries::NearSeries(ModeSystems& systems) : near_(systems, spread_of_series) {}
+LocalSeries::LocalSeries(StateSystems& systems) : near_(systems, spread_of_series) {}
 
-NearSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
+LocalSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
   for (const Neighbourhood::Tie& tie : near.ties) {
     ring.push_back(tie.dof);
     boundary.push_back(tie.at);
@@ -46,8 +46,8 @@ NearSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
 }
 
 /// True if the new series equals the old one at the boundary, up to some roundings of the motion there and beside it.
-bool NearSeries::dies_out(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
-                          const AsItWas& as_it_was) const {
+bool LocalSeries::dies_out(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
+                           const AsItWas& as_it_was) const {
   const auto terms_of = [&](const double* a, std::size_t count, int dof) {
     double terms = 0.0, power = 1.0;
     for (std::size_t k = 0; k < count; ++k, power *= reach) terms += std::abs(a[k]) * power;
@@ -71,11 +71,11 @@ bool NearSeries::dies_out(const Neighbourhood& near, const Work& work, double re
   return true;
 }
 
-std::optional<NearSeries::Made> NearSeries::expand(const std::vector<std::size_t>& changed,
-                                                   const ModeSystemPtr& system, const Forcing& forcing,
-                                                   double t, const Vector& u, const Vector& v, int levels,
-                                                   double scale, double reach, const Sizes& sizes,
-                                                   const AsItWas& as_it_was) {
+std::optional<LocalSeries::Made> LocalSeries::expand(const std::vector<std::size_t>& changed,
+                                                     const StateSystemPtr& system, const Forcing& forcing,
+                                                     double t, const Vector& u, const Vector& v, int levels,
+                                                     double scale, double reach, const Sizes& sizes,
+                                                     const AsItWas& as_it_was) {
   if (!possible() || !system->factorised().by_mass) return std::nullopt;
   Neighbourhood* near = near_.around(changed.front(), *system);
   for (const std::size_t c : changed)
@@ -84,7 +84,7 @@ std::optional<NearSeries::Made> NearSeries::expand(const std::vector<std::size_t
   std::unique_ptr<Work>& room = work_[near->number];
   if (!room) room = std::make_unique<Work>(*near);
   Work& work = *room;
-  const ModeSystemPtr own = near->systems.of(near->mode_of(system->mode()));
+  const StateSystemPtr own = near->systems.of(near->mode_of(system->mode()));
   if (!own) return std::nullopt;
 
   work.outside.resize(levels + 3, static_cast<Eigen::Index>(work.ring.size()));
@@ -112,4 +112,4 @@ std::optional<NearSeries::Made> NearSeries::expand(const std::vector<std::size_t
   return Made{near, &work.series};
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -14,12 +14,12 @@
 #include "motion/neighbourhoods.hpp"
 #include "motion/taylor.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
-class NearSeries {
+class LocalSeries {
  public:
   /// The argument must outlive the object.
-  explicit NearSeries(ModeSystems& systems);
+  explicit LocalSeries(StateSystems& systems);
 
   /// False: M^-1 was found to decay nowhere.
   [[nodiscard]] bool possible() const { return !near_.hopeless(); }
@@ -42,7 +42,7 @@ class NearSeries {
   /// Expands from u and v at t to `levels`. changed: contacts. reach: that of the earlier series, in units of `scale`.
   /// nullopt: no single W contains all changes, or their effect reaches beyond it.
   [[nodiscard]] std::optional<Made> expand(const std::vector<std::size_t>& changed,
-                                           const ModeSystemPtr& system, const Forcing& forcing, double t,
+                                           const StateSystemPtr& system, const Forcing& forcing, double t,
                                            const Vector& u, const Vector& v, int levels, double scale,
                                            double reach, const Sizes& sizes, const AsItWas& as_it_was);
 
@@ -64,4 +64,4 @@ class NearSeries {
   std::vector<std::unique_ptr<Work>> work_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -7,7 +7,7 @@
 #include "contact/friction.hpp"
 #include "linear/unknowns.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 namespace {
 
 /// Relative to the largest entry of a column of M^-1: smaller entries are rounding.
@@ -30,10 +30,10 @@ std::vector<int> dofs_of(const Contact& contact) {
 }  // namespace
 
 bool follows_from_motion(const Model& model) {
-  return !has_massless(model) && std::all_of(model.contacts.begin(), model.contacts.end(), is_plain);
+  return !linear::has_massless(model) && std::all_of(model.contacts.begin(), model.contacts.end(), is_plain);
 }
 
-Neighbourhoods::Neighbourhoods(ModeSystems& systems, int spread)
+Neighbourhoods::Neighbourhoods(StateSystems& systems, int spread)
     : model_(systems.model()),
       structure_(systems.structure()),
       spread_(spread),
@@ -71,7 +71,7 @@ std::vector<int> Neighbourhoods::distances(const std::vector<int>& from) const {
 }
 
 /// Distance to which M^-1 n and M^-1 t are above rounding, each entry relative to the response of its own mass.
-int Neighbourhoods::reach(std::size_t contact, const ModeSystem& system,
+int Neighbourhoods::reach(std::size_t contact, const StateSystem& system,
                           const std::vector<int>& distance) const {
   int farthest = 0;
   const Contact& c = model_.contacts[contact];
@@ -81,11 +81,11 @@ int Neighbourhoods::reach(std::size_t contact, const ModeSystem& system,
     double* const begin = x.data();
     form->add_to(begin, 1.0);
     system.solve(x.data(), work.data());
-    const auto felt = [&](std::size_t i) { return std::abs(x[i]) * root_of_mass_[i]; };
+    const auto weighted = [&](std::size_t i) { return std::abs(x[i]) * root_of_mass_[i]; };
     double most = 0.0;
-    for (std::size_t i = 0; i < distance.size(); ++i) most = std::max(most, felt(i));
+    for (std::size_t i = 0; i < distance.size(); ++i) most = std::max(most, weighted(i));
     for (std::size_t i = 0; i < distance.size(); ++i)
-      if (felt(i) > of_nothing * most) farthest = std::max(farthest, distance[i]);
+      if (weighted(i) > of_nothing * most) farthest = std::max(farthest, distance[i]);
   }
   return farthest;
 }
@@ -107,7 +107,7 @@ std::unique_ptr<Neighbourhood> Neighbourhoods::make(const std::vector<int>& dist
     else if (std::any_of(own.begin(), own.end(), inside))
       across.push_back(c);
   }
-  Model part = restricted(model_, dofs, contacts);
+  Model part = linear::restricted(model_, dofs, contacts);
   std::vector<std::size_t> loads;
   for (std::size_t i = 0; i < model_.loads.size(); ++i) {
     Load load;  // its history is that of the forcing
@@ -138,7 +138,7 @@ std::unique_ptr<Neighbourhood> Neighbourhoods::make(const std::vector<int>& dist
   return near;
 }
 
-Neighbourhood* Neighbourhoods::around(std::size_t contact, const ModeSystem& system) {
+Neighbourhood* Neighbourhoods::around(std::size_t contact, const StateSystem& system) {
   if (looked_for_[contact]) return of_contact_[contact];
   const std::vector<int> distance = distances(dofs_of(model_.contacts[contact]));
   const int radius = reach(contact, system, distance) + spread_, shared = radius / sharing;
@@ -161,4 +161,4 @@ Neighbourhood* Neighbourhoods::around(std::size_t contact, const ModeSystem& sys
   return near;
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -11,7 +11,7 @@
 
 #include "motion/state_systems.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 /// True if forces of all contacts follow from places and velocities by rows that do not change with the motion, and all
 /// degrees of freedom have mass.
@@ -33,10 +33,10 @@ struct Neighbourhood {
 
   /// Limit of cached states. States share one factorisation of M_WW, so that keeping many saves no time; there may be
   /// hundreds of neighbourhoods.
-  static constexpr CacheBounds few_modes{8, std::size_t{1} << 18};
+  static constexpr base::CacheBounds few_modes{8, std::size_t{1} << 18};
   Model model;
-  Structure structure;
-  ModeSystems systems;
+  linear::SystemMatrices structure;
+  StateSystems systems;
   std::size_t number = 0;                    // in the order of creation
   std::vector<int> dofs;                     // numbers in the whole, ascending
   std::vector<std::size_t> contacts, loads;  // same
@@ -54,8 +54,8 @@ struct Neighbourhood {
   };
   std::vector<Pull> pulls;
 
-  [[nodiscard]] Mode mode_of(const Mode& whole) const {
-    Mode mode;
+  [[nodiscard]] contact::ContactStates mode_of(const contact::ContactStates& whole) const {
+    contact::ContactStates mode;
     mode.reserve(contacts.size());
     for (const std::size_t c : contacts) mode.push_back(whole[c]);
     return mode;
@@ -65,10 +65,10 @@ struct Neighbourhood {
 class Neighbourhoods {
  public:
   /// spread: elements beyond the place where M^-1 is below rounding. Both arguments must outlive the object.
-  Neighbourhoods(ModeSystems& systems, int spread);
+  Neighbourhoods(StateSystems& systems, int spread);
 
   /// Null: M^-1 does not decay within a quarter of the structure. system: that of any state, with a factorisation of M.
-  [[nodiscard]] Neighbourhood* around(std::size_t contact, const ModeSystem& system);
+  [[nodiscard]] Neighbourhood* around(std::size_t contact, const StateSystem& system);
   /// True once several searches have found no neighbourhood.
   [[nodiscard]] bool hopeless() const { return made_.empty() && vain_ >= most_vain; }
   [[nodiscard]] std::size_t size() const { return made_.size(); }
@@ -76,12 +76,12 @@ class Neighbourhoods {
  private:
   static constexpr int most_vain = 4;  // chosen
   [[nodiscard]] std::vector<int> distances(const std::vector<int>& from) const;
-  [[nodiscard]] int reach(std::size_t contact, const ModeSystem& system,
+  [[nodiscard]] int reach(std::size_t contact, const StateSystem& system,
                           const std::vector<int>& distance) const;
   [[nodiscard]] std::unique_ptr<Neighbourhood> make(const std::vector<int>& distance, int radius) const;
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   const int spread_;
   std::vector<std::vector<int>> neighbours_;  // neighbours of a degree of freedom, by M, C, K or a contact
   std::vector<std::vector<std::size_t>> contacts_at_;  // for each degree of freedom
@@ -92,4 +92,4 @@ class Neighbourhoods {
   int vain_ = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -3,10 +3,10 @@
 #include "contact/curved_surface.hpp"
 #include "contact/law.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
-double imbalance(const Model& model, const Structure& structure, const Forcing& forcing, double t,
-                 const Point& point) {
+double imbalance(const Model& model, const linear::SystemMatrices& structure, const Forcing& forcing,
+                 double t, const Point& point) {
   Vector r = Vector::Zero(model.size());
   forcing.add_load(t, 0, r.data(), -1.0);
   structure.add_product(point.a.data(), point.v.data(), point.u.data(), r.data());
@@ -14,39 +14,41 @@ double imbalance(const Model& model, const Structure& structure, const Forcing& 
     model.contacts[k].normal.add_to(r, point.N(model.layout, k));
     model.contacts[k].tangent.add_to(r, point.T(model.layout, k));
     if (const Contact& contact = model.contacts[k]; contact.curved_surface())
-      contact.body_tangent().add_to(r, bowl_force(contact, point.N(model.layout, k),
-                                                  slide_of(contact, k, forcing, t, point.u, point.v).ut));
+      contact.body_tangent().add_to(
+          r, contact::bowl_force(contact, point.N(model.layout, k),
+                                 slide_of(contact, k, forcing, t, point.u, point.v).ut));
   }
   return r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0.0;
 }
 
-void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const {
+void Powers::at(const Forcing& forcing, double t, const contact::ContactStates& mode, const Point& point,
+                double* out) const {
   out[0] = forcing.power(t, point.v.data());
   out[1] = structure_.damping_power(point.v.data());
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
-    const double slip = working_slip_rate(model_.contacts[k], mode[k].state, m);
+    const double slip = contact::working_slip_rate(model_.contacts[k], mode[k].state, m);
     if (const Contact& contact = model_.contacts[k]; contact.curved_surface()) {
       const BodySlide slide = slide_of(contact, k, forcing, t, point.u, point.v);
-      out[0] -= bowl_force(contact, point.N(model_.layout, k), slide.ut) * slide.vt;
+      out[0] -= contact::bowl_force(contact, point.N(model_.layout, k), slide.ut) * slide.vt;
     }
-    const ContactWork power = work_on(model_.contacts[k], mode[k].state, m.N, m.T,
-                                      {slip, forcing.surface(k, t, 1), m.vn, m.vn, 1.0});
+    const ContactWork power = contact::work_on(model_.contacts[k], mode[k].state, m.N, m.T,
+                                               {slip, forcing.surface(k, t, 1), m.vn, m.vn, 1.0});
     out[1] += power.damping;
     out[2 + 3 * k] = power.friction;
     out[3 + 3 * k] = power.surface;
-    out[4 + 3 * k] = power.pressing;
+    out[4 + 3 * k] = power.applied_normal_force;
   }
 }
 
-void Powers::add(const double* powers, double factor, Works& works) const {
+void Powers::add(const double* powers, double factor, WorkIntegrals& works) const {
   works.loads += factor * powers[0];
   works.damping += factor * powers[1];
   for (std::size_t k = 0; k < works.friction.size(); ++k) {
     works.friction[k] += factor * powers[2 + 3 * k];
     works.surface[k] += factor * powers[3 + 3 * k];
-    works.pressing[k] += factor * powers[4 + 3 * k];
+    works.applied_normal_force[k] += factor * powers[4 + 3 * k];
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

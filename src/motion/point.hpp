@@ -16,7 +16,7 @@
 #include "motion/forcing.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 // The resolution of times that are doubles.
 
@@ -58,12 +58,12 @@ struct Point {
   ContactMotion m;
   m.N = point.N(forcing.layout(), k);
   m.T = point.T(forcing.layout(), k);
-  set_place(contact, point.u, forcing.surface(k, t, 0), m);
-  set_velocity(contact, point.v, forcing.surface(k, t, 1), m);
-  if (point.a.size() > 0) set_acceleration(contact, point.a, forcing.surface(k, t, 2), m);
-  m.pressing = forcing.pressing(k, t, 0);
-  m.pressing_rate = forcing.pressing(k, t, 1);
-  set_limit(contact, m);
+  contact::set_place(contact, point.u, forcing.surface(k, t, 0), m);
+  contact::set_velocity(contact, point.v, forcing.surface(k, t, 1), m);
+  if (point.a.size() > 0) contact::set_acceleration(contact, point.a, forcing.surface(k, t, 2), m);
+  m.applied_normal_force = forcing.applied_normal_force(k, t, 0);
+  m.applied_normal_force_rate = forcing.applied_normal_force(k, t, 1);
+  contact::set_limit(contact, m);
   return m;
 }
 
@@ -83,8 +83,8 @@ struct BodySlide {
 //   r = M a + C v + K u + sum ( n N + t T ) - P(t)
 
 /// Greatest |r_i| at a point whose accelerations are known. Unit: force.
-[[nodiscard]] double imbalance(const Model& model, const Structure& structure, const Forcing& forcing,
-                               double t, const Point& point);
+[[nodiscard]] double imbalance(const Model& model, const linear::SystemMatrices& structure,
+                               const Forcing& forcing, double t, const Point& point);
 
 // The rates at which the system gains and loses energy.
 //
@@ -94,41 +94,43 @@ struct BodySlide {
 // Powers of a contact: contact/work.hpp.
 
 /// Integrals of the powers. friction, surface: one for each contact; pressing: of -N, unit force * time.
-struct Works {
-  explicit Works(std::size_t contacts = 0)
-      : friction(contacts, 0.0), surface(contacts, 0.0), pressing(contacts, 0.0) {}
+struct WorkIntegrals {
+  explicit WorkIntegrals(std::size_t contacts = 0)
+      : friction(contacts, 0.0), surface(contacts, 0.0), applied_normal_force(contacts, 0.0) {}
   double loads = 0.0, damping = 0.0;
-  std::vector<double> friction, surface, pressing;
+  std::vector<double> friction, surface, applied_normal_force;
 
   void clear() {
     loads = damping = 0.0;
     std::fill(friction.begin(), friction.end(), 0.0);
     std::fill(surface.begin(), surface.end(), 0.0);
-    std::fill(pressing.begin(), pressing.end(), 0.0);
+    std::fill(applied_normal_force.begin(), applied_normal_force.end(), 0.0);
   }
   /// Adds factor times the work of contact k.
   void add(std::size_t k, const ContactWork& work, double factor) {
     damping += factor * work.damping;
     friction[k] += factor * work.friction;
     surface[k] += factor * work.surface;
-    pressing[k] += factor * work.pressing;
+    applied_normal_force[k] += factor * work.applied_normal_force;
   }
 };
 
 class Powers {
  public:
-  Powers(const Model& model, const Structure& structure) : model_(model), structure_(structure) {}
+  Powers(const Model& model, const linear::SystemMatrices& structure)
+      : model_(model), structure_(structure) {}
 
   /// Number of powers at one time: loads, damping, then friction, surface and -N of each contact.
   [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
   /// Evaluates all powers into out[0 .. count()).
-  void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const;
+  void at(const Forcing& forcing, double t, const contact::ContactStates& mode, const Point& point,
+          double* out) const;
   /// works += factor * powers
-  void add(const double* powers, double factor, Works& works) const;
+  void add(const double* powers, double factor, WorkIntegrals& works) const;
 
  private:
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
 };
 
 // Uncertainty of form . x due to one rounding of the data, in roundings.
@@ -158,4 +160,4 @@ double size_of(const Model& model, const Combination& form, const Entries& x) {
   return size_by(model, form, [&x](int dof) { return x[dof]; });
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

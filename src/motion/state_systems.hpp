@@ -1,6 +1,6 @@
 // state_systems.hpp: source of the systems of contact states: one cache of factorisations, by state.
 //
-//   const ModeSystemPtr system = systems.of(mode);        null: rows are linearly dependent
+//   const StateSystemPtr system = systems.of(mode);        null: rows are linearly dependent
 //
 // Bounds: a periodic motion takes each contact through stick and slip both ways, about four states for each contact, so
 // 1024 states cover cycles of 256 contacts. A dense system contains up to (40^2 + 2 * 40 * 38) numbers, 37 kB, and the
@@ -24,7 +24,7 @@
 #include "linear/unknowns.hpp"
 #include "motion/forcing.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 // The linear system of one contact state, factorised: an immutable value.
 //
@@ -40,17 +40,17 @@ namespace signorini {
 inline constexpr std::size_t most_dense = 40;
 
 struct FactorisedMode {
-  Unknowns unknowns;
-  std::vector<DofKind> kinds;  ///< one for each degree of freedom
+  linear::Unknowns unknowns;
+  std::vector<linear::DofKind> kinds;  ///< one for each degree of freedom
   /// The column of such a degree of freedom represents a whole motion.
-  std::vector<UndampedMotion> undamped;
-  std::vector<Pinned> pinned;
-  std::vector<SharedForces> shared;   ///< rigid contacts that constrain one motion together
-  std::vector<std::size_t> by_rate;   ///< contacts that slip with rate-dependent friction
-  bool massless = false;              ///< some degrees of freedom are massless
-  bool regular = false;               ///< false: rows are linearly dependent; there is no inverse
-  TriangularFactors sparse;           ///< empty if `inverse` or `by_mass` is used
-  std::optional<MassSolver> by_mass;  ///< used if the forces follow from places and velocities alone
+  std::vector<linear::UndampedMotion> undamped;
+  std::vector<linear::Pinned> pinned;
+  std::vector<linear::SharedForces> shared;   ///< rigid contacts that constrain one motion together
+  std::vector<std::size_t> by_rate;           ///< contacts that slip with rate-dependent friction
+  bool massless = false;                      ///< some degrees of freedom are massless
+  bool regular = false;                       ///< false: rows are linearly dependent; there is no inverse
+  linear::TriangularFactors sparse;           ///< empty if `inverse` or `by_mass` is used
+  std::optional<linear::MassSolver> by_mass;  ///< used if the forces follow from places and velocities alone
   /// Column by column: A^-1, and the responses of the unknowns to a unit of u or v of each degree of freedom, if all
   /// have mass: x = A^-1 b + from_u u + from_v v.
   std::vector<double> inverse, from_u, from_v;
@@ -62,48 +62,51 @@ struct FactorisedMode {
   [[nodiscard]] std::size_t bytes() const;
 };
 
-class ModeSystem {
+class StateSystem {
  public:
-  ModeSystem(Mode mode, std::vector<Rows> rows, std::shared_ptr<const FactorisedMode> factorised)
+  StateSystem(contact::ContactStates mode, std::vector<Rows> rows,
+              std::shared_ptr<const FactorisedMode> factorised)
       : mode_(std::move(mode)), rows_(std::move(rows)), factorised_(std::move(factorised)) {}
 
-  [[nodiscard]] const Mode& mode() const { return mode_; }
+  [[nodiscard]] const contact::ContactStates& mode() const { return mode_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
   [[nodiscard]] const FactorisedMode& factorised() const { return *factorised_; }
-  [[nodiscard]] const std::vector<DofKind>& kinds() const { return factorised_->kinds; }
-  [[nodiscard]] const std::vector<UndampedMotion>& undamped() const { return factorised_->undamped; }
-  [[nodiscard]] const Unknowns& unknowns() const { return factorised_->unknowns; }
+  [[nodiscard]] const std::vector<linear::DofKind>& kinds() const { return factorised_->kinds; }
+  [[nodiscard]] const std::vector<linear::UndampedMotion>& undamped() const { return factorised_->undamped; }
+  [[nodiscard]] const linear::Unknowns& unknowns() const { return factorised_->unknowns; }
   void solve(double* x, double* work) const { factorised_->solve(x, work); }
 
  private:
-  Mode mode_;
+  contact::ContactStates mode_;
   std::vector<Rows> rows_;
   std::shared_ptr<const FactorisedMode> factorised_;
 };
 
-using ModeSystemPtr = std::shared_ptr<const ModeSystem>;
+using StateSystemPtr = std::shared_ptr<const StateSystem>;
 
-inline constexpr CacheBounds mode_bounds{1024, std::size_t{16} << 20};
+inline constexpr base::CacheBounds mode_bounds{1024, std::size_t{16} << 20};
 
-class ModeSystems {
+class StateSystems {
  public:
   /// Both arguments must outlive the object.
-  ModeSystems(const Model& model, const Structure& structure, CacheBounds bounds = mode_bounds);
+  StateSystems(const Model& model, const linear::SystemMatrices& structure,
+               base::CacheBounds bounds = mode_bounds);
 
   /// The system of a contact state. Null: its rows are linearly dependent, so forces would not be unique.
-  [[nodiscard]] ModeSystemPtr of(const Mode& mode);
+  [[nodiscard]] StateSystemPtr of(const contact::ContactStates& mode);
   /// The same system with these coefficients of friction for the contacts `by_rate`. It is not cached, since slip rates
   /// do not recur. Null: singular.
-  [[nodiscard]] ModeSystemPtr at_friction(const ModeSystem& system, std::span<const Form> tangents);
+  [[nodiscard]] StateSystemPtr at_friction(const StateSystem& system, std::span<const Form> tangents);
 
   /// True if other sticking or touching contacts hold contact c at rest on its surface, so that its sticking would add
   /// no constraint. With H z = 0 of the rows in force its slip rate is -z.s'/z_c, s the motions of the surfaces: zero
   /// from t on if all derivatives of z.s are zero. A contact held by others on a moving surface slips.
-  [[nodiscard]] bool held_by_others(std::size_t c, Mode mode, const Forcing& forcing, double t) const;
+  [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates mode, const Forcing& forcing,
+                                    double t) const;
 
-  /// Marks slips of contacts that others hold, and that keep their static friction (State::held_plus); if both
+  /// Marks slips of contacts that others hold, and that keep their static friction (State::static_limit_plus); if both
   /// coefficients are equal there is no difference.
-  void tell_held(Mode& mode, const Forcing& forcing, double t) const;
+  void mark_static_limits(contact::ContactStates& mode, const Forcing& forcing, double t) const;
 
   /// Lists of two or more contacts that may constrain one motion together; may_share(): membership.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& sharing() const {
@@ -112,7 +115,7 @@ class ModeSystems {
   [[nodiscard]] bool may_share(std::size_t contact) const { return matrix_.shared_rows().may_share(contact); }
 
   [[nodiscard]] const Model& model() const { return model_; }
-  [[nodiscard]] const Structure& structure() const { return structure_; }
+  [[nodiscard]] const linear::SystemMatrices& structure() const { return structure_; }
   /// Number and size of the cached systems.
   [[nodiscard]] std::size_t held() const { return cache_.size(); }
   [[nodiscard]] std::size_t bytes() const { return cache_.bytes(); }
@@ -120,24 +123,26 @@ class ModeSystems {
   [[nodiscard]] long made() const { return made_; }
 
  private:
-  [[nodiscard]] std::vector<Rows> rows_beside(const Mode& mode) const;
-  [[nodiscard]] FactorisedMode describe(const Mode& mode, const std::vector<Rows>& rows) const;
+  [[nodiscard]] std::vector<Rows> rows_beside(const contact::ContactStates& mode) const;
+  [[nodiscard]] FactorisedMode describe(const contact::ContactStates& mode,
+                                        const std::vector<Rows>& rows) const;
   void factorise(const std::vector<Rows>& rows, FactorisedMode& mode);
-  [[nodiscard]] std::shared_ptr<const FactorisedMode> by_mass(const Mode& mode,
+  [[nodiscard]] std::shared_ptr<const FactorisedMode> by_mass(const contact::ContactStates& mode,
                                                               const std::vector<Rows>& rows);
-  [[nodiscard]] std::shared_ptr<const FactorisedMode> cached(const Mode& mode, const std::vector<Rows>& rows);
+  [[nodiscard]] std::shared_ptr<const FactorisedMode> cached(const contact::ContactStates& mode,
+                                                             const std::vector<Rows>& rows);
   void invert(const std::vector<Rows>& rows, FactorisedMode& mode);
 
   const Model& model_;
-  const Structure& structure_;
-  const std::vector<DofKind> own_kinds_;  // kinds by the structure alone
+  const linear::SystemMatrices& structure_;
+  const std::vector<linear::DofKind> own_kinds_;  // kinds by the structure alone
   const bool massless_;
-  SystemMatrix matrix_;  // matrix in which systems are assembled
-  std::vector<Weights> weights_;
-  std::shared_ptr<const TriangularFactors> mass_;  // null: not used for this model
-  BoundedCache<std::vector<State>, std::shared_ptr<const FactorisedMode>> cache_;
+  linear::SystemMatrix matrix_;  // matrix in which systems are assembled
+  std::vector<linear::Weights> weights_;
+  std::shared_ptr<const linear::TriangularFactors> mass_;  // null: not used for this model
+  base::BoundedCache<std::vector<State>, std::shared_ptr<const FactorisedMode>> cache_;
   std::vector<std::size_t> holdable_;  // contacts that others may hold at a static limit above kinetic
-  ModeSystemPtr last_;                 // the last system returned
+  StateSystemPtr last_;                // the last system returned
   long made_ = 0;
 };
 
@@ -148,7 +153,7 @@ class ModeSystems {
 
 /// Changes u and v as little as possible, in the norm of M, so that they satisfy the constraints of the contact state
 /// at t. Returns the impulses along n and t of the contacts that change v, slots like those of forces; empty: none.
-Eigen::VectorXd hold(const Model& model, const ModeSystem& system, const Forcing& forcing, double t,
+Eigen::VectorXd hold(const Model& model, const StateSystem& system, const Forcing& forcing, double t,
                      Vector& u, Vector& v);
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -10,7 +10,7 @@
 #include "contact/friction.hpp"
 #include "motion/local_derivatives.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s, const Form& normal,
                                const Series& series)
@@ -24,7 +24,7 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
     return;
   }
   friction_.begin(contact, s, slip_rate(0, series));
-  row_ = sliding_row(s, friction_.first());
+  row_ = contact::sliding_row(s, friction_.first());
 }
 
 /// N_0 follows from g or q, because all degrees of freedom of such a contact have mass.
@@ -32,8 +32,8 @@ void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   const Friction& friction = contact_->friction;
   const double pressed = -normal_coefficient(*contact_, index_, normal, series, 0);
   limit_.emplace(friction, pressed);
-  row_ = sliding_row(sign_, limit_->slope());
-  row_.constant = sign_ * (limit_->slope() * pressed - friction_limit(friction, pressed));
+  row_ = contact::sliding_row(sign_, limit_->slope());
+  row_.constant = sign_ * (limit_->slope() * pressed - contact::friction_limit(friction, pressed));
 }
 
 /// Determines the slip rate of a point without mass from the spring that holds it.
@@ -48,7 +48,7 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
   // The contribution of a dashpot to the growth of |N| needs accelerations (doubtful()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +
-                        normal.pressing * per_time * f.pressing[index_ * f.count + 1];
+                        normal.applied_normal_force * per_time * f.applied_normal_force[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
   const double zero =
       rounding::of_elimination * (std::abs(normal.gap) * (std::abs(c.gap) + c.normal.magnitude(u)) +
@@ -59,38 +59,38 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
     if (element.damping > 0.0)
       rate = pull / element.damping;
     else if (growth > 0.0)
-      rate = *massless_slip_rate(c.friction, element.stiffness * along, element.stiffness, growth);
-    row_ = sliding_row(s, sliding_friction(c, std::max(rate, 0.0)));
+      rate = *contact::massless_slip_rate(c.friction, element.stiffness * along, element.stiffness, growth);
+    row_ = contact::sliding_row(s, contact::sliding_friction(c, std::max(rate, 0.0)));
     return;
   }
-  if (const auto found = massless_slip_rate(c.friction, pull, element.damping, pressed)) {
+  if (const auto found = contact::massless_slip_rate(c.friction, pull, element.damping, pressed)) {
     rate = *found;
   } else {
     const double greatest = greatest_rate();
     rate = along - c.friction.kinetic * growth / element.stiffness;
     if (rate >= greatest) {
       constant_ = true;
-      row_ = sliding_row(s, sliding_friction(c, rate));
+      row_ = contact::sliding_row(s, contact::sliding_friction(c, rate));
       return;
     }
     doubtful_ = normal.vn != 0.0;
     rate = greatest;
-    jump_ = length - s * sliding_friction(c, rate) * pressed / element.stiffness;
+    jump_ = length - s * contact::sliding_friction(c, rate) * pressed / element.stiffness;
   }
   friction_.begin(c, s, s * rate);
   ContactMotion m;
   m.N = -pressed;
   m.vt = s * rate;
-  row_ = sliding_row_tangent(c, s, m);
+  row_ = contact::sliding_row_tangent(c, s, m);
   row_.constant = -row_.vt * m.vt;
 }
 
-double FrictionSeries::greatest_rate() const { return rate_of_saturation(contact_->friction); }
+double FrictionSeries::greatest_rate() const { return contact::rate_of_saturation(contact_->friction); }
 
 void FrictionSeries::follow_at_once() {
   constant_ = true;
   jump_ = 0.0;
-  row_ = sliding_row(sign_, contact_->friction.kinetic);
+  row_ = contact::sliding_row(sign_, contact_->friction.kinetic);
 }
 
 /// Coefficient k of the slip rate.
@@ -107,16 +107,16 @@ double FrictionSeries::known(int k, const Series& series) {
                                   static_cast<Eigen::Index>(level - 1)));
     return -sign_ * limit_->known();
   }
-  const auto pressing = [&](std::size_t i) {
+  const auto applied = [&](std::size_t i) {
     return series.forces(static_cast<Eigen::Index>(series.layout.normal(index_)),
                          static_cast<Eigen::Index>(i));
   };
-  if (!contact_->sliding_point()) return friction_.next(slip_rate(level, series), pressing);
+  if (!contact_->sliding_point()) return friction_.next(slip_rate(level, series), applied);
   if (k > 1) friction_.take_rate(slip_rate(level - 1, series));
-  return friction_.without_rate(pressing);
+  return friction_.without_rate(applied);
 }
 
-double Disturbance::part(std::size_t i) {
+double DataPerturbation::part(std::size_t i) {
   std::uint64_t mixed = (static_cast<std::uint64_t>(i) + 1) * 0x9e3779b97f4a7c15u;  // splitmix64
   mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
   mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
@@ -125,13 +125,13 @@ double Disturbance::part(std::size_t i) {
   return (mixed & 1u ? most : -most) * rounding::eps * size;
 }
 
-Taylor::Taylor(ModeSystems& systems)
+Taylor::Taylor(StateSystems& systems)
     : systems_(systems),
       model_(systems.model()),
       structure_(systems.structure()),
-      massless_(has_massless(model_)) {
+      massless_(linear::has_massless(model_)) {
   const auto n = static_cast<std::size_t>(structure_.size);
-  const Unknowns unknowns{n, model_.contacts.size(), model_.layout};
+  const linear::Unknowns unknowns{n, model_.contacts.size(), model_.layout};
   x_.resize(unknowns.size());
   work_.resize(unknowns.size());
   known_u_.resize(n);
@@ -157,10 +157,10 @@ void Taylor::start_friction(const Forcing& forcing, Series& series) {
   for (const FrictionSeries& friction : friction_)
     for (const auto& [dof, factor] : model_.contacts[friction.contact()].tangent.terms)
       series.u(dof, 0) += factor * friction.jump();  // zero if the point has mass
-  if (ModeSystemPtr at = at_friction()) system_ = std::move(at);
+  if (StateSystemPtr at = at_friction()) system_ = std::move(at);
 }
 
-ModeSystemPtr Taylor::at_friction() const {
+StateSystemPtr Taylor::at_friction() const {
   std::vector<Form> rows;
   for (const FrictionSeries& friction : friction_) rows.push_back(friction.row());
   return systems_.at_friction(*system_, rows);
@@ -170,11 +170,11 @@ ModeSystemPtr Taylor::at_friction() const {
 /// Points whose rate reaches that of greatest friction remain quasi-static.
 void Taylor::settle_doubts(const Forcing& forcing, Series& series) {
   const std::vector<FrictionSeries> given = friction_;
-  const ModeSystemPtr own = system_;
+  const StateSystemPtr own = system_;
   for (FrictionSeries& friction : friction_)
     if (friction.doubtful()) friction.follow_at_once();
   std::vector<FrictionSeries> settled = given;
-  if (ModeSystemPtr at = at_friction()) {
+  if (StateSystemPtr at = at_friction()) {
     const Eigen::MatrixXd before = series.u;
     system_ = std::move(at);
     for (int k = 0; k < 2; ++k) level(forcing, k, series, nullptr);
@@ -200,13 +200,13 @@ void Taylor::add_bowls(int order, const Series& series) {
       const double ut =
           contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
       // The constant contained in K counts once.
-      force += j == 0 ? bowl_force(contact, N, ut) : bowl_product(contact, N, ut);
+      force += j == 0 ? contact::bowl_force(contact, N, ut) : contact::bowl_product(contact, N, ut);
     }
     contact.body_tangent().add_to(x_, -force);
   }
 }
 
-double Taylor::pinned_value(const Pinned& p, int order, const Series& series) const {
+double Taylor::pinned_value(const linear::Pinned& p, int order, const Series& series) const {
   if (p.tangent == 0.0) return 0.0;
   const ForcingSeries& f = series.forcing;
   const double second = static_cast<double>((order + 1) * (order + 2)) / (series.scale * series.scale);
@@ -220,8 +220,8 @@ void Taylor::known_of_rows(std::size_t c, int order, const Series& series, doubl
   const ForcingSeries& f = series.forcing;
   const double to_velocity = (order + 1) / series.scale;
   const double* surface = f.surface.data() + c * f.count + static_cast<std::size_t>(order);
-  const double* pressing = f.pressing.data() + c * f.count + static_cast<std::size_t>(order);
-  r = normal.pressing * pressing[0];
+  const double* applied = f.applied_normal_force.data() + c * f.count + static_cast<std::size_t>(order);
+  r = normal.applied_normal_force * applied[0];
   q = -tangent.ut * surface[0] - tangent.vt * to_velocity * surface[1] -
       tangent.at * to_velocity * (order + 2) / series.scale * surface[2];
   if (order > 0) return;
@@ -234,8 +234,8 @@ namespace {
 /// True if a surface or a normal force acts on contact c at this order. Most of them are polynomials of low degree.
 bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
   const std::size_t at = c * f.count + static_cast<std::size_t>(order);
-  const double *surface = f.surface.data() + at, *pressing = f.pressing.data() + at;
-  return surface[0] != 0.0 || surface[1] != 0.0 || surface[2] != 0.0 || pressing[0] != 0.0;
+  const double *surface = f.surface.data() + at, *applied = f.applied_normal_force.data() + at;
+  return surface[0] != 0.0 || surface[1] != 0.0 || surface[2] != 0.0 || applied[0] != 0.0;
 }
 
 }  // namespace
@@ -279,14 +279,14 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
       for (std::size_t i = 0; i < size; ++i) y[i] += column[i] * xj;
     }
   }
-  for (const Pinned& p : mode.pinned) y[p.dof] = pinned_value(p, order, series);
+  for (const linear::Pinned& p : mode.pinned) y[p.dof] = pinned_value(p, order, series);
   const double to_u = 1.0 / to_acceleration;
   for (std::size_t i = 0; i < n; ++i) u_k2[i] = y[i] * to_u;
   double* forces = series.forces.data() + static_cast<std::size_t>(order) * (size - n);
   for (std::size_t i = n; i < size; ++i) forces[i - n] = y[i];
 }
 
-void Taylor::level(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
+void Taylor::level(const Forcing& forcing, int order, Series& series, const DataPerturbation* disturbance) {
   if (massless_ || disturbance != nullptr || besides_ || !bowls_.empty() || !system_->factorised().dense())
     return level_any(forcing, order, series, disturbance);
   const std::size_t masses = known_u_.size(), unknowns = x_.size();
@@ -308,12 +308,12 @@ void Taylor::know_motion(int order, const Series& series) {
     }
     return;
   }
-  const std::vector<DofKind>& kinds = system_->kinds();
+  const std::vector<linear::DofKind>& kinds = system_->kinds();
   for (std::size_t i = 0; i < n; ++i) {
-    known_u_[i] = kinds[i] == DofKind::algebraic ? 0.0 : u_k[i];
-    known_v_[i] = kinds[i] == DofKind::massive ? to_velocity * u_k1[i] : 0.0;
+    known_u_[i] = kinds[i] == linear::DofKind::algebraic ? 0.0 : u_k[i];
+    known_v_[i] = kinds[i] == linear::DofKind::massive ? to_velocity * u_k1[i] : 0.0;
   }
-  for (const UndampedMotion& motion : system_->undamped())
+  for (const linear::UndampedMotion& motion : system_->undamped())
     for (const auto& [dof, factor] : motion.others)
       known_u_[static_cast<std::size_t>(dof)] -= factor * u_k[motion.dof];
 }
@@ -357,8 +357,9 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
   const double *u = sizes_.col(order).data(), *v = sizes_.col(order + 1).data();
   const double* forces = series.forces.data() + k * (x_.size() - n);
   const double N = forces[model_.layout.normal(c)], T = forces[model_.layout.tangent(c)];
-  const double *pressing = f.pressing.data() + c * f.count + k, *surface = f.surface.data() + c * f.count + k;
-  double r = std::abs(normal.N * N) + std::abs(normal.pressing * pressing[0]);
+  const double *applied = f.applied_normal_force.data() + c * f.count + k,
+               *surface = f.surface.data() + c * f.count + k;
+  double r = std::abs(normal.N * N) + std::abs(normal.applied_normal_force * applied[0]);
   double q = std::abs(tangent.N * N) + std::abs(tangent.T * T) + std::abs(tangent.ut * surface[0]) +
              std::abs(tangent.vt * to_velocity * surface[1]) +
              std::abs(tangent.at * to_acceleration * surface[2]);
@@ -380,7 +381,7 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
 }
 
 /// Disturbs each equation by some roundings of its terms: the backward error of its solution.
-void Taylor::disturb(const Forcing& forcing, int order, const Disturbance& disturbance) {
+void Taylor::disturb(const Forcing& forcing, int order, const DataPerturbation& disturbance) {
   const Series& motion = disturbance.motion;
   if (order == 0) {
     terms_.resize(static_cast<Eigen::Index>(x_.size()), motion.levels + 1);
@@ -399,7 +400,7 @@ void Taylor::disturb(const Forcing& forcing, int order, const Disturbance& distu
   const double to_acceleration = (order + 1) * (order + 2) / (motion.scale * motion.scale);
   double* carried = sizes_.col(order + 2).data();
   for (std::size_t i = 0; i < known_u_.size(); ++i) carried[i] += mobility_[i] * terms[i] / to_acceleration;
-  for (const Pinned& p : system_->factorised().pinned)
+  for (const linear::Pinned& p : system_->factorised().pinned)
     carried[p.dof] = std::abs(motion.u(static_cast<Eigen::Index>(p.dof), order + 2));
 }
 
@@ -410,32 +411,33 @@ void Taylor::take(int order, Series& series) const {
   const double to_acceleration = to_velocity * (order + 2) / series.scale;
   double *u_k = series.u.col(order).data(), *u_k1 = series.u.col(order + 1).data(),
          *u_k2 = series.u.col(order + 2).data();
-  const std::vector<DofKind>& kinds = system_->kinds();
+  const std::vector<linear::DofKind>& kinds = system_->kinds();
   for (std::size_t i = 0; i < n; ++i) {
-    if (kinds[i] == DofKind::massive)
+    if (kinds[i] == linear::DofKind::massive)
       u_k2[i] = x_[i] / to_acceleration;
-    else if (kinds[i] == DofKind::damped)
+    else if (kinds[i] == linear::DofKind::damped)
       u_k1[i] = x_[i] / to_velocity;
     else
       u_k[i] = x_[i];
   }
-  for (const UndampedMotion& motion : system_->undamped())
+  for (const linear::UndampedMotion& motion : system_->undamped())
     for (const auto& other : motion.others)
       u_k[other.first] = known_u_[static_cast<std::size_t>(other.first)];
-  for (const UndampedMotion& motion : system_->undamped())
+  for (const linear::UndampedMotion& motion : system_->undamped())
     for (const auto& [dof, factor] : motion.others)
       u_k[dof] += factor * x_[static_cast<std::size_t>(motion.dof)];
   std::copy(x_.begin() + static_cast<std::ptrdiff_t>(n), x_.end(), series.forces.col(order).data());
 }
 
-void Taylor::level_any(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
+void Taylor::level_any(const Forcing& forcing, int order, Series& series,
+                       const DataPerturbation* disturbance) {
   const std::size_t n = known_u_.size();
   know_motion(order, series);
   std::fill(x_.begin(), x_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   forcing.add_load(series.forcing, static_cast<std::size_t>(order), x_.data());
   if (besides_) besides_(order, x_.data());
   structure_.subtract_forces(known_v_.data(), known_u_.data(), x_.data());
-  const Unknowns& at = system_->unknowns();
+  const linear::Unknowns& at = system_->unknowns();
   for (std::size_t c = 0; c < at.contacts; ++c) {
     const Contact& contact = model_.contacts[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
@@ -455,20 +457,22 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
 
   system_->solve(x_.data(), work_.data());
   if (disturbance == nullptr)
-    for (const Pinned& p : system_->factorised().pinned)
-      if (system_->kinds()[p.dof] == DofKind::massive) x_[p.dof] = pinned_value(p, order, series);
+    for (const linear::Pinned& p : system_->factorised().pinned)
+      if (system_->kinds()[p.dof] == linear::DofKind::massive) x_[p.dof] = pinned_value(p, order, series);
   take(order, series);
 }
 
-void Taylor::expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                    const Vector& v, int levels, double scale, Series& out, const Disturbance* disturbance) {
+void Taylor::expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                    const Vector& v, int levels, double scale, Series& out,
+                    const DataPerturbation* disturbance) {
   begin(system, forcing, t, u, v, levels, scale, out, disturbance);
   for (int k = 0; k <= levels; ++k) level(forcing, k, out, disturbance);
   out.levels = levels;
 }
 
-void Taylor::begin(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                   const Vector& v, int levels, double scale, Series& out, const Disturbance* disturbance) {
+void Taylor::begin(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                   const Vector& v, int levels, double scale, Series& out,
+                   const DataPerturbation* disturbance) {
   system_ = system;
   out.t = t;
   out.scale = scale;
@@ -479,18 +483,18 @@ void Taylor::begin(const ModeSystemPtr& system, const Forcing& forcing, double t
   forcing.expand(t, scale, static_cast<std::size_t>(levels) + 3, out.forcing);
   out.u.col(0) = u;
   for (Eigen::Index i = 0; i < u.size(); ++i)
-    if (system->kinds()[static_cast<std::size_t>(i)] == DofKind::massive) out.u(i, 1) = scale * v[i];
+    if (system->kinds()[static_cast<std::size_t>(i)] == linear::DofKind::massive) out.u(i, 1) = scale * v[i];
   if (disturbance != nullptr) {
     const std::size_t n = known_u_.size(), data = x_.size() * static_cast<std::size_t>(levels + 1);
-    while (parts_.size() < data + 2 * n) parts_.push_back(Disturbance::part(parts_.size()));
+    while (parts_.size() < data + 2 * n) parts_.push_back(DataPerturbation::part(parts_.size()));
     for (std::size_t i = 0; i < 2 * n; ++i) out.u.data()[i] *= 1.0 + parts_[data + i];
   }
   start_friction(forcing, out);
 }
 
-void Taylor::extend(const Forcing& forcing, int levels, Series& out, const Disturbance* disturbance) {
+void Taylor::extend(const Forcing& forcing, int levels, Series& out, const DataPerturbation* disturbance) {
   for (int k = out.levels + 1; k <= levels; ++k) level(forcing, k, out, disturbance);
   out.levels = std::max(out.levels, levels);
 }
 
-}  // namespace signorini
+}  // namespace signorini::motion

@@ -18,7 +18,7 @@
 #include "motion/point.hpp"
 #include "motion/state_systems.hpp"
 
-namespace signorini {
+namespace signorini::motion {
 
 // Coefficients of the motion's Taylor series.
 //
@@ -53,7 +53,7 @@ struct Series {
   ContactMotion m;
   m.gap = gap_coefficient(contact, series, k);
   m.vn = static_cast<double>(k + 1) / series.scale * contact.normal.dot(v);
-  m.pressing = series.forcing.pressing[index * series.forcing.count + k];
+  m.applied_normal_force = series.forcing.applied_normal_force[index * series.forcing.count + k];
   return -(k == 0 ? row.value(m) : row.rate(m));
 }
 
@@ -108,13 +108,13 @@ class FrictionSeries {
   double jump_ = 0.0;
   bool constant_ = false;  // friction's coefficient is constant
   bool doubtful_ = false;
-  FrictionRecursion friction_;
-  std::optional<LimitSeries> limit_;  // for friction that depends on N
+  contact::FrictionRecursion friction_;
+  std::optional<contact::LimitSeries> limit_;  // for friction that depends on N
 };
 
 /// Some roundings of all terms of all equations, irregular but reproducible: equal disturbances would leave cancelling
 /// sums unchanged, so that an accidental zero would look like one of the equations.
-struct Disturbance {
+struct DataPerturbation {
   const Series& motion;  ///< undisturbed: source of the terms
 
   static constexpr double most = 8.0;  ///< number of roundings: results show them above their last digit
@@ -125,15 +125,16 @@ struct Disturbance {
 /// Expands one series at a time; apart from the state's system it uses only its own memory.
 class Taylor {
  public:
-  explicit Taylor(ModeSystems& systems);
+  explicit Taylor(StateSystems& systems);
 
   /// Expands the series about t from u and v (v of massless degrees of freedom is not read).
-  void expand(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
-              int levels, double scale, Series& out, const Disturbance* disturbance = nullptr);
+  void expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+              const Vector& v, int levels, double scale, Series& out,
+              const DataPerturbation* disturbance = nullptr);
   /// Same in two parts: memory for `levels`, then the levels up to the given one.
-  void begin(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
-             int levels, double scale, Series& out, const Disturbance* disturbance = nullptr);
-  void extend(const Forcing& forcing, int levels, Series& out, const Disturbance* disturbance = nullptr);
+  void begin(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
+             int levels, double scale, Series& out, const DataPerturbation* disturbance = nullptr);
+  void extend(const Forcing& forcing, int levels, Series& out, const DataPerturbation* disturbance = nullptr);
 
   /// Additional loads on the structure at a level, for all later series; the function must outlive them.
   using Besides = std::function<void(int level, double* P)>;
@@ -142,7 +143,7 @@ class Taylor {
   /// 1 over the mass of each degree of freedom alone, 0 for massless ones.
   [[nodiscard]] const std::vector<double>& mobility() const { return mobility_; }
   /// The system of the last series: that of its contact state, with friction at its slip rates.
-  [[nodiscard]] const ModeSystemPtr& system() const { return system_; }
+  [[nodiscard]] const StateSystemPtr& system() const { return system_; }
   [[nodiscard]] bool massless() const { return massless_; }
   /// Column k: sum of the magnitudes of the terms of each equation at level k of the last disturbed series.
   /// n + 2 contacts rows.
@@ -151,26 +152,26 @@ class Taylor {
  private:
   void start_friction(const Forcing& forcing, Series& series);
   void settle_doubts(const Forcing& forcing, Series& series);
-  [[nodiscard]] ModeSystemPtr at_friction() const;
+  [[nodiscard]] StateSystemPtr at_friction() const;
   void add_bowls(int k, const Series& series);
-  [[nodiscard]] double pinned_value(const Pinned& pinned, int k, const Series& series) const;
+  [[nodiscard]] double pinned_value(const linear::Pinned& pinned, int k, const Series& series) const;
   void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;
-  void level(const Forcing& forcing, int k, Series& series, const Disturbance* disturbance);
+  void level(const Forcing& forcing, int k, Series& series, const DataPerturbation* disturbance);
   template <std::size_t fixed_n, std::size_t fixed_size>
   void level_dense(const Forcing& forcing, int k, Series& series);
-  void level_any(const Forcing& forcing, int k, Series& series, const Disturbance* disturbance);
+  void level_any(const Forcing& forcing, int k, Series& series, const DataPerturbation* disturbance);
   void know_motion(int k, const Series& series);
   void measure_equations(const Forcing& forcing, int k, const Series& series, double* terms) const;
   void measure_forces(std::size_t contact, int k, const Series& series, double* terms) const;
   void measure_rows(std::size_t contact, int k, const Series& series, double* terms) const;
-  void disturb(const Forcing& forcing, int k, const Disturbance& disturbance);
+  void disturb(const Forcing& forcing, int k, const DataPerturbation& disturbance);
   void take(int k, Series& series) const;
 
-  ModeSystems& systems_;
+  StateSystems& systems_;
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   const bool massless_;
-  ModeSystemPtr system_;
+  StateSystemPtr system_;
   Besides besides_;                       // empty: none
   std::vector<std::size_t> bowls_;        // contacts on curved surfaces under forces that vary
   std::vector<FrictionSeries> friction_;  // for contacts with rate-dependent friction
@@ -178,4 +179,4 @@ class Taylor {
   Eigen::MatrixXd terms_, sizes_;  // for a disturbed series; sizes_: |u_k| and the rounding carried into it
 };
 
-}  // namespace signorini
+}  // namespace signorini::motion

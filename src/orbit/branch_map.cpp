@@ -12,7 +12,7 @@
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 // Step of finite differences relative to the range: the error is the second derivative times the step, plus noise over
@@ -37,7 +37,7 @@ BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, cons
   Model on_orbit = build_model(orbit_scene(begun, first));
   machine_ = on_orbit.machine;
   phase_ = first.phase / machine_.time;
-  first_ = rescaled(std::move(on_orbit), inverse(machine_));
+  first_ = model::rescaled(std::move(on_orbit), scene::inverse(machine_));
   start_.state.u = first_.u0;
   start_.state.v = first_.v0;
   for (const Contact& c : first_.contacts) {
@@ -76,7 +76,7 @@ double BranchMap::parameter(double s) const {
 /// Periodic loads must act until the end of the run: long enough for the period at s and a transient.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
-    return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", shortest(t_end)}});
+    return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::shortest(t_end)}});
   };
   Scene scene = until(t_end_);
   if (autonomous_) return scene;
@@ -119,10 +119,10 @@ BranchMap::Kept BranchMap::make(double s) const {
   RunSpec run = scene.run;
   run.engine = orbit_engine(model, run, start_.duration * machine_.time);
   run.flow = orbit_flow(model, run);
-  model = rescaled(std::move(model), inverse(machine_));
+  model = model::rescaled(std::move(model), scene::inverse(machine_));
   check_structure(model);
   model.scales = first_.scales;  // tolerances and amplitudes are the same along the whole branch
-  run = rescaled(run, inverse(machine_));
+  run = scene::rescaled(run, scene::inverse(machine_));
   const double period = autonomous_ ? 0.0 : period_of(scene);
   auto map =
       std::make_shared<PeriodMap>(driven_from(std::move(model), phase_ + section_ * period), run, recorder_);
@@ -145,7 +145,7 @@ const BranchMap::Kept& BranchMap::kept(double at) const {
 
 std::shared_ptr<const PeriodMap> BranchMap::at(double s) const { return kept(s).map; }
 
-OrbitState BranchMap::fitted(OrbitState state, const Mode& mode, double s) const {
+OrbitState BranchMap::fitted(OrbitState state, const contact::ContactStates& mode, double s) const {
   const Model& model = at(s)->model();
   const auto fit = [&](Vector& x, const std::vector<std::pair<const Combination*, double>>& rows) {
     if (rows.empty()) return;
@@ -156,7 +156,7 @@ OrbitState BranchMap::fitted(OrbitState state, const Mode& mode, double s) const
       for (const auto& [dof, factor] : form->terms) A(k, dof) += factor;
       b[k] = value - form->dot(x);
     }
-    x += least_squares(A, b);
+    x += base::least_squares(A, b);
   };
   std::vector<std::pair<const Combination*, double>> places, rates;
   for (std::size_t c = 0; c < mode.size(); ++c) {
@@ -208,4 +208,4 @@ Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) 
   return Vector::Zero(here.size());
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -14,7 +14,7 @@
 #include "orbit/period_map.hpp"
 #include "signorini/orbit.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 /// Length of a transient that searches for the orbit behind a gap of the branch.
 inline constexpr int restart_periods = 40;
@@ -60,7 +60,7 @@ class BranchMap {
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
   /// The state at s that satisfies the rigid constraints of this mode: n . u = -g0 and n . v = 0 for closed contacts, t
   /// . v equal to that of the surface for sticking ones. A key may change all three.
-  [[nodiscard]] OrbitState fitted(OrbitState state, const Mode& mode, double s) const;
+  [[nodiscard]] OrbitState fitted(OrbitState state, const contact::ContactStates& mode, double s) const;
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
   /// A pass with margins only, from many rows.
   [[nodiscard]] OrbitPass margins(const BranchState& state) const;
@@ -92,8 +92,8 @@ class BranchMap {
   [[nodiscard]] const Kept& kept(double at) const;
   [[nodiscard]] Kept make(double s) const;
   mutable std::vector<Kept> kept_;
-  std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
-  mutable std::shared_ptr<StateFlow> flow_;  // taken from the last map that had one
+  std::shared_ptr<modal::ModalMemory> memory_ = std::make_shared<modal::ModalMemory>();
+  mutable std::shared_ptr<sensitivity::StateFlow> flow_;  // taken from the last map that had one
 };
 
-}  // namespace signorini
+}  // namespace signorini::orbit

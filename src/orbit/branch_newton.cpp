@@ -9,7 +9,7 @@
 #include "orbit/orbit_engine.hpp"
 #include "orbit/shooting.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 constexpr int most_corrections = 10;
@@ -142,7 +142,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     if (of_energy == 1) b[J.rows() - 1] = energy_missing(c) / map_.energy_unit();
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
-    Vector dy = shortest_solution(A, b, least);
+    Vector dy = base::shortest_solution(A, b, least);
     if (held) dy[dy.size() - 1] = 0.0;  // it is zero to rounding
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
@@ -174,7 +174,7 @@ Vector BranchNewton::tangent(Corrected& at, const Vector& before) const {
   const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.by_s);
   Eigen::MatrixXd A(J.rows() + 1, before.size());
   A << J, before.transpose();
-  const Vector t = shortest_solution(A, Vector::Unit(A.rows(), A.rows() - 1), singular);
+  const Vector t = base::shortest_solution(A, Vector::Unit(A.rows(), A.rows() - 1), singular);
   return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
 }
 
@@ -186,7 +186,7 @@ const Eigen::MatrixXd& BranchNewton::families(Corrected& at) const {
   if (count == 0) return at.family;
   const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
                             (at.monodromy - Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
-  at.family.topRows(n) = least_stretched(A, count);
+  at.family.topRows(n) = base::least_stretched(A, count);
   return at.family;
 }
 
@@ -242,7 +242,7 @@ Vector BranchNewton::flip_direction(const Corrected& at) const {
   const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
                             (at.monodromy + Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
   Vector away = Vector::Zero(size(at.pass));
-  away.head(n) = sizes_.cwiseProduct(least_stretched(A, 1).col(0));
+  away.head(n) = sizes_.cwiseProduct(base::least_stretched(A, 1).col(0));
   return away;
 }
 
@@ -252,7 +252,7 @@ Vector BranchNewton::other_direction(Corrected at, const Vector& t) const {
   // t is one of two null vectors of J; with t as an additional row, the other one remains.
   Eigen::MatrixXd A(J.rows() + 1, J.cols());
   A << J, t.transpose();
-  Vector away = symmetric_eigen(A.transpose() * A).vectors.col(0);
+  Vector away = base::symmetric_eigen(A.transpose() * A).vectors.col(0);
   away.head(sizes_.size()) = away.head(sizes_.size()).cwiseProduct(sizes_).eval();
   return away;
 }
@@ -345,8 +345,8 @@ Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const C
 
 }  // namespace
 
-std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton& newton,
-                                       const Corrected& here, const Vector& t) {
+std::optional<Corrected> representative_member(const BranchMap& map, const BranchNewton& newton,
+                                               const Corrected& here, const Vector& t) {
   const std::vector<std::size_t> contacts = never_slip(map.model(), here.pass);
   Corrected at = here;
   const Eigen::MatrixXd directions = newton.families(at);
@@ -359,7 +359,7 @@ std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton&
     const Eigen::MatrixXd D = slopes(map, newton, at, contacts, directions, d);
     if (D.size() == 0) break;
     // If everything else slips, the structure moves with the anchor, and no force changes.
-    const Vector part = shortest_solution(D, -d, singular_family, at.pass.T_amplitude);
+    const Vector part = base::shortest_solution(D, -d, singular_family, at.pass.T_amplitude);
     if (!(part.norm() > 0.0)) break;
     Corrected next = newton.correct(newton.moved(at.state, at.pass, directions * part),
                                     newton.upwards(at.pass, 1.0), at.by_s);
@@ -373,4 +373,4 @@ std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton&
   return moved ? std::optional(std::move(at)) : std::nullopt;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -14,7 +14,7 @@
 #include "orbit/branch_map.hpp"
 #include "orbit/special_points.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 /// Target for the residual over amplitude, unless the noise of the map is larger.
 inline constexpr double corrected_to = 1e-11;
@@ -134,7 +134,7 @@ class BranchNewton {
 
 /// The orbit in the middle, with its multipliers along t. nullopt: `here` is in the middle or in no such family, or
 /// Newton's method finds no better one.
-[[nodiscard]] std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton& newton,
-                                                     const Corrected& here, const Vector& t);
+[[nodiscard]] std::optional<Corrected> representative_member(const BranchMap& map, const BranchNewton& newton,
+                                                             const Corrected& here, const Vector& t);
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -12,7 +12,7 @@
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 constexpr double shortest_step = 1e-7;  // in the norm
@@ -54,7 +54,7 @@ bool BranchWalk::restart(Corrected& here, double sign) {
 
 /// Moves to the middle of the family that contains the orbit.
 bool BranchWalk::centre(Corrected& here, const Vector& t) {
-  std::optional<Corrected> middle = family_middle(map_, newton_, here, t);
+  std::optional<Corrected> middle = representative_member(map_, newton_, here, t);
   if (!middle || sequence_of(middle->pass) != sequence_of(here.pass)) return false;
   here = std::move(*middle);
   return true;
@@ -344,7 +344,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     offer_mark();
     complete_ = last && special.empty() && length == whole;
     if (complete_) {
-      tell_end(here, along);
+      report_end(here, along);
       return;
     }
     if (doubled_ && returns(here)) {
@@ -358,7 +358,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
 
 /// Describes an end of the range. A branch that returns to its beginning behind a gap is one of two pieces, and not
 /// complete.
-void BranchWalk::tell_end(const Corrected& here, double along) {
+void BranchWalk::report_end(const Corrected& here, double along) {
   end_ = fmt::format("{} {} = {:.9g}", along > 0.0 ? "reached" : "returned to", options_.path, value(here));
   if (along > 0.0 || number_ != 1) return;
   double farthest = options_.from;
@@ -480,4 +480,4 @@ bool BranchWalk::returns(const Corrected& here) {
   return turned;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

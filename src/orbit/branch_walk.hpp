@@ -14,7 +14,7 @@
 
 #include "orbit/branch_newton.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 /// Beginning of another branch.
 struct Junction {
@@ -61,7 +61,7 @@ class BranchWalk {
   [[nodiscard]] bool restart(Corrected& here, double sign);
   [[nodiscard]] bool has_passed(const Corrected& at);
   [[nodiscard]] bool keeps_going(const Corrected& here, const Corrected& next, double along);
-  void tell_end(const Corrected& here, double along);
+  void report_end(const Corrected& here, double along);
   [[nodiscard]] bool beyond(const Corrected& here, Corrected& next, Vector& t);
   [[nodiscard]] bool returns(const Corrected& here);
   bool centre(Corrected& here, const Vector& t);
@@ -140,4 +140,4 @@ class BranchWalk {
   Vector half_;  // for a doubled branch: z(T/2) - z at the last point
 };
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -45,17 +45,17 @@ class Search {
   void set_period(const Scene& scene);
   [[nodiscard]] bool forced();
   [[nodiscard]] bool by_itself();
-  [[nodiscard]] bool close(const OrbitState& state, double section, double period);
+  [[nodiscard]] bool close(const orbit::OrbitState& state, double section, double period);
   void shorten();
-  [[nodiscard]] PeriodMap map_of(Model model, bool interruptible = true) const {
-    PeriodMap map(std::move(model), run_, interruptible ? recorder_ : nullptr);
+  [[nodiscard]] orbit::PeriodMap map_of(Model model, bool interruptible = true) const {
+    orbit::PeriodMap map(std::move(model), run_, interruptible ? recorder_ : nullptr);
     map.share(memory_);
     return map;
   }
   void stability();
-  [[nodiscard]] std::string repeated(const OrbitState& state) const;
+  [[nodiscard]] std::string repeated(const orbit::OrbitState& state) const;
   void see_edge(const Eigen::MatrixXd& phi);
-  void tell(const OrbitState& at_section, double section);
+  void report(const orbit::OrbitState& at_section, double section);
   bool stop(std::string reason) {
     orbit_.reason = std::move(reason);
     return false;
@@ -65,21 +65,21 @@ class Search {
   OrbitOptions options_;
   Recorder* recorder_;
   Model given_;  // in the scene's units, with loads as at `phase`
-  std::optional<PeriodMap> map_;
+  std::optional<orbit::PeriodMap> map_;
   double unit_ = 1.0;    // unit of time
   double before_ = 0.0;  // machine time of the scene from which the loads are periodic
   double period_ = 0.0;  // of the loads times `times`, machine units
   double tolerance_, closed_ = 0.0;
   Orbit orbit_;
-  Shot shot_;
-  OrbitState initial_;
+  orbit::Shot shot_;
+  orbit::OrbitState initial_;
   Model first_;  // initial model of the scene, in the machine's units
   RunSpec run_;
-  std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
+  std::shared_ptr<modal::ModalMemory> memory_ = std::make_shared<modal::ModalMemory>();
 };
 
 /// Time over which periodic histories must be known.
-double long_enough(const LoadPeriod& loads, const OrbitOptions& options) {
+double long_enough(const orbit::LoadPeriod& loads, const OrbitOptions& options) {
   const double T = loads.period.value_or(0.0) * options.times;
   return loads.settled + T * (4.0 * options.transient + 4.0);
 }
@@ -101,7 +101,7 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
 }
 
 /// Energy is conserved if nothing drives, damps or rubs.
-void check_conservative(const Scene& scene, const LoadPeriod& loads) {
+void check_conservative(const Scene& scene, const orbit::LoadPeriod& loads) {
   if (!scene.loads.empty() || loads.period || loads.surfaces_move)
     throw UsageError("--energy: expected a scene without loads and belts");
 }
@@ -109,35 +109,37 @@ void check_conservative(const Scene& scene, const LoadPeriod& loads) {
 /// Sets the model, its engine, and the period of the loads.
 void Search::set_period(const Scene& scene) {
   const bool conservative = options_.energy.has_value();
-  LoadPeriod loads =
-      options_.period && !conservative ? check_period(scene, *options_.period) : load_period(scene);
+  orbit::LoadPeriod loads = options_.period && !conservative ? orbit::check_period(scene, *options_.period)
+                                                             : orbit::load_period(scene);
   // Rest under loads of amplitude zero: the beginning or end of a branch over that amplitude.
   if (!loads.period && !loads.surfaces_move && !conservative)
-    loads = load_period(scene, driving_loads(scene));
-  orbit_.autonomous = !loads.period || (options_.period && !load_period(scene).period && loads.surfaces_move);
+    loads = orbit::load_period(scene, orbit::driving_loads(scene));
+  orbit_.autonomous =
+      !loads.period || (options_.period && !orbit::load_period(scene).period && loads.surfaces_move);
   if (conservative) check_conservative(scene, loads);
   if (orbit_.autonomous && !loads.surfaces_move && !conservative)
     throw SceneError(
         {}, "loads",
         "an orbit needs a periodic load, a moving surface, or --period; the scene has none of them");
   const double t_end = std::max(scene.run.t_end, long_enough(loads, options_));
-  const Scene longer = read_({{"run.t_end", shortest(t_end)}});
+  const Scene longer = read_({{"run.t_end", base::shortest(t_end)}});
   given_ = build_model(longer);
-  check_tangent_laws(longer, given_);
+  sensitivity::check_tangent_laws(longer, given_);
   if (conservative && given_.damping.norm() > 0.0)
     throw UsageError("--energy: the scene has damping, expected none: energy is not kept");
   run_ = longer.run;
-  run_.engine = orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
-  if (!engine_row(run_.engine).can.follow_orbits)
-    throw SceneError(scene.run.place, "run.engine",
-                     fmt::format("found \"{}\", expected {}: orbits need the motion between events to "
-                                 "rounding, or its tangents",
-                                 to_string(run_.engine), engines_that(&EngineAbilities::follow_orbits)));
-  run_.flow = orbit_flow(given_, run_);
-  closed_ = orbit_state_error(run_);
-  const Factors to_machine = inverse(given_.machine);
-  first_ = rescaled(given_, to_machine);
-  run_ = rescaled(run_, to_machine);
+  run_.engine = orbit::orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
+  if (!run::engine_row(run_.engine).can.follow_orbits)
+    throw SceneError(
+        scene.run.place, "run.engine",
+        fmt::format("found \"{}\", expected {}: orbits need the motion between events to "
+                    "rounding, or its tangents",
+                    to_string(run_.engine), run::engines_that(&run::EngineAbilities::follow_orbits)));
+  run_.flow = orbit::orbit_flow(given_, run_);
+  closed_ = orbit::orbit_state_error(run_);
+  const Factors to_machine = scene::inverse(given_.machine);
+  first_ = model::rescaled(given_, to_machine);
+  run_ = scene::rescaled(run_, to_machine);
   run_.t_end = scene.run.t_end / given_.machine.time;
   unit_ = given_.machine.time;
   for (const Contact& c : first_.contacts) {
@@ -154,30 +156,30 @@ void Search::set_period(const Scene& scene) {
 }
 
 bool Search::forced() {
-  const PeriodMap scene = map_of(first_);
-  OrbitState state = initial_;
+  const orbit::PeriodMap scene = map_of(first_);
+  orbit::OrbitState state = initial_;
   double length = before_ + options_.transient * period_;
-  const Model base = driven_from(first_, before_);
-  const PeriodMap at_phase = map_of(base);
+  const Model base = orbit::driven_from(first_, before_);
+  const orbit::PeriodMap at_phase = map_of(base);
   for (int i = 0; i < most_transients; ++i) {
-    const OrbitPass transient =
-        length > 0.0 ? (i == 0 ? scene : at_phase).pass({state, length, false}) : OrbitPass{};
+    const orbit::OrbitPass transient =
+        length > 0.0 ? (i == 0 ? scene : at_phase).pass({state, length, false}) : orbit::OrbitPass{};
     if (length > 0.0) {
       if (!transient.done()) return stop("the transient stopped: " + transient.outcome.reason);
-      state = orbit_state(transient.end);
+      state = orbit::orbit_state(transient.end);
     }
     length = std::max(1, options_.transient) * period_ * (i + 1);
-    const OrbitPass once = at_phase.pass({state, seen_periods * period_, false});
+    const orbit::OrbitPass once = at_phase.pass({state, seen_periods * period_, false});
     if (!once.done()) return stop("the run over one period stopped: " + once.outcome.reason);
-    const double section = section_away_from(once.instants, period_);
-    OrbitState at_section = state;
+    const double section = orbit::section_away_from(once.instants, period_);
+    orbit::OrbitState at_section = state;
     if (section > 0.0) {
-      const OrbitPass to_section = at_phase.pass({state, section, false});
+      const orbit::OrbitPass to_section = at_phase.pass({state, section, false});
       if (!to_section.done()) return stop("the run to the section stopped: " + to_section.outcome.reason);
-      at_section = orbit_state(to_section.end);
+      at_section = orbit::orbit_state(to_section.end);
     }
-    std::shared_ptr<StateFlow> flow = map_ ? map_->flow() : nullptr;
-    map_ = map_of(driven_from(base, section));
+    std::shared_ptr<sensitivity::StateFlow> flow = map_ ? map_->flow() : nullptr;
+    map_ = map_of(orbit::driven_from(base, section));
     map_->take_flow(std::move(flow));
     if (close(at_section, section, period_)) return true;
     if (shot_.interrupted) return false;
@@ -187,18 +189,19 @@ bool Search::forced() {
 }
 
 /// Number of periods after which the transient repeats itself, as behind a flip; as a text.
-std::string Search::repeated(const OrbitState& state) const {
-  OrbitState now = state;
-  std::optional<OrbitPass> first;
+std::string Search::repeated(const orbit::OrbitState& state) const {
+  orbit::OrbitState now = state;
+  std::optional<orbit::OrbitPass> first;
   for (int k = 1; k <= most_repeats; ++k) {
-    const OrbitPass pass = map_->pass({now, period_, false});
+    const orbit::OrbitPass pass = map_->pass({now, period_, false});
     if (!pass.done()) return {};
-    now = orbit_state(pass.end);
+    now = orbit::orbit_state(pass.end);
     if (!first) first = pass;
-    if (k == 1 && orbit_residual(map_->model(), pass) <= comes_back) return {};  // it is nearly an orbit
-    const OrbitSection section(map_->model(), first->begin);
+    if (k == 1 && orbit::orbit_residual(map_->model(), pass) <= comes_back)
+      return {};  // it is nearly an orbit
+    const orbit::OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
-    if (k > 1 && residual_of(section, *first, gap) <= comes_back)
+    if (k > 1 && orbit::residual_of(section, *first, gap) <= comes_back)
       return fmt::format("; the transient repeats itself after {} of these periods: --times {}", k,
                          k * options_.times);
   }
@@ -206,11 +209,11 @@ std::string Search::repeated(const OrbitState& state) const {
 }
 
 bool Search::by_itself() {
-  const PeriodMap scene = map_of(first_);
+  const orbit::PeriodMap scene = map_of(first_);
   const double length = before_ + std::max(run_.t_end, options_.transient * period_);
-  const OrbitPass transient = scene.pass({initial_, length, false});
+  const orbit::OrbitPass transient = scene.pass({initial_, length, false});
   if (!transient.done()) return stop("the transient stopped: " + transient.outcome.reason);
-  const Recurrence found = recurrence(first_, transient.instants);
+  const orbit::ReturnMapStart found = orbit::return_map_start(first_, transient.instants);
   if (!(found.period > 0.0) && period_ > 0.0) {
     map_ = map_of(first_);
     return close(initial_, 0.0, period_);
@@ -220,15 +223,15 @@ bool Search::by_itself() {
         "no event of the transient, up to t = {:.6g}, comes back to a state near to an earlier one; "
         "a longer t_end lets more of it die out",
         length * unit_));
-  const OrbitPass to_section = scene.pass({initial_, found.section, false});
+  const orbit::OrbitPass to_section = scene.pass({initial_, found.section, false});
   if (!to_section.done()) return stop("the transient stopped: " + to_section.outcome.reason);
-  map_ = map_of(driven_from(first_, found.section));
+  map_ = map_of(orbit::driven_from(first_, found.section));
   const double period = period_ > 0.0 ? period_ : found.period * options_.times;
-  return close(orbit_state(to_section.end), 0.0, period);
+  return close(orbit::orbit_state(to_section.end), 0.0, period);
 }
 
-bool Search::close(const OrbitState& state, double section, double period) {
-  shot_ = shoot(*map_, {state, period, orbit_.autonomous, closed_, options_.energy}, tolerance_);
+bool Search::close(const orbit::OrbitState& state, double section, double period) {
+  shot_ = orbit::shoot(*map_, {state, period, orbit_.autonomous, closed_, options_.energy}, tolerance_);
   orbit_.steps = shot_.steps;
   orbit_.residual = shot_.residual;
   if (!shot_.closed) return stop(shot_.reason);
@@ -244,9 +247,9 @@ void Search::shorten() {
   if (!orbit_.autonomous || options_.times > 1 || !(shot_.pass.u_amplitude > 0.0)) return;
   for (const int n : shorter_by)
     for (double part = shot_.duration / n;; part = shot_.duration / n) {
-      const OrbitPass pass = map_->pass({shot_.state, part, false});
-      if (!pass.done() || orbit_residual(map_->model(), pass) > nearly_closed) break;
-      Shot shot = shoot(*map_, {shot_.state, part, true, closed_, options_.energy}, tolerance_);
+      const orbit::OrbitPass pass = map_->pass({shot_.state, part, false});
+      if (!pass.done() || orbit::orbit_residual(map_->model(), pass) > nearly_closed) break;
+      orbit::Shot shot = orbit::shoot(*map_, {shot_.state, part, true, closed_, options_.energy}, tolerance_);
       if (!shot.closed || std::abs(shot.duration - part) > nearly_closed * part) break;
       shot_ = std::move(shot);
       orbit_.residual = shot_.residual;
@@ -255,20 +258,20 @@ void Search::shorten() {
 
 /// Computes multipliers and families.
 void Search::stability() {
-  const OrbitPass& pass = shot_.pass;
+  const orbit::OrbitPass& pass = shot_.pass;
   if (pass.end_rates.size() == 0) {
     orbit_.reason = "multipliers are not known: " + pass.reason;
     return;
   }
   const Model& model = map_->model();
-  const Eigen::MatrixXd phi = monodromy(model, pass);
-  const OrbitPass next = map_->pass({orbit_state(pass.end), shot_.duration});
+  const Eigen::MatrixXd phi = orbit::monodromy(model, pass);
+  const orbit::OrbitPass next = map_->pass({orbit::orbit_state(pass.end), shot_.duration});
   const Eigen::MatrixXd again = next.done() && next.end_rates.size() == pass.end_rates.size()
-                                    ? monodromy(model, next)
+                                    ? orbit::monodromy(model, next)
                                     : Eigen::MatrixXd();
-  const Multipliers all = multipliers_of(phi);
+  const orbit::Multipliers all = orbit::multipliers_of(phi);
   // Along the motion, and for conservative orbits also from energy to energy.
-  const std::size_t ones = count_ones(all), of_time = options_.energy ? 2 : orbit_.autonomous ? 1 : 0;
+  const std::size_t ones = orbit::count_ones(all), of_time = options_.energy ? 2 : orbit_.autonomous ? 1 : 0;
   std::size_t families = ones > of_time ? ones - of_time : 0;
   for (std::size_t c = 0; c < pass.held.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -278,23 +281,24 @@ void Search::stability() {
     --families;
   }
   if (families > 0) orbit_.families.push_back("a motion that no force drives back");
-  set_multipliers(all, again, orbit_.families.size() + of_time, error_of(phi, pass.rates_error, closed_),
-                  options_.energy.has_value(), orbit_);
+  orbit::set_multipliers(all, again, orbit_.families.size() + of_time,
+                         orbit::error_of(phi, pass.rates_error, closed_), options_.energy.has_value(),
+                         orbit_);
   if (!orbit_.families.empty()) see_edge(phi);
 }
 
 /// Detects a neighbouring member of the family in which a contact slips that never slips here: Phi is then one-sided.
 void Search::see_edge(const Eigen::MatrixXd& phi) {
-  const OrbitPass& pass = shot_.pass;
-  const OrbitSection section(map_->model(), pass.begin);
+  const orbit::OrbitPass& pass = shot_.pass;
+  const orbit::OrbitSection section(map_->model(), pass.begin);
   const Eigen::MatrixXd A = phi - Eigen::MatrixXd::Identity(phi.rows(), phi.cols());
   const Eigen::MatrixXd ways =
-      least_stretched(A, std::min(A.cols(), static_cast<Eigen::Index>(orbit_.families.size())));
+      base::least_stretched(A, std::min(A.cols(), static_cast<Eigen::Index>(orbit_.families.size())));
   for (Eigen::Index k = 0; k < ways.cols(); ++k)
     for (const double side : {-beside, beside}) {
-      const Vector way = ways.col(k) / residual_of(section, pass, section.basis() * ways.col(k));
-      const OrbitPass other =
-          map_->pass({section.moved(orbit_state(pass.begin), side * way), shot_.duration, false});
+      const Vector way = ways.col(k) / orbit::residual_of(section, pass, section.basis() * ways.col(k));
+      const orbit::OrbitPass other =
+          map_->pass({section.moved(orbit::orbit_state(pass.begin), side * way), shot_.duration, false});
       for (std::size_t c = 0; c < pass.held.size() && other.done(); ++c)
         if (pass.held[c] && !other.held[c])
           orbit_.reason = fmt::format(
@@ -306,7 +310,7 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
 }
 
 /// With these intervals an extreme is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.
-constexpr int places_told = 720;
+constexpr int places_recorded = 720;
 /// Relative to the period: an event this near to the orbit's time 0 is at it. Chosen: the remainder of an orbit that
 /// closed to 1e-9.
 constexpr double same_instant = 1e-9;
@@ -323,17 +327,17 @@ std::vector<Event> since_time_0(std::vector<Event> events, double section, doubl
 }
 
 /// Records the start, and the results of a period.
-void Search::tell(const OrbitState& at_section, double section) {
-  const Model base = orbit_.autonomous ? map_->model() : driven_from(first_, before_);
-  const PeriodMap map = map_of(base, false), from_section = map_of(map_->model(), false);
-  OrbitState start = at_section;
+void Search::report(const orbit::OrbitState& at_section, double section) {
+  const Model base = orbit_.autonomous ? map_->model() : orbit::driven_from(first_, before_);
+  const orbit::PeriodMap map = map_of(base, false), from_section = map_of(map_->model(), false);
+  orbit::OrbitState start = at_section;
   if (section > 0.0)
-    start = orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
+    start = orbit::orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);
-  orbit_.start = last_state(driven_from(given_, orbit_.phase), rows);
-  OrbitLeg told{at_section, shot_.duration, false};
-  told.places = places_told;
-  const OrbitPass once = from_section.pass(told);
+  orbit_.start = last_state(orbit::driven_from(given_, orbit_.phase), rows);
+  orbit::OrbitLeg leg{at_section, shot_.duration, false};
+  leg.places = places_recorded;
+  const orbit::OrbitPass once = from_section.pass(leg);
   orbit_.sequence = since_time_0(once.events, orbit_.section, orbit_.period);
   orbit_.cycle = once.cycle;
   orbit_.amplitude = once.amplitude;
@@ -343,7 +347,7 @@ Orbit Search::find() {
   orbit_.found = orbit_.autonomous ? by_itself() : forced();
   if (!orbit_.found) return std::move(orbit_);
   stability();
-  tell(shot_.state, orbit_.section / unit_);
+  report(shot_.state, orbit_.section / unit_);
   return std::move(orbit_);
 }
 
@@ -356,8 +360,9 @@ Orbit find_orbit(const SceneReader& read, const OrbitOptions& options, Recorder*
 Scene orbit_scene(const SceneReader& read, const Orbit& orbit) {
   Scene scene = read({});
   if (orbit.phase > 0.0) {
-    std::vector<Override> changes = driven_earlier(scene, orbit.phase);
-    changes.push_back({"run.t_end", shortest(std::max(scene.run.t_end, orbit.phase + 2.0 * orbit.period))});
+    std::vector<Override> changes = orbit::driven_earlier(scene, orbit.phase);
+    changes.push_back(
+        {"run.t_end", base::shortest(std::max(scene.run.t_end, orbit.phase + 2.0 * orbit.period))});
     scene = read(changes);
   }
   constexpr double rows = 200.0;
@@ -378,8 +383,8 @@ namespace {
 
 Orbit first_orbit(const SceneReader& read, const BranchOptions& options, Recorder* recorder) {
   OrbitOptions search = options.orbit;
-  if (options.path == over_energy) search.energy = options.from;
-  return find_orbit(branch_reader(read, options.path, options.from), search, recorder);
+  if (options.path == orbit::over_energy) search.energy = options.from;
+  return find_orbit(orbit::branch_reader(read, options.path, options.from), search, recorder);
 }
 
 }  // namespace
@@ -388,9 +393,9 @@ Branch follow(const SceneReader& read, const BranchOptions& options, Recorder* r
               const std::function<void(const BranchPoint&)>& seen) {
   if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
     throw UsageError("--over: expected PATH=FROM:TO with two different numbers");
-  if (options.path == over_energy && !(options.from > 0.0 && options.to > 0.0))
+  if (options.path == orbit::over_energy && !(options.from > 0.0 && options.to > 0.0))
     throw UsageError("--over energy: expected two energies above 0; without energy nothing moves");
-  if (options.path == over_energy && options.orbit.energy)
+  if (options.path == orbit::over_energy && options.orbit.energy)
     throw UsageError("--energy: cannot be combined with --over energy, which sets it");
   const Orbit orbit = options.resumed ? options.resumed->orbit : first_orbit(read, options, recorder);
   if (!orbit.found) {
@@ -400,22 +405,22 @@ Branch follow(const SceneReader& read, const BranchOptions& options, Recorder* r
   }
   Branch branch;
   if (options.resumed) branch.sequences = options.resumed->sequences;
-  BranchWalk main(options, BranchMap(read, options, orbit, recorder), branch, 1, 0, seen);
+  orbit::BranchWalk main(options, orbit::BranchMap(read, options, orbit, recorder), branch, 1, 0, seen);
   main.follow();
   branch.end = main.end();
   branch.complete = main.complete();
   branch.last = main.mark();
-  std::deque<Junction> waiting(std::make_move_iterator(main.junctions().begin()),
-                               std::make_move_iterator(main.junctions().end()));
+  std::deque<orbit::Junction> waiting(std::make_move_iterator(main.junctions().begin()),
+                                      std::make_move_iterator(main.junctions().end()));
   while (!waiting.empty() && !branch.interrupted) {
-    const Junction junction = std::move(waiting.front());
+    const orbit::Junction junction = std::move(waiting.front());
     waiting.pop_front();
     const int number = static_cast<int>(branch.sides.size()) + 2;
-    BranchWalk walk(options, junction.map, branch, number, junction.generation, seen);
+    orbit::BranchWalk walk(options, junction.map, branch, number, junction.generation, seen);
     walk.leave(junction);
     branch.sides.push_back({number, junction.from, junction.kind, junction.map.parameter(junction.at.state.s),
                             walk.end(), walk.complete()});
-    for (Junction& next : walk.junctions()) waiting.push_back(std::move(next));
+    for (orbit::Junction& next : walk.junctions()) waiting.push_back(std::move(next));
   }
   return branch;
 }

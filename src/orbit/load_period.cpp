@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "scene/history_from_spec.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 // Relative difference up to which periods are equal, or in a ratio of integers. Periods are given with at least this
@@ -109,7 +109,7 @@ void check_drift(const Driver& d, const History& acceleration, double settled, d
       fmt::format("found an acceleration that leaves the support displaced by {:.6g} more after "
                   "each period of {} (the support starts at rest at zero displacement), expected "
                   "one without drift: no motion of this scene repeats itself",
-                  drift, shortest(period)));
+                  drift, base::shortest(period)));
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ LoadPeriod load_period(const Scene& scene, const SilentLoads& count) {
           d.spec->place, d.key,
           fmt::format("found a period of {} beside one of {}, expected periods with a common multiple "
                       "(up to {} of the longer one)",
-                      shortest(own), shortest(*found.period), most_multiples));
+                      base::shortest(own), base::shortest(*found.period), most_multiples));
     found.period = both;
   }
   return found.period ? check_period(scene, *found.period, count) : found;
@@ -147,7 +147,7 @@ LoadPeriod check_period(const Scene& scene, double period, const SilentLoads& co
     HistorySpec spec = *d.spec;
     if (spec.period > 0.0)
       spec.rounds = static_cast<int>(std::ceil((found.settled + 3.0 * period) / spec.period)) + 1;
-    const History f = make_history(spec, d.key);
+    const History f = scene::make_history(spec, d.key);
     double size = 0.0, differ = 0.0;
     for (int i = 0; i < compared_places; ++i) {
       const double t = found.settled + period * (i + 1.0 / std::numbers::sqrt2) / compared_places;
@@ -161,7 +161,7 @@ LoadPeriod check_period(const Scene& scene, double period, const SilentLoads& co
           fmt::format(
               "found a history that differs by {:.2g} of its greatest value after {}, expected one that "
               "repeats itself with the period of the orbit",
-              differ / size, shortest(period)));
+              differ / size, base::shortest(period)));
     if (d.acceleration) check_drift(d, f, found.settled, period);
   }
   return found;
@@ -172,7 +172,8 @@ std::vector<Override> driven_earlier(const Scene& scene, double time) {
   for (const Driver& d : drivers(scene)) {
     const bool always =
         d.spec->type == HistoryType::constant && !d.spec->start_given && std::isinf(d.spec->end);
-    if (!always && !d.spec->in_code) changes.push_back({d.key + ".shift", shortest(d.spec->shift - time)});
+    if (!always && !d.spec->in_code)
+      changes.push_back({d.key + ".shift", base::shortest(d.spec->shift - time)});
   }
   return changes;
 }
@@ -204,8 +205,8 @@ double distance(const Model& model, const OrbitPoint& a, const OrbitPoint& b) {
 
 }  // namespace
 
-Recurrence recurrence(const Model& model, const std::vector<OrbitPoint>& instants) {
-  Recurrence found;
+ReturnMapStart return_map_start(const Model& model, const std::vector<OrbitPoint>& instants) {
+  ReturnMapStart found;
   const std::size_t count = instants.size();
   if (count < 3) return found;
   const OrbitPoint& last = instants.back();
@@ -248,4 +249,4 @@ double section_away_from(const std::vector<OrbitPoint>& instants, double T) {
   return section;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -6,7 +6,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 // Distance of a multiplier from 1 up to which it counts as 1, given the rounding of Phi and of a double eigenvalue.
@@ -31,6 +31,10 @@ OrbitLoss loss_of(std::complex<double> mu, double error) {
 
 }  // namespace
 
+}  // namespace signorini::orbit
+
+namespace signorini {
+
 const char* to_string(OrbitLoss loss) {
   switch (loss) {
     case OrbitLoss::none:
@@ -45,9 +49,13 @@ const char* to_string(OrbitLoss loss) {
   return "";
 }
 
+}  // namespace signorini
+
+namespace signorini::orbit {
+
 Multipliers multipliers_of(const Eigen::MatrixXd& phi) {
   if (phi.size() == 0) return {};
-  const Eigen::VectorXcd values = general_eigenvalues(phi);
+  const Eigen::VectorXcd values = base::general_eigenvalues(phi);
   Multipliers all(values.data(), values.data() + values.size());
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     if (std::abs(a) != std::abs(b)) return std::abs(a) > std::abs(b);
@@ -92,4 +100,4 @@ void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& again, std::
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -18,7 +18,7 @@
 
 #include <cmath>
 
-namespace signorini {
+namespace signorini::orbit {
 
 using Multipliers = std::vector<std::complex<double>>;
 
@@ -44,4 +44,4 @@ using Multipliers = std::vector<std::complex<double>>;
 void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& again, std::size_t ones, double error,
                      bool keeps, Orbit& orbit);
 
-}  // namespace signorini
+}  // namespace signorini::orbit

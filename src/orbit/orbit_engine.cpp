@@ -5,7 +5,7 @@
 #include "run/cost_estimate.hpp"
 #include "run/engines.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 // Chosen: a series takes a step for every 5 decay times, so some hundred steps per period.
@@ -16,20 +16,21 @@ constexpr double of_tolerance = 100.0;  // chosen value: errors of steps accumul
 
 Engine orbit_engine(const Model& model, const RunSpec& run, double duration) {
   if (run.engine != Engine::automatic) return run.engine;
-  if (!exact_takes(model, run)) return engine_for(EngineRole::integrator);
-  if (fastest_decay(model) * duration <= most_decays) return engine_for(EngineRole::closed_form);
-  return choose_engine(model, run).engine;
+  if (!run::exact_takes(model, run)) return run::engine_for(run::EngineRole::integrator);
+  if (model::fastest_decay(model) * duration <= most_decays)
+    return run::engine_for(run::EngineRole::closed_form);
+  return run::choose_engine(model, run).engine;
 }
 
 Flow orbit_flow(const Model& model, const RunSpec& run) {
-  if (run.flow != Flow::automatic || !engine_row(run.engine).can.closed_flow) return run.flow;
-  const ModalKind kind = modal_kind(model);
+  if (run.flow != Flow::automatic || !run::engine_row(run.engine).can.closed_flow) return run.flow;
+  const run::ModalKind kind = run::modal_kind(model);
   const bool can = kind.objection.empty() && kind.damped && !kind.crowded;
-  return can && damped_modes_gain(model) ? Flow::modal : run.flow;
+  return can && run::damped_modes_gain(model) ? Flow::modal : run.flow;
 }
 
 double orbit_state_error(const RunSpec& run) {
   return name_of(run.engine).accuracy == Accuracy::tolerance ? of_tolerance * run.rtol : 0.0;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -16,7 +16,7 @@
 #include "signorini/model.hpp"
 #include "signorini/sensitivity.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 /// duration: length of a period, or an estimate of it; in the units of model and run.
 [[nodiscard]] Engine orbit_engine(const Model& model, const RunSpec& run, double duration);
@@ -34,7 +34,7 @@ namespace signorini {
 /// value: in the unit of the key. Errors: those of `read`.
 [[nodiscard]] inline SceneReader reader_at(SceneReader read, std::string path, double value) {
   return [read = std::move(read), path = std::move(path), value](const std::vector<Override>& changes) {
-    std::vector<Override> all{{path, shortest(value)}};
+    std::vector<Override> all{{path, base::shortest(value)}};
     all.insert(all.end(), changes.begin(), changes.end());
     return read(all);
   };
@@ -47,4 +47,4 @@ inline constexpr const char* over_energy = "energy";
   return path == over_energy ? std::move(read) : reader_at(std::move(read), path, value);
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -2,7 +2,7 @@
 
 #include "base/eigen_dense.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 History from(const History& history, double time) {
@@ -24,7 +24,7 @@ void add_form(const Combination& form, const std::vector<Eigen::Index>& places, 
 
 }  // namespace
 
-OrbitPoint orbit_point(double t, const Decision& after) {
+OrbitPoint orbit_point(double t, const decide::Decision& after) {
   return {t,
           after.mode,
           after.u,
@@ -76,13 +76,13 @@ OrbitSection::OrbitSection(const Model& model, const OrbitPoint& at) : model_(mo
   std::vector<double> u, v, T;
   const Scales& s = model.scales;
   for (Eigen::Index i = 0; i < at.u.size(); ++i) {
-    const DofKind kind = at.kinds[static_cast<std::size_t>(i)];
+    const linear::DofKind kind = at.kinds[static_cast<std::size_t>(i)];
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
-    if (kind != DofKind::algebraic) {
+    if (kind != linear::DofKind::algebraic) {
       u_.push_back(i);
       u.push_back(turns ? s.rotation : s.displacement);
     }
-    if (kind != DofKind::massive) continue;
+    if (kind != linear::DofKind::massive) continue;
     v_.push_back(i);
     v.push_back(turns ? s.angular_velocity : s.velocity);
   }
@@ -110,7 +110,7 @@ OrbitSection::OrbitSection(const Model& model, const OrbitPoint& at) : model_(mo
   }
   Eigen::MatrixXd held(scales_.size(), static_cast<Eigen::Index>(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) held.col(static_cast<Eigen::Index>(k)) = rows[k];
-  basis_ = orthogonal_complement(held);
+  basis_ = base::orthogonal_complement(held);
 }
 
 Vector OrbitSection::coordinates(const Vector& u, const Vector& v, const Vector& forces) const {
@@ -159,4 +159,4 @@ OrbitState OrbitSection::moved(OrbitState state, const Vector& x) const {
   return state;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

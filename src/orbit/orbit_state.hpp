@@ -13,7 +13,7 @@
 #include "decide/decision.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 /// A state from which a run can begin.
 struct OrbitState {
@@ -25,12 +25,12 @@ struct OrbitState {
 /// The motion just after an instant.
 struct OrbitPoint {
   double t = 0.0;
-  Mode mode;
+  contact::ContactStates mode;
   Vector u, v, a, forces, force_rates;  ///< forces: in the order of `layout`
-  std::vector<DofKind> kinds;           ///< of this mode
+  std::vector<linear::DofKind> kinds;   ///< of this mode
   ForceLayout layout;
 };
-[[nodiscard]] OrbitPoint orbit_point(double t, const Decision& after);
+[[nodiscard]] OrbitPoint orbit_point(double t, const decide::Decision& after);
 [[nodiscard]] OrbitState orbit_state(const OrbitPoint& point);
 
 /// The model with this state at t = 0.
@@ -70,4 +70,4 @@ class OrbitSection {
   Eigen::MatrixXd basis_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -8,7 +8,7 @@
 #include "sensitivity/tangent_run.hpp"
 #include "signorini/simulate.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 constexpr int fewest_in_modes = 6;  // below this the series is as fast. Chosen value.
@@ -76,7 +76,7 @@ class CycleRecorder final : public Recorder {
       const double force = s.force * model_.unit.force;
       grow(pass_.T_amplitude, T_[c].second - T_[c].first, force);
       const double T = sample.contacts[c].T;
-      const double limit = sticking_limit(model_.contacts[c], -std::abs(sample.contacts[c].N));
+      const double limit = contact::sticking_limit(model_.contacts[c], -std::abs(sample.contacts[c].N));
       margins_[c][0].see(sample.t, (limit - T) / force);
       margins_[c][1].see(sample.t, (limit + T) / force);
     }
@@ -100,10 +100,11 @@ class CycleRecorder final : public Recorder {
   std::vector<std::array<Least, 2>> margins_;
 };
 
-class NoRows final : public TangentListener {
+class NoRows final : public sensitivity::TangentListener {
  public:
-  void sample(const TangentSample& /*sample*/, bool /*row*/, bool /*turn*/) override {}
-  void at_instant(const InstantMotion& /*motion*/, const std::vector<TangentState>& /*states*/) override {}
+  void sample(const sensitivity::TangentSample& /*sample*/, bool /*row*/, bool /*turn*/) override {}
+  void at_instant(const sensitivity::InstantMotion& /*motion*/,
+                  const std::vector<sensitivity::TangentState>& /*states*/) override {}
   [[nodiscard]] bool exceeds(std::size_t /*contact*/, std::size_t /*which*/,
                              double /*value*/) const override {
     return false;
@@ -111,8 +112,8 @@ class NoRows final : public TangentListener {
 };
 
 /// A zero derivative of the model.
-ModelDerivative still(const Model& model) {
-  ModelDerivative d;
+sensitivity::ModelDerivative still(const Model& model) {
+  sensitivity::ModelDerivative d;
   d.mass = d.damping = d.stiffness = SparseMatrix(model.size(), model.size());
   d.loads.resize(model.loads.size());
   d.contacts.resize(model.contacts.size());
@@ -124,11 +125,11 @@ ModelDerivative still(const Model& model) {
 class Bundle {
  public:
   /// flow: null, or the closed form with which the columns cross stretches.
-  Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, StateFlow* flow)
+  Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, sensitivity::StateFlow* flow)
       : section_(model, begin) {
     for (Eigen::Index k = 0; k < section_.size(); ++k) {
       const OrbitState column = section_.unscaled(section_.basis().col(k));
-      ModelDerivative d = still(model);
+      sensitivity::ModelDerivative d = still(model);
       d.u0 = column.u;
       d.v0 = column.v;
       for (std::size_t c = 0; c < d.contacts.size(); ++c) d.contacts[c].initial_shear = column.shears[c];
@@ -140,16 +141,17 @@ class Bundle {
     if (flow != nullptr) tangents_->cross_by(*flow);
   }
 
-  [[nodiscard]] TangentRun& run() { return *tangents_; }
+  [[nodiscard]] sensitivity::TangentRun& run() { return *tangents_; }
 
   void finish(OrbitPass& pass) const {
-    const std::vector<TangentState>& states = tangents_->states();
-    for (const TangentState& state : states)
+    const std::vector<sensitivity::TangentState>& states = tangents_->states();
+    for (const sensitivity::TangentState& state : states)
       if (!state.alive) {
         pass.reason = state.reason;
         return;
       }
-    for (const TangentState& state : states) pass.rates_error = std::max(pass.rates_error, state.error);
+    for (const sensitivity::TangentState& state : states)
+      pass.rates_error = std::max(pass.rates_error, state.error);
     const auto columns = section_.size();
     pass.end_rates.resize(section_.basis().rows(), columns);
     for (Eigen::Index k = 0; k < columns; ++k)
@@ -157,28 +159,28 @@ class Bundle {
   }
 
  private:
-  [[nodiscard]] Vector end_of(const TangentState& state) const {
+  [[nodiscard]] Vector end_of(const sensitivity::TangentState& state) const {
     return section_.coordinates(state.now.start.u, state.now.start.v, state.now.point.forces);
   }
 
   OrbitSection section_;
-  std::vector<ModelDerivative> columns_;
+  std::vector<sensitivity::ModelDerivative> columns_;
   std::vector<double> sizes_;
   NoRows listener_;
-  std::optional<TangentRun> tangents_;
+  std::optional<sensitivity::TangentRun> tangents_;
 };
 
 /// Keeps what a pass is made of, and leads the tangents along.
-class Follower final : public RunListener {
+class Follower final : public run::RunListener {
  public:
-  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass, StateFlow* flow,
-           ModalMemory& kept)
+  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass,
+           sensitivity::StateFlow* flow, modal::ModalMemory& kept)
       : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), share_{&kept, nullptr} {}
 
   /// No peaks: extremes of outputs are sought for themselves.
-  [[nodiscard]] ListenerNeeds needs() { return {&share_, false}; }
+  [[nodiscard]] run::ListenerNeeds needs() { return {&share_, false}; }
 
-  void begin(const RunInstant& start) override {
+  void begin(const run::RunInstant& start) override {
     pass_.begin = pass_.end = orbit_point(start.t, start.after);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       pass_.held.push_back(!pass_.begin.mode[c].is_open() && slip_sign(pass_.begin.mode[c].state) == 0);
@@ -187,10 +189,10 @@ class Follower final : public RunListener {
     bundle_->run().listens_with(share_);
     bundle_->run().begin(start);
   }
-  void step(const RunStep& step) override {
+  void step(const run::RunStep& step) override {
     if (bundle_) bundle_->run().step(step);
   }
-  void instant(const RunInstant& instant) override {
+  void instant(const run::RunInstant& instant) override {
     if (bundle_) bundle_->run().instant(instant);
     pass_.end = orbit_point(instant.t, instant.after);
     bool changes = !instant.after.impulses.empty();
@@ -201,7 +203,7 @@ class Follower final : public RunListener {
       }
     if (changes) pass_.instants.push_back(pass_.end);
   }
-  void end(const RunPoint& last, const StepperReport& engine) override {
+  void end(const run::RunPoint& last, const engine::StepperReport& engine) override {
     if (bundle_) bundle_->run().end(last, engine);
   }
   void finish() const {
@@ -213,8 +215,8 @@ class Follower final : public RunListener {
   const RunSpec& run_;
   const OrbitLeg& leg_;
   OrbitPass& pass_;
-  StateFlow* flow_;
-  ModalShare share_;
+  sensitivity::StateFlow* flow_;
+  modal::ModalShare share_;
   std::optional<Bundle> bundle_;
 };
 
@@ -247,9 +249,9 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);
   if (leg.tangents && model_.size() >= fewest_in_modes && (!flow_ || !flow_->fits(model_)))
-    flow_ = modes_uncouple(model_) ? std::make_shared<StateFlow>(model_) : nullptr;
+    flow_ = sensitivity::modes_uncouple(model_) ? std::make_shared<sensitivity::StateFlow>(model_) : nullptr;
   Follower follower(model, bare, leg, pass, flow_.get(), *memory_);
-  const Report report = simulate(model, run, recorder, follower, follower.needs());
+  const Report report = run::simulate(model, run, recorder, follower, follower.needs());
   pass.outcome = report.outcome;
   pass.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
   pass.response = report.response;
@@ -269,4 +271,4 @@ Result PeriodMap::rows(const OrbitState& start, double duration) const {
   return simulate(model, run);
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

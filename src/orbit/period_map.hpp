@@ -12,7 +12,7 @@
 #include "orbit/orbit_state.hpp"
 #include "sensitivity/state_flow.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 /// One pass through the period.
 struct OrbitPass {
@@ -64,17 +64,17 @@ class PeriodMap {
   [[nodiscard]] const RunSpec& run() const { return run_; }
   /// Closed form with which tangents cross stretches, if modes can: for this structure, kept and passed from map to
   /// map. Null: not created yet, or not available.
-  [[nodiscard]] const std::shared_ptr<StateFlow>& flow() const { return flow_; }
-  void take_flow(std::shared_ptr<StateFlow> flow) { flow_ = std::move(flow); }
+  [[nodiscard]] const std::shared_ptr<sensitivity::StateFlow>& flow() const { return flow_; }
+  void take_flow(std::shared_ptr<sensitivity::StateFlow> flow) { flow_ = std::move(flow); }
   /// Shares the mode shapes of contact states among all maps of one search.
-  void share(std::shared_ptr<ModalMemory> memory) { memory_ = std::move(memory); }
+  void share(std::shared_ptr<modal::ModalMemory> memory) { memory_ = std::move(memory); }
 
  private:
   Model model_;
   RunSpec run_;
   Recorder* recorder_;
-  mutable std::shared_ptr<StateFlow> flow_;
-  std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
+  mutable std::shared_ptr<sensitivity::StateFlow> flow_;
+  std::shared_ptr<modal::ModalMemory> memory_ = std::make_shared<modal::ModalMemory>();
 };
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 // Error of a first guess, and its limits. Chosen on 400 curves: 11 places to reach 1e-9.
@@ -107,4 +107,4 @@ double SequenceSearch::next() {
   return x > low() && x < high() ? x : middle;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

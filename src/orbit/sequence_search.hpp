@@ -18,7 +18,7 @@
 
 #include "signorini/event.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 /// Stretches between the events of a period, and from the last one to the first of the next period; relative to the
 /// period.
@@ -55,4 +55,4 @@ class SequenceSearch {
   double enough_, doubt_;  // doubt: error of a guess, relative to its distance from the nearest place
 };
 
-}  // namespace signorini
+}  // namespace signorini::orbit

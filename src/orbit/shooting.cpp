@@ -8,7 +8,7 @@
 
 #include "base/eigen_dense.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 constexpr int most_steps = 30, most_halvings = 6;
@@ -59,7 +59,7 @@ Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStar
     A.row(all).head(n) = energy_slope(model, pass, section).transpose() / *start.energy;
     b[all] = (*start.energy - pass.energy) / *start.energy;
   }
-  return shortest_solution(A, b, least, phi.norm());
+  return base::shortest_solution(A, b, least, phi.norm());
 }
 
 /// One step, halved until the residual decreases; trials are computed without tangents, which cost far more than a run.
@@ -197,8 +197,8 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
   Shot shot{false, "", false, start.state, start.duration, 0.0, {}, {}};
   if (!run_period(map, shot)) return shot;
   shot.residual = residual_to(model, start, shot.pass);
-  bool fell = true;
-  while (fell && static_cast<int>(shot.steps.size()) < most_steps) {
+  bool decreased = true;
+  while (decreased && static_cast<int>(shot.steps.size()) < most_steps) {
     if (!shot.pass.reason.empty()) {
       shot.reason = "the state after one period has no derivative: " + shot.pass.reason;
       return shot;
@@ -208,16 +208,16 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     if (shot.steps.size() >= patience &&
         shot.residual > 0.5 * shot.steps[shot.steps.size() - patience].residual)
       break;
-    fell = damped_step(map, start, shot, least_singular);
+    decreased = damped_step(map, start, shot, least_singular);
     for (const double finer : finer_steps)
-      if (!fell && !shot.interrupted && shot.residual > closed_at_last)
-        fell = damped_step(map, start, shot, finer);
+      if (!decreased && !shot.interrupted && shot.residual > closed_at_last)
+        decreased = damped_step(map, start, shot, finer);
     if (shot.interrupted) return shot;
     if (shot.residual > 0.5 * before && shot.residual <= closed_at_last) {
-      if (fell && !run_period(map, shot)) return shot;
+      if (decreased && !run_period(map, shot)) return shot;
       break;
     }
-    if (fell && !run_period(map, shot)) return shot;
+    if (decreased && !run_period(map, shot)) return shot;
   }
   shot.steps.push_back({shot.residual, 0.0});
   shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed}) || is_noise(map, shot);
@@ -225,9 +225,9 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     shot.reason =
         fmt::format("Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: {}",
                     shot.residual, shot.steps.size() - 1,
-                    fell ? "it falls too slowly, as where events appear and vanish between its steps"
-                         : "no part of the next step reduces it");
+                    decreased ? "it falls too slowly, as where events appear and vanish between its steps"
+                              : "no part of the next step reduces it");
   return shot;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

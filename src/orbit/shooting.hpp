@@ -15,7 +15,7 @@
 #include "orbit/period_map.hpp"
 #include "signorini/orbit.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 struct ShootingStart {
   OrbitState state;
@@ -59,4 +59,4 @@ inline constexpr double of_noise_at_last = 10.0, greatest_noise = 1e-6;
 
 [[nodiscard]] Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance);
 
-}  // namespace signorini
+}  // namespace signorini::orbit

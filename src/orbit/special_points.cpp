@@ -6,7 +6,7 @@
 #include "orbit/branch_walk.hpp"
 #include "orbit/sequence_search.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 namespace {
 
 constexpr int most_places = 20;         // limit for a search
@@ -304,4 +304,4 @@ void BranchWalk::keep_junction(const Located& point) {
   keep(map_, -other);
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit

@@ -14,7 +14,7 @@
 
 #include "orbit/multipliers.hpp"
 
-namespace signorini {
+namespace signorini::orbit {
 
 struct TestValues {
   double fold = 1.0, flip = 1.0, neimark_sacker = -1.0, branch = -1.0;
@@ -42,4 +42,4 @@ inline constexpr double located_to = 1e-6;
 [[nodiscard]] std::optional<double> root_between(double a, double b,
                                                  const std::function<std::optional<double>(double)>& f);
 
-}  // namespace signorini
+}  // namespace signorini::orbit

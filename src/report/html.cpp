@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "result/csv.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 namespace fs = std::filesystem;
 
@@ -90,7 +90,7 @@ std::string csv_table(const fs::path& file, std::size_t most, const std::vector<
                       const std::map<std::string, std::string>& units) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
-  CsvReader reader(file);
+  result::CsvReader reader(file);
   std::vector<std::string> header = columns.empty() ? reader.header() : columns;
   std::vector<std::size_t> index;
   for (const std::string& name : header) index.push_back(reader.column(name));
@@ -99,7 +99,7 @@ std::string csv_table(const fs::path& file, std::size_t most, const std::vector<
   std::size_t count = 0;
   while (reader.next()) {
     for (std::size_t i = 0; i < index.size(); ++i)
-      if (const auto value = parse_number(reader.cell(index[i])); value && std::isfinite(*value))
+      if (const auto value = base::parse_number(reader.cell(index[i])); value && std::isfinite(*value))
         greatest[i] = std::max(greatest[i], std::abs(*value));
     if (++count > most) continue;
     std::vector<std::string>& cells = kept.emplace_back();
@@ -109,7 +109,7 @@ std::string csv_table(const fs::path& file, std::size_t most, const std::vector<
   std::string rows;
   for (std::vector<std::string>& cells : kept) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const auto value = parse_number(cells[i]);
+      const auto value = base::parse_number(cells[i]);
       // Rounding relative to the other values of its column is shown as 0.
       if (value && std::abs(*value) <= rounding::of_elimination * greatest[i]) cells[i] = "0";
       cells[i] = short_number(cells[i], header[i] == "t" ? 11 : 6);
@@ -151,4 +151,4 @@ std::string fill_in(std::string_view page, const std::vector<Insertion>& values)
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::report

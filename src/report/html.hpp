@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace signorini {
+namespace signorini::report {
 
 /// Text for an element or a quoted attribute. Bytes that HTML forbids become the replacement character.
 [[nodiscard]] std::string html_text(std::string_view text);
@@ -38,4 +38,4 @@ struct Insertion {
 };
 [[nodiscard]] std::string fill_in(std::string_view page, const std::vector<Insertion>& values);
 
-}  // namespace signorini
+}  // namespace signorini::report

@@ -15,7 +15,7 @@
 #include "result/summary_parts.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 namespace fs = std::filesystem;
 
@@ -35,16 +35,16 @@ struct Figure {
 };
 
 /// A member, or null.
-const Json& entry_of(const Json& json, const char* name) {
-  static const Json none;
+const base::Json& entry_of(const base::Json& json, const char* name) {
+  static const base::Json none;
   return json.is_object() && json.contains(name) ? json[name] : none;
 }
 
-std::optional<double> number_in(const Json& json) {
+std::optional<double> number_in(const base::Json& json) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-std::string text_in(const Json& json) { return json.is_string() ? json.get<std::string>() : ""; }
+std::string text_in(const base::Json& json) { return json.is_string() ? json.get<std::string>() : ""; }
 
 /// Sets numbers of rounding size, relative to the largest of the same kind, to 0.
 void clear_rounding(std::vector<Figure>& figures, const std::string& unit) {
@@ -55,20 +55,20 @@ void clear_rounding(std::vector<Figure>& figures, const std::string& unit) {
     if (f.unit == unit && f.value && std::abs(*f.value) <= rounding::of_many * greatest) f.value = 0.0;
 }
 
-std::vector<Figure> support_figures(const Json& summary) {
+std::vector<Figure> support_figures(const base::Json& summary) {
   std::vector<Figure> figures;
-  const Json& units = entry_of(summary, "units");
+  const base::Json& units = entry_of(summary, "units");
   const std::string force = text_in(entry_of(units, "force")), length = text_in(entry_of(units, "length"));
-  for (const Json& contact : entry_of(summary, "contacts")) {
+  for (const base::Json& contact : entry_of(summary, "contacts")) {
     const std::string name = text_in(entry_of(contact, "name"));
-    const Json& load = entry_of(contact, "load");
+    const base::Json& load = entry_of(contact, "load");
     if (!load.is_object()) continue;
     const auto add = [&](const char* quantity, const std::string& unit, Governs governs,
                          std::optional<double> value, std::optional<double> t = {}) {
       figures.push_back({Sheet::support, name, quantity, unit, governs, value, t, ""});
     };
     const auto turn = [&](const char* quantity, const char* of, const char* which, Governs governs) {
-      const Json& found = entry_of(entry_of(load, of), which);
+      const base::Json& found = entry_of(entry_of(load, of), which);
       add(quantity, force, governs, number_in(entry_of(found, "value")), number_in(entry_of(found, "t")));
     };
     auto rest = number_in(entry_of(contact, "static_reaction"));
@@ -87,8 +87,8 @@ std::vector<Figure> support_figures(const Json& summary) {
   return figures;
 }
 
-std::string place_of(const Json& extreme) {
-  const Json& at = entry_of(extreme, "at");
+std::string place_of(const base::Json& extreme) {
+  const base::Json& at = entry_of(extreme, "at");
   if (!at.is_array() || at.size() != 2) return "";
   const std::string fibre = text_in(entry_of(extreme, "fibre"));
   const auto station = number_in(entry_of(extreme, "station"));
@@ -96,14 +96,14 @@ std::string place_of(const Json& extreme) {
                      station ? fmt::format("{:.3g}", *station) : "", fibre.empty() ? "" : " " + fibre);
 }
 
-std::vector<Figure> response_figures(const Json& summary) {
+std::vector<Figure> response_figures(const base::Json& summary) {
   std::vector<Figure> figures;
-  for (const Json& output : entry_of(summary, "response")) {
+  for (const base::Json& output : entry_of(summary, "response")) {
     const Sheet sheet = text_in(entry_of(output, "kind")) == "envelope" ? Sheet::envelope : Sheet::response;
     const std::string name = text_in(entry_of(output, "name")), unit = text_in(entry_of(output, "unit"));
     for (const auto& [quantity, key, governs] : {std::tuple("maximum", "maximum", Governs::greatest),
                                                  std::tuple("minimum", "minimum", Governs::least)}) {
-      const Json& found = entry_of(output, key);
+      const base::Json& found = entry_of(output, key);
       figures.push_back({sheet, name, quantity, unit, governs, number_in(entry_of(found, "value")),
                          number_in(entry_of(found, "t")), place_of(found)});
     }
@@ -113,7 +113,7 @@ std::vector<Figure> response_figures(const Json& summary) {
   return figures;
 }
 
-std::vector<Figure> figures_of(const Json& summary) {
+std::vector<Figure> figures_of(const base::Json& summary) {
   std::vector<Figure> figures = support_figures(summary);
   for (Figure& figure : response_figures(summary)) figures.push_back(std::move(figure));
   return figures;
@@ -127,7 +127,7 @@ std::string cell(const std::optional<double>& value) {
 
 /// Cell with a time that the player can jump to.
 std::string time_cell(const std::optional<double>& t) {
-  return t ? fmt::format("<td class=n data-t=\"{}\">{:.5g}</td>", shortest(*t), *t) : "<td></td>";
+  return t ? fmt::format("<td class=n data-t=\"{}\">{:.5g}</td>", base::shortest(*t), *t) : "<td></td>";
 }
 
 std::string table(const std::string& head, const std::string& rows) {
@@ -157,7 +157,7 @@ std::string signs(const std::string& more = "") {
 
 }  // namespace
 
-std::string support_loads_html(const Json& summary) {
+std::string support_loads_html(const base::Json& summary) {
   const std::vector<Figure> figures = support_figures(summary);
   if (figures.empty()) return "";
   const std::string time = text_in(entry_of(entry_of(summary, "units"), "time"));
@@ -178,7 +178,7 @@ std::string support_loads_html(const Json& summary) {
   return table(head, rows) + signs();
 }
 
-std::string responses_html(const Json& summary, bool envelopes) {
+std::string responses_html(const base::Json& summary, bool envelopes) {
   const std::string time = text_in(entry_of(entry_of(summary, "units"), "time"));
   std::string head = heading("name") + heading("unit"), rows;
   for (const char* which : {"maximum", "minimum"})
@@ -266,9 +266,9 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
-Json read_summary(const fs::path& directory) {
+base::Json read_summary(const fs::path& directory) {
   const fs::path path = directory / "summary.json";
-  check_run_files(directory, {"summary.json"});
+  base::check_run_files(directory, {"summary.json"});
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw FileError(directory.string(),
@@ -276,14 +276,14 @@ Json read_summary(const fs::path& directory) {
                         ? "contains no run; load cases are directories that `signorini run` wrote"
                         : "not a directory");
   try {
-    return parse_json(file);
-  } catch (const Json::exception& error) {
+    return base::parse_json(file);
+  } catch (const base::Json::exception& error) {
     throw FileError(path.string(), std::string("is not JSON: ") + error.what());
   }
 }
 
 /// "kN, t, m, s"
-std::string unit_list(const Json& units) {
+std::string unit_list(const base::Json& units) {
   std::string text;
   for (const char* of : {"force", "mass", "length", "time"})
     if (const std::string unit = text_in(entry_of(units, of)); !unit.empty())
@@ -324,8 +324,8 @@ std::vector<LoadCase> read_load_cases(const std::vector<fs::path>& directories) 
       if (other.name == name)
         throw FileError(directory.string(), "has the name \"" + name + "\", as another case has");
     cases.push_back({name, read_summary(directory)});
-    const Json &units = entry_of(cases.back().summary, "units"),
-               &first = entry_of(cases.front().summary, "units");
+    const base::Json &units = entry_of(cases.back().summary, "units"),
+                     &first = entry_of(cases.front().summary, "units");
     if (units != first)
       throw FileError(directory.string(),
                       fmt::format("has the units {}, but {} has {}; load cases need the same units",
@@ -345,8 +345,8 @@ std::string load_cases_csv(const std::vector<LoadCase>& cases) {
   for (const CaseRow& row : case_rows(cases)) {
     std::vector<std::string> cells{row.of.item, row.of.quantity, row.of.unit};
     for (const auto& figure : row.values) {
-      cells.push_back(figure && figure->value ? shortest(*figure->value) : "");
-      cells.push_back(figure && figure->t ? shortest(*figure->t) : "");
+      cells.push_back(figure && figure->value ? base::shortest(*figure->value) : "");
+      cells.push_back(figure && figure->t ? base::shortest(*figure->t) : "");
     }
     const int best = governing(cases, row);
     cells.push_back(best < 0 ? "" : cases[static_cast<std::size_t>(best)].name);
@@ -358,8 +358,8 @@ std::string load_cases_csv(const std::vector<LoadCase>& cases) {
 namespace {
 
 /// "a=b, c=d" from --set a=b --set=c=d on a run's command line: the description of a case.
-std::string overrides_of(const Json& summary) {
-  const Json& line = entry_of(summary, "command_line");
+std::string overrides_of(const base::Json& summary) {
+  const base::Json& line = entry_of(summary, "command_line");
   std::string text;
   if (!line.is_array()) return text;
   constexpr std::string_view option = "--set", joined = "--set=";
@@ -376,7 +376,7 @@ std::string overrides_of(const Json& summary) {
   return text;
 }
 
-std::string method_of(const Json& summary) {
+std::string method_of(const base::Json& summary) {
   std::string text = text_in(entry_of(summary, "engine"));
   const auto cutoff = number_in(entry_of(entry_of(summary, "reduction"), "cutoff_omega"));
   if (cutoff)
@@ -385,19 +385,19 @@ std::string method_of(const Json& summary) {
   return text;
 }
 
-std::vector<std::string> names_in(const Json& list) {
+std::vector<std::string> names_in(const base::Json& list) {
   std::vector<std::string> names;
   if (list.is_array())
-    for (const Json& item : list) names.push_back(text_in(entry_of(item, "name")));
+    for (const base::Json& item : list) names.push_back(text_in(entry_of(item, "name")));
   return names;
 }
 
 std::string warnings_html(const std::vector<LoadCase>& cases) {
   std::string text;
   for (const LoadCase& c : cases) {
-    const Json& warnings = entry_of(c.summary, "warnings");
+    const base::Json& warnings = entry_of(c.summary, "warnings");
     if (!warnings.is_array()) continue;
-    for (const Json& warning : warnings)
+    for (const base::Json& warning : warnings)
       text += fmt::format("<li>{}: {}</li>\n", html_text(c.name), html_text(text_in(warning)));
   }
   return text.empty() ? "" : "<p>Warnings of the runs:</p><ul class=warnings>" + text + "</ul>\n";
@@ -405,10 +405,10 @@ std::string warnings_html(const std::vector<LoadCase>& cases) {
 
 }  // namespace
 
-std::vector<std::string> load_case_doubts(const std::vector<LoadCase>& cases) {
+std::vector<std::string> load_case_warnings(const std::vector<LoadCase>& cases) {
   std::vector<std::string> doubts;
   for (const LoadCase& c : cases) {
-    const Json& outcome = entry_of(c.summary, "outcome");
+    const base::Json& outcome = entry_of(c.summary, "outcome");
     if (!is_done(c))
       doubts.push_back(fmt::format("case {} ended at t = {} of {} ({}); it governs no row", c.name,
                                    shown(number_in(entry_of(outcome, "t")).value_or(0.0)),
@@ -424,8 +424,8 @@ std::vector<std::string> load_case_doubts(const std::vector<LoadCase>& cases) {
 std::string load_cases_html(const std::vector<LoadCase>& cases) {
   std::string facts, text;
   for (const LoadCase& c : cases) {
-    const Json& outcome = entry_of(c.summary, "outcome");
-    const Json& events = entry_of(c.summary, "events");
+    const base::Json& outcome = entry_of(c.summary, "outcome");
+    const base::Json& events = entry_of(c.summary, "events");
     const auto t = number_in(entry_of(outcome, "t"));
     const std::string kind = text_in(entry_of(outcome, "kind"));
     facts += fmt::format(
@@ -434,10 +434,10 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
         html_text(c.name), html_text(text_in(entry_of(c.summary, "title"))),
         html_text(overrides_of(c.summary)), html_text(method_of(c.summary)),
         is_done(c) ? "done" : "<b>" + html_text(kind) + "</b>", t ? shown(*t) : "",
-        html_text(json_line(entry_of(events, "total"))));
+        html_text(base::json_line(entry_of(events, "total"))));
   }
   std::string doubts;
-  for (const std::string& doubt : load_case_doubts(cases))
+  for (const std::string& doubt : load_case_warnings(cases))
     doubts += "<p><b>" + html_text(doubt) + "</b></p>\n";
   text +=
       section("cases", "Load cases",
@@ -453,4 +453,4 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
   return text;
 }
 
-}  // namespace signorini
+}  // namespace signorini::report

@@ -14,30 +14,30 @@
 
 #include "base/json.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 /// One of several runs, with its name in the comparison.
 struct LoadCase {
   std::string name;
-  Json summary;
+  base::Json summary;
 };
 
 /// "<table>..." of one run, with the sign conventions; empty if it has no contacts. Times are buttons of the page's
 /// player: <td data-t=...>.
-[[nodiscard]] std::string support_loads_html(const Json& summary);
+[[nodiscard]] std::string support_loads_html(const base::Json& summary);
 /// Table of the outputs without envelopes, or of the envelopes.
-[[nodiscard]] std::string responses_html(const Json& summary, bool envelopes);
+[[nodiscard]] std::string responses_html(const base::Json& summary, bool envelopes);
 
 /// Summaries of run directories, named by the directory's last part. Errors: FileError, also if a directory is no run,
 /// if two have the same name, or if units differ.
 [[nodiscard]] std::vector<LoadCase> read_load_cases(const std::vector<std::filesystem::path>& directories);
 
 /// Warnings: cases that did not reach their end, and cases with different structures.
-[[nodiscard]] std::vector<std::string> load_case_doubts(const std::vector<LoadCase>& cases);
+[[nodiscard]] std::vector<std::string> load_case_warnings(const std::vector<LoadCase>& cases);
 
 /// item,quantity,unit,CASE,CASE t,...,governing: one row per figure; a cell is empty if the case has no such item.
 [[nodiscard]] std::string load_cases_csv(const std::vector<LoadCase>& cases);
 /// Sections: cases, support loads, responses, member envelopes.
 [[nodiscard]] std::string load_cases_html(const std::vector<LoadCase>& cases);
 
-}  // namespace signorini
+}  // namespace signorini::report

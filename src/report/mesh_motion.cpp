@@ -12,26 +12,26 @@
 #include "result/csv.hpp"
 #include "result/frames.hpp"
 
-namespace signorini {
+namespace signorini::report {
 namespace {
 
 constexpr int parts = 10;  // segments of a bent line
 
-Json row_of(double s, const LineShapes& h) { return {s, h.a, h.turn_a, h.b, h.turn_b}; }
+base::Json row_of(double s, const element::LineShapes& h) { return {s, h.a, h.turn_a, h.b, h.turn_b}; }
 
-Json rows_of(int count, bool hinged_a, bool hinged_b) {
-  Json rows = Json::array();
+base::Json rows_of(int count, bool hinged_a, bool hinged_b) {
+  base::Json rows = base::Json::array();
   for (int i = 0; i <= count; ++i) {
     const double s = static_cast<double>(i) / count;
-    rows.push_back(row_of(s, cubic_at(s, hinged_a, hinged_b)));
+    rows.push_back(row_of(s, element::cubic_at(s, hinged_a, hinged_b)));
   }
   return rows;
 }
 
 /// Range from the smallest to the largest coordinate; 1 for a single node.
-double extent_of(const Json& nodes, const char* coordinate) {
+double extent_of(const base::Json& nodes, const char* coordinate) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const Json& node : nodes) {
+  for (const base::Json& node : nodes) {
     least = std::min(least, node[coordinate].get<double>());
     greatest = std::max(greatest, node[coordinate].get<double>());
   }
@@ -40,27 +40,27 @@ double extent_of(const Json& nodes, const char* coordinate) {
 
 }  // namespace
 
-Json shapes_json() {
+base::Json shapes_json() {
   return {rows_of(1, true, true), rows_of(parts, false, false), rows_of(parts, true, false),
           rows_of(parts, false, true)};
 }
 
-int shape_of(const MemberLine& line) {
+int shape_of(const element::MemberLine& line) {
   if (!line.bends || (line.hinged_from && line.hinged_to)) return 0;
   return line.hinged_from ? 2 : line.hinged_to ? 3 : 1;
 }
 
-LineShapes across_of(const Json& row) {
+element::LineShapes across_of(const base::Json& row) {
   return {row[1].get<double>(), row[2].get<double>(), row[3].get<double>(), row[4].get<double>()};
 }
 
-double fitting_magnification(const Json& nodes, const Json& curve, double greatest) {
-  for (const Json& node : nodes)
+double fitting_magnification(const base::Json& nodes, const base::Json& curve, double greatest) {
+  for (const base::Json& node : nodes)
     for (const std::size_t c : {0U, 1U})
       if (const int column = node["u"][c].get<int>(); column >= 0)
-        for (const Json& u : curve["columns"][static_cast<std::size_t>(column)]["u"])
+        for (const base::Json& u : curve["columns"][static_cast<std::size_t>(column)]["u"])
           if (u.is_number()) greatest = std::max(greatest, std::abs(u.get<double>()));
-  return magnification_of(std::max(extent_of(nodes, "x"), extent_of(nodes, "y")), greatest);
+  return result::magnification_of(std::max(extent_of(nodes, "x"), extent_of(nodes, "y")), greatest);
 }
 
 namespace {
@@ -69,9 +69,9 @@ constexpr double accuracy =
     1e-3;  // relative to the largest displacement: a quarter of a pixel if that is an eighth of 2000 pixels
 constexpr std::size_t most_on_page = 120'000;  // numbers: about 0.8 MB
 
-Json digits(double value, int count) {
-  return std::isfinite(value) ? Json(std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr))
-                              : Json(0.0);
+base::Json digits(double value, int count) {
+  return std::isfinite(value) ? base::Json(std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr))
+                              : base::Json(0.0);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ void split_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMo
   motion.parts.resize(times, 0);
   if (!(motion.greatest > 0.0)) return;
   const Eigen::MatrixXd scaled = displacements / motion.greatest;
-  const EigenPairs pairs = symmetric_eigen(scaled.transpose() * scaled);
+  const base::EigenPairs pairs = base::symmetric_eigen(scaled.transpose() * scaled);
   const auto room = static_cast<Eigen::Index>(most / static_cast<std::size_t>(n + times));
   Eigen::MatrixXd left = scaled;
   for (Eigen::Index k = 1; k <= std::min(std::max<Eigen::Index>(room, 1), times); ++k) {
@@ -102,9 +102,9 @@ void split_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMo
 
 MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& directory) {
   MeshMotion motion;
-  const TableFolder tables(directory);
+  const result::TableFolder tables(directory);
   if (!tables.has("body_motion.csv")) return motion;
-  CsvReader reader = tables.open("body_motion.csv");
+  result::CsvReader reader = tables.open("body_motion.csv");
   std::map<std::string, std::size_t> header;
   for (std::size_t k = 0; k < reader.header().size(); ++k) header.emplace(reader.header()[k], k);
   std::vector<std::size_t> columns;
@@ -125,12 +125,12 @@ MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& director
   return motion;
 }
 
-Json mesh_motion_json(const MeshMotion& motion) {
+base::Json mesh_motion_json(const MeshMotion& motion) {
   if (motion.nodes.empty()) return nullptr;
-  Json times = Json::array(), shapes = Json::array(), parts = Json::array();
+  base::Json times = base::Json::array(), shapes = base::Json::array(), parts = base::Json::array();
   for (const double t : motion.times) times.push_back(digits(t, 9));
   for (Eigen::Index k = 0; k < motion.shapes.cols(); ++k) {
-    Json shape = Json::array(), part = Json::array();
+    base::Json shape = base::Json::array(), part = base::Json::array();
     for (const double value : motion.shapes.col(k))
       shape.push_back(digits(std::round(value * 1e4) * 1e-4, 5));
     for (const double value : motion.parts.col(k)) part.push_back(digits(value, 6));
@@ -143,4 +143,4 @@ Json mesh_motion_json(const MeshMotion& motion) {
           {"parts", std::move(parts)}};
 }
 
-}  // namespace signorini
+}  // namespace signorini::report

@@ -14,7 +14,7 @@
 #include "model/element/element_kinds.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 // Data for drawing members between named nodes, for the page and ParaView.
 //
@@ -23,17 +23,18 @@ namespace signorini {
 // k: 0 straight, 1 bent, 2 bent and hinged at a, 3 hinged at b. Page and ParaView know the shape functions only from
 // these rows.
 
-[[nodiscard]] Json shapes_json();
+[[nodiscard]] base::Json shapes_json();
 
 /// Index into shapes_json().
-[[nodiscard]] int shape_of(const MemberLine& line);
+[[nodiscard]] int shape_of(const element::MemberLine& line);
 
 /// Shape functions across the line, from a row.
-[[nodiscard]] LineShapes across_of(const Json& row);
+[[nodiscard]] element::LineShapes across_of(const base::Json& row);
 
 /// For nodes and curve of run_data(): the largest displacement is drawn with at most an eighth of the structure's
 /// larger extent. greatest: largest displacement of nodes without a curve.
-[[nodiscard]] double fitting_magnification(const Json& nodes, const Json& curve, double greatest = 0.0);
+[[nodiscard]] double fitting_magnification(const base::Json& nodes, const base::Json& curve,
+                                           double greatest = 0.0);
 
 struct MeshMotion {
   std::vector<double> times;
@@ -50,6 +51,6 @@ void split_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMo
 [[nodiscard]] MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& directory);
 
 /// JSON of the motion; null without nodes.
-[[nodiscard]] Json mesh_motion_json(const MeshMotion& motion);
+[[nodiscard]] base::Json mesh_motion_json(const MeshMotion& motion);
 
-}  // namespace signorini
+}  // namespace signorini::report

@@ -20,7 +20,7 @@
 #include "signorini/error.hpp"
 #include "signorini/event.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 namespace fs = std::filesystem;
 
@@ -46,32 +46,32 @@ std::string whole_file(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Json read_json(const fs::path& path) {
+base::Json read_json(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path.string(), "cannot be read");
   try {
-    return parse_json(file);
-  } catch (const Json::exception& error) {
+    return base::parse_json(file);
+  } catch (const base::Json::exception& error) {
     throw FileError(path.string(), std::string("is not JSON: ") + error.what());
   }
 }
 
 std::string part(std::string_view name) {
-  for (const EmbeddedFile& file : page_parts())
+  for (const base::EmbeddedFile& file : base::page_parts())
     if (file.name == name) return std::string(file.text);
   return {};
 }
 
 /// A value for readers: a text without quotes, a number with six digits.
-std::string value_text(const Json& value) {
+std::string value_text(const base::Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
-  return value.is_number() ? short_number(json_line(value)) : json_line(value);
+  return value.is_number() ? short_number(base::json_line(value)) : base::json_line(value);
 }
 
 /// A member, or null: summaries of other versions may lack it.
-const Json& member(const Json& json, const char* name) {
-  static const Json none;
+const base::Json& member(const base::Json& json, const char* name) {
+  static const base::Json none;
   return json.is_object() && json.contains(name) ? json[name] : none;
 }
 
@@ -95,17 +95,17 @@ std::string page(const std::string& title, const std::string& kind, const std::s
                   {"version", html_text(version)}});
 }
 
-std::string outcome_text(const Json& summary) {
-  const Json& outcome = member(summary, "outcome");
-  const Json& reason = member(outcome, "reason");
+std::string outcome_text(const base::Json& summary) {
+  const base::Json& outcome = member(summary, "outcome");
+  const base::Json& reason = member(outcome, "reason");
   return fmt::format("{} at t = {} of {}{}", value_text(member(outcome, "kind")),
                      value_text(member(outcome, "t")), value_text(member(outcome, "t_end")),
                      reason.is_string() && reason != "" ? ": " + value_text(reason) : "");
 }
 
-std::string certified_text(const Json& summary) {
-  const Json& certified = member(summary, "certified");
-  const Json& reason = member(certified, "reason");
+std::string certified_text(const base::Json& summary) {
+  const base::Json& certified = member(summary, "certified");
+  const base::Json& reason = member(certified, "reason");
   if (!member(certified, "until").is_number()) return "no";
   return (member(certified, "complete") == true
               ? "the sequence of events, to the end"
@@ -113,23 +113,23 @@ std::string certified_text(const Json& summary) {
          (reason.is_string() && reason != "" ? ": " + value_text(reason) : "");
 }
 
-std::string run_facts(const Json& summary) {
+std::string run_facts(const base::Json& summary) {
   std::string text = "<dl>\n" + fact("outcome", outcome_text(summary));
   text += fact("certified", certified_text(summary));
   text += fact("engine", value_text(member(summary, "engine")));
-  const Json& events = member(summary, "events");
+  const base::Json& events = member(summary, "events");
   std::string counts = value_text(member(events, "total"));
-  const Json& by_type = member(events, "by_type");
+  const base::Json& by_type = member(events, "by_type");
   for (const auto& [type, count] : by_type.items()) counts += fmt::format(", {} {}", value_text(count), type);
   text += fact("events", counts);
   text += fact("degrees of freedom", value_text(member(member(summary, "model"), "degrees_of_freedom")));
-  const Json& units = member(summary, "units");
+  const base::Json& units = member(summary, "units");
   text += fact("units", fmt::format("{}, {}, {}, {}", value_text(member(units, "force")),
                                     value_text(member(units, "mass")), value_text(member(units, "length")),
                                     value_text(member(units, "time"))));
   text += fact("computed in", value_text(member(summary, "wall_time")) + " s");
   text += "</dl>\n";
-  for (const Json& warning : member(summary, "warnings"))
+  for (const base::Json& warning : member(summary, "warnings"))
     text += "<p class=warning>" + html_text(value_text(warning)) + "</p>\n";
   return text;
 }
@@ -138,13 +138,14 @@ std::string run_facts(const Json& summary) {
 std::string event_table(const fs::path& file, const Units& units) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
-  const std::vector<std::string> header = CsvReader(file).header();
+  const std::vector<std::string> header = result::CsvReader(file).header();
   std::vector<std::string> columns;
   for (const char* name : {"t", "t_error", "contact", "event", "from", "to", "N", "T"})
     if (std::find(header.begin(), header.end(), name) != header.end()) columns.emplace_back(name);
   std::map<std::string, std::string> of_columns;
-  for (const EventColumn& column : event_columns) of_columns[column.name] = unit_in_words(column.unit, units);
-  of_columns["t_error"] = unit_in_words("time", units);
+  for (const EventColumn& column : event_columns)
+    of_columns[column.name] = result::unit_in_words(column.unit, units);
+  of_columns["t_error"] = result::unit_in_words("time", units);
   const std::string table = csv_table(file, most_rows, columns, of_columns);
   return table.empty() ? ""
                        : table +
@@ -166,19 +167,19 @@ constexpr Condition conditions[] = {{"gap", "gap g < 0", "length"},
                                     {"reactions", "sum of reactions", "force"},
                                     {"energy", "energy balance", "force length"}};
 
-std::string audit_table(const Json& summary, const Units& units) {
+std::string audit_table(const base::Json& summary, const Units& units) {
   std::string rows;
-  const Json& audit = member(summary, "audit");
+  const base::Json& audit = member(summary, "audit");
   for (const auto& [name, entry] : audit.items()) {
     if (!entry.is_object()) continue;
-    const Json& contact = member(entry, "contact");
+    const base::Json& contact = member(entry, "contact");
     const auto known = std::find_if(std::begin(conditions), std::end(conditions),
                                     [&key = name](const Condition& c) { return key == c.key; });
-    const bool told = known != std::end(conditions);
-    const std::string unit = told ? " " + unit_in_words(known->unit, units) : "";
+    const bool is_known = known != std::end(conditions);
+    const std::string unit = is_known ? " " + result::unit_in_words(known->unit, units) : "";
     rows += fmt::format(
         "<tr><td>{}</td><td class=n>{}</td><td class=n>{}</td><td class=n>{}</td><td>{}</td></tr>\n",
-        html_text(told ? known->name : name), html_text(value_text(member(entry, "relative"))),
+        html_text(is_known ? known->name : name), html_text(value_text(member(entry, "relative"))),
         html_text(value_text(member(entry, "value")) + unit), html_text(value_text(member(entry, "t"))),
         html_text(contact.is_null() ? "" : value_text(contact)));
   }
@@ -190,7 +191,7 @@ std::string audit_table(const Json& summary, const Units& units) {
 }
 
 /// List of the scalars at the top level.
-std::string json_facts(const Json& json) {
+std::string json_facts(const base::Json& json) {
   std::string text;
   for (const auto& [name, value] : json.items())
     if (!value.is_object() && !value.is_array()) text += fact(name, value_text(value));
@@ -202,15 +203,15 @@ std::string orbit_section(const fs::path& directory) {
   constexpr std::size_t most_multipliers = 12;
   std::error_code error;
   if (!fs::is_regular_file(directory / "orbit.json", error)) return "";
-  const Json orbit = read_json(directory / "orbit.json");
+  const base::Json orbit = read_json(directory / "orbit.json");
   std::string rows;
   std::size_t count = 0;
-  for (const Json& mu : member(orbit, "multipliers"))
+  for (const base::Json& mu : member(orbit, "multipliers"))
     if (mu.is_array() && mu.size() == 2 && count++ < most_multipliers)
       rows += fmt::format("<tr><td class=n>{}</td><td class=n>{}</td></tr>\n", html_text(value_text(mu[0])),
                           html_text(value_text(mu[1])));
   std::string families;
-  for (const Json& family : member(orbit, "families"))
+  for (const base::Json& family : member(orbit, "families"))
     families += "<p>One of a family of orbits: " + html_text(value_text(family)) + ".</p>\n";
   const std::string table =
       rows.empty() ? ""
@@ -239,7 +240,7 @@ std::string sentences(const std::string& markdown) {
   return text;
 }
 
-std::string title_of(const Json& json, const fs::path& directory) {
+std::string title_of(const base::Json& json, const fs::path& directory) {
   const std::string title = json.contains("title") ? value_text(json["title"]) : "";
   return title.empty() ? fs::absolute(directory).lexically_normal().string() : title;
 }
@@ -251,7 +252,7 @@ std::string kind_of_results(const fs::path& directory) {
   for (const Kind& kind : kinds) {
     const fs::path marker = directory / kind.marker;
     if (fs::is_regular_file(marker, error)) return kind.name;
-    if (const std::string why = why_no_input_file(marker); !why.empty())
+    if (const std::string why = base::why_no_input_file(marker); !why.empty())
       throw FileError(marker.string(), why + ", expected a file");
   }
   throw FileError(
@@ -262,10 +263,10 @@ std::string kind_of_results(const fs::path& directory) {
 }
 
 std::string run_page(const fs::path& directory, const Scene& scene, const std::string& check) {
-  const Json summary = read_json(directory / "summary.json");
-  Json data = run_data(scene, directory);
-  data["response_units"] = Json::object();
-  for (const Json& output : member(summary, "response"))
+  const base::Json summary = read_json(directory / "summary.json");
+  base::Json data = run_data(scene, directory);
+  data["response_units"] = base::Json::object();
+  for (const base::Json& output : member(summary, "response"))
     data["response_units"][value_text(member(output, "name"))] = value_text(member(output, "unit"));
   std::string body = section("loads", "Support loads", support_loads_html(summary));
   body += section("responses", "Responses", responses_html(summary, false));
@@ -278,7 +279,7 @@ std::string run_page(const fs::path& directory, const Scene& scene, const std::s
   body += section("events", "Events", events.empty() ? "" : part("events.html") + events);
   std::string end = section("check", "What check says", preformatted(check));
   end += section("scene", "What was asked", preformatted(whole_file(directory / "run.toml")));
-  const std::string json = script_json(json_line(data));
+  const std::string json = script_json(base::json_line(data));
   constexpr std::size_t style_and_script = 50'000;
   const std::size_t taken = body.size() + end.size() + json.size() + style_and_script;
   body += section("pictures", "Pictures", pictures(directory, "signorini plot " + directory.string(), taken));
@@ -296,7 +297,7 @@ std::string results_page(const fs::path& directory) {
   std::string marker;
   for (const Kind& each : kinds)
     if (each.name == kind) marker = each.marker;
-  const Json json = read_json(directory / marker);
+  const base::Json json = read_json(directory / marker);
   std::string body =
       section("summary", "Summary", json_facts(json) + sentences(whole_file(directory / "study.md")));
   for (const char* table :
@@ -305,8 +306,8 @@ std::string results_page(const fs::path& directory) {
     body += section(fs::path(table).stem().string(), table, csv_table(directory / table, most_rows));
   body += section("pictures", "Pictures",
                   pictures(directory, "running the command again with gnuplot on PATH", body.size()));
-  body += section("facts", marker, preformatted(json_text(json)));
+  body += section("facts", marker, preformatted(base::json_text(json)));
   return page(title_of(json, directory), kind, body, "null");
 }
 
-}  // namespace signorini
+}  // namespace signorini::report

@@ -16,7 +16,7 @@
 #include "report/load_cases.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 /// Kind of results in a directory: "run", "comparison", "study", "sweep", "verification", "sensitivity", "fit",
 /// "branch". Errors: FileError for any other.
@@ -32,4 +32,4 @@ namespace signorini {
 /// The page of any other kind of results. Errors: FileError.
 [[nodiscard]] std::string results_page(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::report

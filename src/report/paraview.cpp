@@ -15,7 +15,7 @@
 #include "result/picture_files.hpp"
 #include "result/plot_parts.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 std::string vtk_array(std::string_view type, std::string_view name, const std::string& values,
                       int components) {
@@ -49,14 +49,15 @@ std::string vtk_grid(const std::string& points, std::size_t point_count, const V
 
 void VtkSeries::add(double t, const std::string& text) {
   const std::string name = fmt::format("{}-{:04}.vtu", prefix_, ++number_);
-  write_file(folder_ / name, text);
+  result::write_file(folder_ / name, text);
   list_ += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", t, name);
 }
 
 std::filesystem::path VtkSeries::finish(const std::string& name) const {
-  write_file(folder_ / name,
-             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" +
-                 list_ + "</Collection>\n</VTKFile>\n");
+  result::write_file(
+      folder_ / name,
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" + list_ +
+          "</Collection>\n</VTKFile>\n");
   return folder_ / name;
 }
 
@@ -77,8 +78,8 @@ struct SeamNodeAt {
   int state = -1;
 };
 
-std::vector<BodiesAt> read_bodies_at(const TableFolder& tables) {
-  CsvReader rows = tables.open("frame_bodies.csv");
+std::vector<BodiesAt> read_bodies_at(const result::TableFolder& tables) {
+  result::CsvReader rows = tables.open("frame_bodies.csv");
   std::array<std::size_t, 6> columns{};
   constexpr std::array names = {"ux", "uy", "xx", "yy", "xy", "mises"};
   for (std::size_t i = 0; i < names.size(); ++i) columns[i] = rows.column(names[i]);
@@ -91,13 +92,13 @@ std::vector<BodiesAt> read_bodies_at(const TableFolder& tables) {
   return all;
 }
 
-std::vector<SeamNodeAt> read_seams_at(const TableFolder& tables) {
+std::vector<SeamNodeAt> read_seams_at(const result::TableFolder& tables) {
   std::vector<SeamNodeAt> all;
   if (!tables.has("frame_seams.csv")) return all;
-  CsvReader rows = tables.open("frame_seams.csv");
+  result::CsvReader rows = tables.open("frame_seams.csv");
   const std::size_t p = rows.column("pressure"), tau = rows.column("shear"), opening = rows.column("opening"),
                     state = rows.column("state");
-  const std::vector<std::string>& names = state_names();
+  const std::vector<std::string>& names = result::state_names();
   while (rows.next())
     all.push_back(
         {rows.t(), rows.number(p), rows.number(tau), rows.number(opening),
@@ -209,7 +210,7 @@ std::string BodyCells::frame(const BodiesAt& at, const std::vector<SeamNodeAt>& 
 }  // namespace
 
 std::optional<fs::path> write_paraview_bodies(const fs::path& directory, const Scene& scene) {
-  const TableFolder tables(directory);
+  const result::TableFolder tables(directory);
   if (scene.bodies.empty() || !tables.has("frame_bodies.csv")) return std::nullopt;
   VtkSeries series(directory / "paraview", "body");
   const BodyCells cells(scene);
@@ -236,10 +237,10 @@ struct Place {
   double part = 0.0;
 };
 
-Place place_in(const Json& times, double t) {
-  const auto after = std::upper_bound(times.begin(), times.end(), t, [](double value, const Json& time) {
-    return value < time.get<double>();
-  });
+Place place_in(const base::Json& times, double t) {
+  const auto after =
+      std::upper_bound(times.begin(), times.end(), t,
+                       [](double value, const base::Json& time) { return value < time.get<double>(); });
   Place place;
   place.row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - times.begin() - 1, 0));
   if (after == times.begin() || after == times.end()) return place;
@@ -249,9 +250,9 @@ Place place_in(const Json& times, double t) {
 }
 
 /// Numbers that are not finite are null in JSON.
-double number_of(const Json& value) { return value.is_number() ? value.get<double>() : 0.0; }
+double number_of(const base::Json& value) { return value.is_number() ? value.get<double>() : 0.0; }
 
-double value_at(const Json& values, const Place& place) {
+double value_at(const base::Json& values, const Place& place) {
   if (values.empty()) return 0.0;
   const double from = number_of(values[place.row]);
   return place.part > 0.0 ? from + place.part * (number_of(values[place.row + 1]) - from) : from;
@@ -289,16 +290,16 @@ class Grid {
 
 constexpr int vertex = 1, line = 3, polyline = 4;  // cell types of VTK
 
-std::vector<FrameEnd> ends_at(const Json& data, double t) {
-  const Json& times = data["curve"]["times"];
-  const Json& columns = data["curve"]["columns"];
-  std::vector<FrameEnd> ends;
-  for (const Json& node : data["nodes"]) {
+std::vector<result::FrameEnd> ends_at(const base::Json& data, double t) {
+  const base::Json& times = data["curve"]["times"];
+  const base::Json& columns = data["curve"]["columns"];
+  std::vector<result::FrameEnd> ends;
+  for (const base::Json& node : data["nodes"]) {
     const auto value = [&](std::size_t k) {
       const int number = node["u"][k].get<int>();
       if (number < 0) return 0.0;
-      const Json& column = columns[static_cast<std::size_t>(number)];
-      const Json& own = times[column["t"].get<std::size_t>()];
+      const base::Json& column = columns[static_cast<std::size_t>(number)];
+      const base::Json& own = times[column["t"].get<std::size_t>()];
       return own.empty() ? 0.0 : value_at(column["u"], place_in(own, t));
     };
     ends.push_back({number_of(node["x"]), number_of(node["y"]), value(0), value(1), value(2)});
@@ -306,34 +307,34 @@ std::vector<FrameEnd> ends_at(const Json& data, double t) {
   return ends;
 }
 
-void add_structure(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends) {
-  const auto end_of = [&](const Json& index) { return ends[index.get<std::size_t>()]; };
-  for (const Json& piece : data["pieces"]) {
+void add_structure(Grid& grid, const base::Json& data, const std::vector<result::FrameEnd>& ends) {
+  const auto end_of = [&](const base::Json& index) { return ends[index.get<std::size_t>()]; };
+  for (const base::Json& piece : data["pieces"]) {
     const bool bar = piece["bar"].get<bool>();
-    const FrameEnd a = end_of(piece["a"]), b = end_of(piece["b"]);
+    const result::FrameEnd a = end_of(piece["a"]), b = end_of(piece["b"]);
     std::vector<std::size_t> corners;
-    for (const Json& row : data["shapes"][piece["shape"].get<std::size_t>()]) {
-      const FrameEnd p = between(a, b, row[0].get<double>(), across_of(row));
+    for (const base::Json& row : data["shapes"][piece["shape"].get<std::size_t>()]) {
+      const result::FrameEnd p = result::between(a, b, row[0].get<double>(), across_of(row));
       corners.push_back(grid.point(p.x, p.y, {p.ux, p.uy}));
     }
     grid.cell(polyline, corners, piece.contains("rigid") ? 6 : bar ? 1 : 0);
   }
-  for (const Json& spring : data["springs"]) {
+  for (const base::Json& spring : data["springs"]) {
     if (spring["b"].get<int>() < 0) continue;
-    const FrameEnd a = end_of(spring["a"]), b = end_of(spring["b"]);
+    const result::FrameEnd a = end_of(spring["a"]), b = end_of(spring["b"]);
     const std::size_t first = grid.point(a.x, a.y, {a.ux, a.uy});
     grid.cell(line, {first, grid.point(b.x, b.y, {b.ux, b.uy})}, 2);
   }
-  for (const FrameEnd& p : ends) grid.cell(vertex, {grid.point(p.x, p.y, {p.ux, p.uy})}, 3);
+  for (const result::FrameEnd& p : ends) grid.cell(vertex, {grid.point(p.x, p.y, {p.ux, p.uy})}, 3);
 }
 
-void add_forces(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends, double t) {
+void add_forces(Grid& grid, const base::Json& data, const std::vector<result::FrameEnd>& ends, double t) {
   int item = 0;
-  for (const Json& contact : data["contacts"]) {
-    const Json& motion = contact["motion"];
+  for (const base::Json& contact : data["contacts"]) {
+    const base::Json& motion = contact["motion"];
     const int index = item++, node = contact["node"].get<int>();
     if (node < 0 || motion["t"].empty()) continue;
-    const FrameEnd& p = ends[static_cast<std::size_t>(node)];
+    const result::FrameEnd& p = ends[static_cast<std::size_t>(node)];
     const Place place = place_in(motion["t"], t);
     const double N = value_at(motion["N"], place), T = value_at(motion["T"], place);
     const double nx = number_of(contact["nx"]), ny = number_of(contact["ny"]);
@@ -342,8 +343,8 @@ void add_forces(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends,
               index);
   }
   item = 0;
-  for (const Json& load : data["loads"]) {
-    const FrameEnd& p = ends[load["node"].get<std::size_t>()];
+  for (const base::Json& load : data["loads"]) {
+    const result::FrameEnd& p = ends[load["node"].get<std::size_t>()];
     const double f = value_at(load["f"], place_in(load["t"], t));
     const Pair force{f * number_of(load["dx"]), f * number_of(load["dy"])};
     grid.cell(vertex, {grid.point(p.x, p.y, {p.ux, p.uy}, force)}, 5, -1, item++);
@@ -352,9 +353,9 @@ void add_forces(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends,
 
 }  // namespace
 
-std::vector<double> frame_times(const Json& data, std::size_t count, bool events) {
+std::vector<double> frame_times(const base::Json& data, std::size_t count, bool events) {
   double first = std::numeric_limits<double>::infinity(), last = -first;
-  for (const Json& own : data["curve"]["times"]) {
+  for (const base::Json& own : data["curve"]["times"]) {
     if (own.empty()) continue;
     first = std::min(first, own.front().get<double>());
     last = std::max(last, own.back().get<double>());
@@ -365,27 +366,27 @@ std::vector<double> frame_times(const Json& data, std::size_t count, bool events
     times.push_back(
         count < 2 ? first : first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1));
   if (!events) return times;
-  for (const Json& event : data["events"])
+  for (const base::Json& event : data["events"])
     if (const double t = event[0].get<double>(); t <= last) times.push_back(t);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 
-std::string vtu_frame(const Json& data, double t) {
+std::string vtu_frame(const base::Json& data, double t) {
   Grid grid;
-  const std::vector<FrameEnd> ends = ends_at(data, t);
+  const std::vector<result::FrameEnd> ends = ends_at(data, t);
   add_structure(grid, data, ends);
   add_forces(grid, data, ends, t);
   return grid.text();
 }
 
-fs::path write_paraview(const fs::path& directory, const Json& data, const std::vector<double>& times) {
+fs::path write_paraview(const fs::path& directory, const base::Json& data, const std::vector<double>& times) {
   const fs::path folder = directory / "paraview";
-  begin_plot_folder(folder, is_paraview);
+  result::begin_plot_folder(folder, result::is_paraview);
   VtkSeries series(folder, "frame");
   for (const double t : times) series.add(t, vtu_frame(data, t));
   return series.finish("run.pvd");
 }
 
-}  // namespace signorini
+}  // namespace signorini::report

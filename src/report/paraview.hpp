@@ -22,7 +22,7 @@
 #include "base/json.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 // Parts of VTK's XML files that all frames share, as text.
 //
@@ -84,13 +84,13 @@ std::optional<std::filesystem::path> write_paraview_bodies(const std::filesystem
                                                            const Scene& scene);
 
 /// `count` equidistant times over the record; with `events`, also the times of events.
-[[nodiscard]] std::vector<double> frame_times(const Json& data, std::size_t count, bool events);
+[[nodiscard]] std::vector<double> frame_times(const base::Json& data, std::size_t count, bool events);
 
 /// The text of a frame. `data`: run_data().
-[[nodiscard]] std::string vtu_frame(const Json& data, double t);
+[[nodiscard]] std::string vtu_frame(const base::Json& data, double t);
 
 /// Replaces the folder, and returns run.pvd. Errors: FileError.
-std::filesystem::path write_paraview(const std::filesystem::path& directory, const Json& data,
+std::filesystem::path write_paraview(const std::filesystem::path& directory, const base::Json& data,
                                      const std::vector<double>& times);
 
-}  // namespace signorini
+}  // namespace signorini::report

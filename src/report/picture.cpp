@@ -14,7 +14,7 @@
 #include "report/html.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 namespace fs = std::filesystem;
 
@@ -195,4 +195,4 @@ std::string figures(const fs::path& directory, std::size_t room) {
   return text;
 }
 
-}  // namespace signorini
+}  // namespace signorini::report

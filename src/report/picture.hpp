@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string>
 
-namespace signorini {
+namespace signorini::report {
 
 [[nodiscard]] std::string slim_svg(const std::string& svg);
 
@@ -21,4 +21,4 @@ namespace signorini {
 /// none. At most `room` bytes: omitted pictures are listed in a sentence.
 [[nodiscard]] std::string figures(const std::filesystem::path& directory, std::size_t room);
 
-}  // namespace signorini
+}  // namespace signorini::report

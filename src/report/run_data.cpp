@@ -18,7 +18,7 @@
 #include "scene/outlines.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 namespace fs = std::filesystem;
 
@@ -32,7 +32,9 @@ double rounded(double value, int digits) {
   return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(rounded(value, 6)) : Json(nullptr); }
+base::Json number(double value) {
+  return std::isfinite(value) ? base::Json(rounded(value, 6)) : base::Json(nullptr);
+}
 
 bool is_file(const fs::path& path) {
   std::error_code error;
@@ -62,11 +64,11 @@ struct Displacements {
 };
 
 /// Displacements of history.csv, with rows dropped evenly.
-Displacements evenly(CsvReader& reader) {
+Displacements evenly(result::CsvReader& reader) {
   Displacements all;
   std::vector<std::size_t> index;
   for (std::size_t k = 1; k < reader.header().size(); ++k) {
-    if (!is_displacement(reader.header()[k])) continue;
+    if (!scene::is_displacement(reader.header()[k])) continue;
     all.names.push_back(reader.header()[k]);
     index.push_back(k);
   }
@@ -93,17 +95,17 @@ struct ValueOf {
 /// Displacements of curves.csv, each with its own times.
 Displacements each(const fs::path& file, const std::vector<std::string>& names, double t_end) {
   std::map<std::string, std::vector<CurvePoint>> points;
-  CsvReader reader(file);
+  result::CsvReader reader(file);
   const std::size_t name = reader.column("curve"), t = reader.column("t"), value = reader.column("value");
   while (reader.next())
-    if (is_displacement(reader.cell(name)))
+    if (scene::is_displacement(reader.cell(name)))
       points[reader.cell(name)].push_back({reader.number(t), reader.number(value)});
   Displacements all;
   const std::size_t most = std::max<std::size_t>(50, most_values / names.size());
   for (const std::string& column : names) {
     const auto found = points.find(column);
     if (found == points.end()) return {};
-    Thinned<CurvePoint, 1, ValueOf> thinned(t_end, {.most = most, .crowded = true});
+    base::Downsampled<CurvePoint, 1, ValueOf> thinned(t_end, {.most = most, .crowded = true});
     for (const CurvePoint& point : found->second) thinned.add(point);
     all.names.push_back(column);
     all.curves.push_back({all.times.size(), {}});
@@ -117,25 +119,25 @@ Displacements each(const fs::path& file, const std::vector<std::string>& names, 
 }
 
 Displacements displacements(const fs::path& directory, double t_end) {
-  CsvReader history(directory / "history.csv");
+  result::CsvReader history(directory / "history.csv");
   std::vector<std::string> names;
   for (const std::string& column : history.header())
-    if (is_displacement(column)) names.push_back(column);
+    if (scene::is_displacement(column)) names.push_back(column);
   if (!names.empty() && is_file(directory / "curves.csv"))
     if (Displacements curves = each(directory / "curves.csv", names, t_end); !curves.names.empty())
       return curves;
   return evenly(history);
 }
 
-Json curve_json(const Displacements& all) {
-  Json times = Json::array(), columns = Json::array();
+base::Json curve_json(const Displacements& all) {
+  base::Json times = base::Json::array(), columns = base::Json::array();
   for (const std::vector<double>& t : all.times) {
-    Json rounded_times = Json::array();
+    base::Json rounded_times = base::Json::array();
     for (const double value : t) rounded_times.push_back(rounded(value, 9));
     times.push_back(std::move(rounded_times));
   }
   for (const Displacements::Curve& curve : all.curves) {
-    Json u = Json::array();
+    base::Json u = base::Json::array();
     for (const double value : curve.u) u.push_back(number(value));
     columns.push_back({{"t", curve.times}, {"u", std::move(u)}});
   }
@@ -166,13 +168,13 @@ class Places {
     const auto found = index_.find(name);
     return found == index_.end() ? -1 : found->second;
   }
-  [[nodiscard]] const Json& json() const { return json_; }
+  [[nodiscard]] const base::Json& json() const { return json_; }
 
  private:
   std::map<std::string, int> index_;
-  Json json_ = Json::array();
+  base::Json json_ = base::Json::array();
 
-  void add(const std::string& name, Json node) {
+  void add(const std::string& name, base::Json node) {
     index_.emplace(name, static_cast<int>(index_.size()));
     json_.push_back(std::move(node));
   }
@@ -182,30 +184,30 @@ class Places {
   }
 };
 
-Json pieces_json(const Scene& scene, const Places& places) {
-  Json pieces = Json::array();
+base::Json pieces_json(const Scene& scene, const Places& places) {
+  base::Json pieces = base::Json::array();
   for (const Member& member : scene.members)
-    for (const MemberLine& drawn : lines_of(member))
+    for (const element::MemberLine& drawn : element::lines_of(member))
       pieces.push_back({{"a", places.of(drawn.from)},
                         {"b", places.of(drawn.to)},
                         {"bar", !drawn.bends},
                         {"shape", shape_of(drawn)}});
   for (const RigidBody& body : scene.rigid)
-    for (const auto& [from, to] : outline_of(scene, body))
+    for (const auto& [from, to] : scene::outline_of(scene, body))
       pieces.push_back(
           {{"a", places.of(from)}, {"b", places.of(to)}, {"bar", true}, {"rigid", true}, {"shape", 0}});
   return pieces;
 }
 
 /// Pairs of nodes.
-Json mesh_json(const Scene& scene) {
-  Json mesh = Json::array();
-  for (const auto& ends : mesh_lines(scene)) mesh.push_back(ends);
+base::Json mesh_json(const Scene& scene) {
+  base::Json mesh = base::Json::array();
+  for (const auto& ends : scene::mesh_lines(scene)) mesh.push_back(ends);
   return mesh;
 }
 
-Json springs_json(const Scene& scene, const Places& places) {
-  Json springs = Json::array();
+base::Json springs_json(const Scene& scene, const Places& places) {
+  base::Json springs = base::Json::array();
   for (const Spring& spring : scene.springs)
     if (spring.stiffness > 0.0 || spring.damping > 0.0)
       springs.push_back({{"a", places.of(spring.node)},
@@ -215,8 +217,8 @@ Json springs_json(const Scene& scene, const Places& places) {
   return springs;
 }
 
-Json supports_json(const Scene& scene, const Places& places) {
-  Json supports = Json::array();
+base::Json supports_json(const Scene& scene, const Places& places) {
+  base::Json supports = base::Json::array();
   for (const Support& support : scene.supports)
     supports.push_back(
         {{"node", places.of(support.node)}, {"ux", support.ux}, {"uy", support.uy}, {"rz", support.rz}});
@@ -224,10 +226,10 @@ Json supports_json(const Scene& scene, const Places& places) {
 }
 
 /// The histories of loads.csv, by column name.
-std::map<std::string, Json> load_histories(const fs::path& directory) {
-  std::map<std::string, Json> histories;
+std::map<std::string, base::Json> load_histories(const fs::path& directory) {
+  std::map<std::string, base::Json> histories;
   if (!is_file(directory / "loads.csv")) return histories;
-  CsvReader reader(directory / "loads.csv");
+  result::CsvReader reader(directory / "loads.csv");
   std::vector<double> t;
   std::vector<std::vector<double>> columns(reader.header().size());
   while (reader.next()) {
@@ -235,7 +237,7 @@ std::map<std::string, Json> load_histories(const fs::path& directory) {
     for (std::size_t k = 1; k < columns.size(); ++k) columns[k].push_back(reader.number(k));
   }
   for (std::size_t k = 1; k < columns.size(); ++k) {
-    Json times = Json::array(), values = Json::array();
+    base::Json times = base::Json::array(), values = base::Json::array();
     for (const std::size_t i : kept_rows(t, 2000)) {
       times.push_back(t[i]);
       values.push_back(number(columns[k][i]));
@@ -245,20 +247,20 @@ std::map<std::string, Json> load_histories(const fs::path& directory) {
   return histories;
 }
 
-Json loads_json(const Scene& scene, const Places& places, const fs::path& directory) {
-  const std::map<std::string, Json> histories = load_histories(directory);
-  Json loads = Json::array();
+base::Json loads_json(const Scene& scene, const Places& places, const fs::path& directory) {
+  const std::map<std::string, base::Json> histories = load_histories(directory);
+  base::Json loads = base::Json::array();
   for (std::size_t k = 0; k < scene.loads.size(); ++k) {
     const LoadSpec& load = scene.loads[k];
     const std::string name = load.name.empty() ? fmt::format("load {}", k + 1) : load.name;
     if (scene.matrices || load.type != LoadType::force || places.of(load.direction.node) < 0) continue;
-    Json json = {{"name", name},
-                 {"node", places.of(load.direction.node)},
-                 {"dx", number(load.direction.vector[0])},
-                 {"dy", number(load.direction.vector[1])}};
+    base::Json json = {{"name", name},
+                       {"node", places.of(load.direction.node)},
+                       {"dx", number(load.direction.vector[0])},
+                       {"dy", number(load.direction.vector[1])}};
     const auto found = histories.find(name);
-    json["t"] = found == histories.end() ? Json{0.0} : found->second["t"];
-    json["f"] = found == histories.end() ? Json{number(load.amplitude)} : found->second["f"];
+    json["t"] = found == histories.end() ? base::Json{0.0} : found->second["t"];
+    json["f"] = found == histories.end() ? base::Json{number(load.amplitude)} : found->second["f"];
     loads.push_back(std::move(json));
   }
   return loads;
@@ -277,7 +279,7 @@ int place_of_direction(const Direction& direction, const Places& places) {
   return place;
 }
 
-Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& places) {
+base::Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& places) {
   // The tangent is (ny, -nx), so for a slider n = (-ty, tx). Degrees of freedom are drawn as moving upwards.
   std::array<double, 2> n{0.0, 1.0};
   const Direction& direction = contact.normal ? *contact.normal : *contact.tangent;
@@ -285,7 +287,7 @@ Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& 
     n = contact.normal ? direction.vector : std::array{-direction.vector[1], direction.vector[0]};
   if (scene.matrices && contact.normal && !direction.dofs.empty() && direction.dofs[0].second < 0.0)
     n[1] = -1.0;
-  Json touched = Json::array();
+  base::Json touched = base::Json::array();
   for (const auto& [node, part] : direction.against) touched.push_back({places.of(node), number(part)});
   return {{"name", contact.name},      {"node", place_of_direction(direction, places)},
           {"nx", number(n[0])},        {"ny", number(n[1])},
@@ -306,23 +308,25 @@ struct DrawnOf {
 
 std::map<std::string, std::vector<ContactRow>> read_motion(const fs::path& directory) {
   const bool record = is_file(directory / "motion.csv");
-  CsvReader reader(directory / (record ? "motion.csv" : "contacts.csv"));
-  const std::size_t t = reader.column("t"), who = reader.column("contact"), state = reader.column("state"),
-                    gap = reader.column("gap"), N = reader.column("N"), T = reader.column("T");
-  const std::vector<std::string>& names = state_names();
+  result::CsvReader reader(directory / (record ? "motion.csv" : "contacts.csv"));
+  const std::size_t t = reader.column("t"), contact_column = reader.column("contact"),
+                    state = reader.column("state"), gap = reader.column("gap"), N = reader.column("N"),
+                    T = reader.column("T");
+  const std::vector<std::string>& names = result::state_names();
   std::map<std::string, std::vector<ContactRow>> all;
   while (reader.next())
-    all[reader.cell(who)].push_back(
+    all[reader.cell(contact_column)].push_back(
         {reader.number(t), reader.number(N), reader.number(T),
          reader.cell(gap).empty() ? std::nan("") : reader.number(gap),
          std::find(names.begin(), names.end(), reader.cell(state)) - names.begin()});
   return all;
 }
 
-Json motion_json(const std::vector<ContactRow>& rows, std::size_t most, double t_end) {
-  Thinned<ContactRow, 4, DrawnOf, 3> thinned(t_end, {.most = most, .crowded = true});
+base::Json motion_json(const std::vector<ContactRow>& rows, std::size_t most, double t_end) {
+  base::Downsampled<ContactRow, 4, DrawnOf, 3> thinned(t_end, {.most = most, .crowded = true});
   for (const ContactRow& row : rows) thinned.add(row);
-  Json t = Json::array(), state = Json::array(), N = Json::array(), T = Json::array(), gap = Json::array();
+  base::Json t = base::Json::array(), state = base::Json::array(), N = base::Json::array(),
+             T = base::Json::array(), gap = base::Json::array();
   for (const ContactRow& row : thinned.rows()) {
     t.push_back(row.t);
     state.push_back(row.state);
@@ -337,13 +341,13 @@ Json motion_json(const std::vector<ContactRow>& rows, std::size_t most, double t
           {"gap", std::move(gap)}};
 }
 
-Json contacts_json(const Scene& scene, const Places& places, const fs::path& directory) {
+base::Json contacts_json(const Scene& scene, const Places& places, const fs::path& directory) {
   const std::map<std::string, std::vector<ContactRow>> motions = read_motion(directory);
   std::size_t rows = 0;
   for (const auto& [name, motion] : motions) rows += motion.size();
-  Json contacts = Json::array();
+  base::Json contacts = base::Json::array();
   for (const ContactSpec& contact : scene.contacts) {
-    Json json = contact_json(contact, scene, places);
+    base::Json json = contact_json(contact, scene, places);
     const auto found = motions.find(contact.name);
     const std::vector<ContactRow> motion = found == motions.end() ? std::vector<ContactRow>{} : found->second;
     const std::size_t share = rows <= most_motion ? motion.size() : motion.size() * most_motion / rows;
@@ -353,16 +357,16 @@ Json contacts_json(const Scene& scene, const Places& places, const fs::path& dir
   return contacts;
 }
 
-Json events_json(const Scene& scene, const fs::path& directory) {
+base::Json events_json(const Scene& scene, const fs::path& directory) {
   std::map<std::string, int> index;
   for (const ContactSpec& contact : scene.contacts)
     index.emplace(contact.name, static_cast<int>(index.size()));
-  CsvReader reader(directory / "events.csv");
-  const std::size_t t = reader.column("t"), who = reader.column("contact"), event = reader.column("event"),
-                    from = reader.column("from"), to = reader.column("to");
-  Json events = Json::array();
+  result::CsvReader reader(directory / "events.csv");
+  const std::size_t t = reader.column("t"), contact_column = reader.column("contact"),
+                    event = reader.column("event"), from = reader.column("from"), to = reader.column("to");
+  base::Json events = base::Json::array();
   while (reader.next() && events.size() < most_events) {
-    const auto found = index.find(reader.cell(who));
+    const auto found = index.find(reader.cell(contact_column));
     events.push_back({reader.number(t), found == index.end() ? -1 : found->second, reader.cell(event),
                       reader.cell(from), reader.cell(to)});
   }
@@ -370,11 +374,11 @@ Json events_json(const Scene& scene, const fs::path& directory) {
 }
 
 /// Columns of response.csv, with units from summary.json; rows are dropped evenly, jumps kept.
-Json responses_json(const fs::path& directory) {
-  Json responses = Json::array();
+base::Json responses_json(const fs::path& directory) {
+  base::Json responses = base::Json::array();
   const fs::path file = directory / "response.csv";
   if (!is_file(file)) return responses;
-  CsvReader reader(file);
+  result::CsvReader reader(file);
   const std::vector<std::string> names = reader.header();
   std::vector<double> t;
   std::vector<std::vector<double>> columns(names.size());
@@ -385,28 +389,28 @@ Json responses_json(const fs::path& directory) {
   constexpr std::size_t most_rows_shown = 4000;
   const std::size_t most = std::min(most_rows_shown, most_values / names.size());
   const std::vector<std::size_t> rows = kept_rows(t, most);
-  Json times = Json::array();
+  base::Json times = base::Json::array();
   for (const std::size_t i : rows) times.push_back(t[i]);
   for (std::size_t k = 1; k < names.size(); ++k) {
-    Json values = Json::array();
+    base::Json values = base::Json::array();
     for (const std::size_t i : rows) values.push_back(number(columns[k][i]));
     responses.push_back({{"name", names[k]}, {"y", std::move(values)}});
   }
   return {{"t", std::move(times)}, {"columns", std::move(responses)}};
 }
 
-Json colours_json() {
-  Json states = Json::array();
-  for (const std::string& name : state_names()) states.push_back({name, state_colour(name)});
+base::Json colours_json() {
+  base::Json states = base::Json::array();
+  for (const std::string& name : result::state_names()) states.push_back({name, result::state_colour(name)});
   return states;
 }
 
 }  // namespace
 
-Json run_data(const Scene& scene, const fs::path& directory) {
+base::Json run_data(const Scene& scene, const fs::path& directory) {
   const Displacements all = displacements(directory, scene.run.t_end);
   const Places places(scene, all.names);
-  Json curve = curve_json(all);
+  base::Json curve = curve_json(all);
   const MeshMotion mesh = mesh_motion(scene, directory);
   const double magnification = fitting_magnification(places.json(), curve, mesh.greatest);
   return {{"t_end", number(scene.run.t_end)},
@@ -429,4 +433,4 @@ Json run_data(const Scene& scene, const fs::path& directory) {
           {"states", colours_json()}};
 }
 
-}  // namespace signorini
+}  // namespace signorini::report

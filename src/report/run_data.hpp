@@ -19,9 +19,9 @@
 #include "base/json.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::report {
 
 /// Errors: FileError.
-[[nodiscard]] Json run_data(const Scene& scene, const std::filesystem::path& directory);
+[[nodiscard]] base::Json run_data(const Scene& scene, const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::report

@@ -11,7 +11,7 @@
 #include "scene/history_from_spec.hpp"
 #include "scene/outlines.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 const CsvTable<BodyFrameRow>& body_frame_table() {
   using R = BodyFrameRow;
@@ -45,7 +45,7 @@ const CsvTable<SeamFrameRow>& seam_frame_table() {
       {"shear", [](const R& r) { return r.sample.T / r.area; }},
       {"opening", [](const R& r) { return r.sample.gap; }},
       {"slip", [](const R& r) { return r.sample.slip; }},
-      {"state", [](const R& r) { return to_string(r.sample.state); }},
+      {"state", [](const R& r) { return signorini::to_string(r.sample.state); }},
   };
   return table;
 }
@@ -74,11 +74,11 @@ BodyFrameWriter::BodyFrameWriter(const std::filesystem::path& directory, const S
       movers_(scene, model),
       bodies_(directory / "frame_bodies.csv", body_frame_table()) {
   if (!scene.seams.empty()) seams_.emplace(directory / "frame_seams.csv", seam_frame_table());
-  const Mesh mesh = make_mesh(scene);
+  const element::Mesh mesh = element::make_mesh(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodySpec& body = scene.bodies[i];
-    stresses_.push_back(nodal_stresses(mesh, scene, i));
-    strains_.push_back(make_history(body.temperature, fmt::format("bodies.{}.temperature", body.name))
+    stresses_.push_back(element::nodal_stresses(mesh, scene, i));
+    strains_.push_back(scene::make_history(body.temperature, fmt::format("bodies.{}.temperature", body.name))
                            .scaled(body.thermal_expansion));
   }
 }
@@ -100,7 +100,7 @@ void BodyFrameWriter::write(const Sample& sample) {
     if (beta_ != 0.0) strained += beta_ * of_body(body, sample, 1);
     const Vector stresses = stresses_[i] * strained;
     const double strain = strains_[i].value(sample.t);
-    const Eigen::Vector3d heat = strain * stress_of_heat(body);
+    const Eigen::Vector3d heat = strain * element::stress_of_heat(body);
     for (std::size_t k = 0; k < body.node_count; ++k) {
       const auto at = static_cast<Eigen::Index>(k);
       const Eigen::Vector3d stress = stresses.segment<3>(3 * at) + heat;
@@ -109,7 +109,7 @@ void BodyFrameWriter::write(const Sample& sample) {
                    scene_.nodes[body.first_node + k],
                    {u[2 * at], u[2 * at + 1]},
                    stress,
-                   mises(body, stress, strain)});
+                   element::mises(body, stress, strain)});
     }
   }
   bodies_.flush();
@@ -119,7 +119,7 @@ void BodyFrameWriter::write(const Sample& sample) {
 }
 
 BodyMotionFile::BodyMotionFile(const Scene& scene, const Model& model)
-    : scene_(scene), nodes_(drawn_mesh_nodes(scene)), movers_(scene, model) {
+    : scene_(scene), nodes_(scene::drawn_mesh_nodes(scene)), movers_(scene, model) {
   if (nodes_.empty()) return;
   const std::size_t times = scene.run.grid().size();
   const std::size_t wanted = std::clamp(most_values / (2 * nodes_.size()), fewest_times, most_times);
@@ -164,4 +164,4 @@ void BodyMotionFile::write(const std::filesystem::path& directory) const {
   if (!last_.empty()) put(last_);
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

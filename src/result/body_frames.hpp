@@ -20,7 +20,7 @@
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 struct BodyFrameRow {
   double t = 0.0;
@@ -94,4 +94,4 @@ class BodyMotionFile {
   std::vector<double> last_;               ///< the last row, not yet in rows_
 };
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -6,7 +6,7 @@
 #include "result/table.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,18 +57,18 @@ void write_certificate(const fs::path& directory, const Model& model, const Cert
   write_errors(directory / "errors.csv", model, certificate.history);
 }
 
-Json certificate_json(const CertifiedReport& run) {
+base::Json certificate_json(const CertifiedReport& run) {
   if (!run.certificate) return nullptr;
   const Certificate& c = *run.certificate;
-  Json json = {{"until", c.until},
-               {"complete", c.complete},
-               {"reason", c.reason},
-               {"companion", c.companion},
-               {"choice", c.choice},
-               {"factor", c.factor},
-               {"events", c.certain_events()},
-               {"unordered", c.unordered}};
-  json["first_uncertain"] = c.first_uncertain ? Json(*c.first_uncertain + 1) : Json(nullptr);
+  base::Json json = {{"until", c.until},
+                     {"complete", c.complete},
+                     {"reason", c.reason},
+                     {"companion", c.companion},
+                     {"choice", c.choice},
+                     {"factor", c.factor},
+                     {"events", c.certain_events()},
+                     {"unordered", c.unordered}};
+  json["first_uncertain"] = c.first_uncertain ? base::Json(*c.first_uncertain + 1) : base::Json(nullptr);
   json["wall_time"] = c.wall_time;
   json["wait"] = c.wait;
   if (c.reduction)
@@ -76,13 +76,13 @@ Json certificate_json(const CertifiedReport& run) {
   return json;
 }
 
-Json peak_errors_json(const CertifiedReport& run, std::size_t k) {
+base::Json peak_errors_json(const CertifiedReport& run, std::size_t k) {
   if (!run.certificate || k >= run.certificate->peaks.size() || !run.certificate->peaks[k]) return nullptr;
   const Peak& e = *run.certificate->peaks[k];
   return {{"tangential", e.tangential}, {"normal", e.normal}, {"N", e.N}, {"T", e.T}};
 }
 
-Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing) {
+base::Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing) {
   if (!run.certificate || k >= run.certificate->landings.size()) return nullptr;
   const auto& list = run.certificate->landings[k];
   if (landing >= list.size() || !list[landing]) return nullptr;
@@ -93,4 +93,4 @@ Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t 
           {"impulse", e.impulse}};
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

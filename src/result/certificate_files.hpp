@@ -12,7 +12,7 @@
 #include "base/json.hpp"
 #include "signorini/certify.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 struct CertificateColumn {
   const char* name;
@@ -34,11 +34,11 @@ void write_certificate(const std::filesystem::path& directory, const Model& mode
 // The certificate in summary.json (docs/output.md).
 
 /// `certified`; null if there is no certificate.
-[[nodiscard]] Json certificate_json(const CertifiedReport& run);
+[[nodiscard]] base::Json certificate_json(const CertifiedReport& run);
 
 /// Error bounds of the peaks of contact k; null if unknown.
-[[nodiscard]] Json peak_errors_json(const CertifiedReport& run, std::size_t k);
+[[nodiscard]] base::Json peak_errors_json(const CertifiedReport& run, std::size_t k);
 /// Error bounds of one of its landings; null if unknown.
-[[nodiscard]] Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing);
+[[nodiscard]] base::Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing);
 
-}  // namespace signorini
+}  // namespace signorini::result

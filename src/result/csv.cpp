@@ -13,7 +13,7 @@
 #include "base/text.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 namespace {
 
 std::string reason(int error) { return std::generic_category().message(error == 0 ? EIO : error); }
@@ -27,7 +27,7 @@ void CsvBlock::separate() {
 
 CsvBlock& CsvBlock::number(double value) {
   separate();
-  text_ += shortest(value + 0.0);  // no negative zero
+  text_ += base::shortest(value + 0.0);  // no negative zero
   return *this;
 }
 
@@ -116,12 +116,12 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 }
 
 CsvReader::CsvReader(const std::filesystem::path& path, LastLine last) : path_(path), last_(last) {
-  if (const std::string why = why_no_input_file(path); !why.empty())
+  if (const std::string why = base::why_no_input_file(path); !why.empty())
     throw FileError(path.string(), why + ", expected a file");
   errno = 0;
   file_.open(path, std::ios::binary);
-  if (!file_) throw FileError(path.string(), "cannot be read" + because(errno));
-  if (!read_csv_row(file_, header_) && (header_.empty() || last_ == LastLine::cut))
+  if (!file_) throw FileError(path.string(), "cannot be read" + base::because(errno));
+  if (!base::read_csv_row(file_, header_) && (header_.empty() || last_ == LastLine::cut))
     throw FileError(path.string(), header_.empty() ? "is empty; expected a header row"
                                                    : "line 1: found no line break, expected a header row");
   constexpr std::string_view mark = "\xEF\xBB\xBF";
@@ -144,7 +144,7 @@ bool CsvReader::next() {
 
 bool CsvReader::next_of_any_length() {
   ++line_;
-  if (read_csv_row(file_, cells_) || (!cells_.empty() && last_ == LastLine::counts)) return true;
+  if (base::read_csv_row(file_, cells_) || (!cells_.empty() && last_ == LastLine::counts)) return true;
   cut_ = !cells_.empty();
   return false;
 }
@@ -158,7 +158,7 @@ std::string CsvReader::misfit() const {
 
 double CsvReader::number(std::size_t index) const {
   const std::string& text = cells_[index];
-  const std::optional<double> value = parse_number(text);
+  const std::optional<double> value = base::parse_number(text);
   if (!value) refuse("has '" + text + "' where a number is expected");
   return *value;
 }
@@ -170,4 +170,4 @@ bool TableFolder::has(const char* table) const {
   return std::filesystem::is_regular_file(directory_ / table, error);
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

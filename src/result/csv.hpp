@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace signorini {
+namespace signorini::result {
 
 /// Collects the cells of one block of rows.
 class CsvBlock {
@@ -130,4 +130,4 @@ class TableFolder {
   std::filesystem::path directory_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::result

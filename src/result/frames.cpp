@@ -5,7 +5,7 @@
 
 #include "model/assembly/loads.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 NodeMovers::NodeMovers(const Scene& scene, const Model& model) : movers_(scene.nodes.size()) {
   for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // they are the first drawn nodes, in the same order
@@ -14,7 +14,7 @@ NodeMovers::NodeMovers(const Scene& scene, const Model& model) : movers_(scene.n
     if (!support.motion || support.rz) continue;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n)
       if (scene.nodes[n].name == support.node)
-        movers_[n][support.ux ? 0 : 1].given = motion_of_support(scene, support);
+        movers_[n][support.ux ? 0 : 1].given = assembly::motion_of_support(scene, support);
   }
 }
 
@@ -188,10 +188,10 @@ FrameEnd straight_between(const FrameEnd& a, const FrameEnd& b, double s) {
 }  // namespace
 
 FrameEnd between(const Frame::Element& e, double s) {
-  return e.kind == "beam" ? between(e.a, e.b, s, cubic_at(s)) : straight_between(e.a, e.b, s);
+  return e.kind == "beam" ? between(e.a, e.b, s, element::cubic_at(s)) : straight_between(e.a, e.b, s);
 }
 
-FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const LineShapes& h) {
+FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const element::LineShapes& h) {
   FrameEnd p = straight_between(a, b, s);
   const double length = std::hypot(b.x - a.x, b.y - a.y);
   if (!(length > 0.0)) return p;
@@ -286,4 +286,4 @@ FrameScales scales_of(const Frame& frame, const FrameScales& shared) {
   return own.magnification >= worth_it * shared.magnification ? own : shared;
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

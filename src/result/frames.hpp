@@ -20,7 +20,7 @@
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 // Displacement of the nodes of a scene: by a degree of freedom, a support, or none.
 
@@ -112,6 +112,7 @@ void take_out_slides(std::vector<Frame>& frames);
 /// Displacement at the fraction s of an element: linear along it, cubic across it (beams).
 [[nodiscard]] FrameEnd between(const Frame::Element& element, double s);
 /// Same with given shape functions across the line (model/element/line_elements.hpp).
-[[nodiscard]] FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const LineShapes& across);
+[[nodiscard]] FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s,
+                               const element::LineShapes& across);
 
-}  // namespace signorini
+}  // namespace signorini::result

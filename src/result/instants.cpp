@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 namespace {
 
 // The order of the columns.
@@ -53,11 +53,11 @@ std::vector<std::string> columns_of(const Model& model) {
 }
 
 std::string text_of(State state) {
-  if (is_own(state)) return std::to_string(number_of(state));
-  return state == State::inside       ? "inside"
-         : state == State::held_plus  ? "held+"
-         : state == State::held_minus ? "held-"
-                                      : to_string(state);
+  if (is_own(state)) return std::to_string(signorini::number_of(state));
+  return state == State::inside               ? "inside"
+         : state == State::static_limit_plus  ? "held+"
+         : state == State::static_limit_minus ? "held-"
+                                              : signorini::to_string(state);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void InstantWriter::side(const InstantRow& row, bool after) {
   block_.number(row.t).text(after ? "after" : "before").number(row.resolution);
   for (const bool flag : {row.start, row.breakpoint, row.load_jumps, row.located})
     block_.text(flag ? "1" : "0");
-  block_.number(row.forgiven).number(row.dependence);
+  block_.number(row.forgiven).number(row.eigenvector_condition);
   const auto numbers = [&](const Vector& x) {
     for (Eigen::Index i = 0; i < x.size(); ++i) block_.number(x[i]);
     for (Eigen::Index i = x.size(); i < model_.size(); ++i) block_.empty();
@@ -102,8 +102,8 @@ void InstantWriter::side(const InstantRow& row, bool after) {
     std::string blows;
     for (const InstantBlow& blow : row.blows)
       if (blow.contact == static_cast<int>(k))
-        blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", blow.turn, shortest(blow.normal),
-                             shortest(blow.tangent));
+        blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", blow.turn, base::shortest(blow.normal),
+                             base::shortest(blow.tangent));
     block_.text(blows);
     for (const Eigen::Index i : {in_N, in_T})
       if (row.captures.size() > 0)
@@ -124,18 +124,19 @@ InstantReader::InstantReader(const std::filesystem::path& directory, const Model
     if (i < found.size() && i < header_.size() && found[i] == header_[i]) continue;
     throw FileError(path_.string(),
                     fmt::format("line 1, column {}: found {}, expected {}", i + 1,
-                                i < found.size() ? "\"" + excerpt(found[i]) + "\"" : "no more columns",
+                                i < found.size() ? "\"" + base::excerpt(found[i]) + "\"" : "no more columns",
                                 i < header_.size() ? "\"" + header_[i] + "\"" : "no more"));
   }
 }
 
 void InstantReader::fail(std::size_t column, const std::string& expected) const {
-  throw FileError(path_.string(), fmt::format("line {}: {}: found \"{}\", expected {}", reader_.line(),
-                                              header_[column], excerpt(reader_.cell(column)), expected));
+  throw FileError(path_.string(),
+                  fmt::format("line {}: {}: found \"{}\", expected {}", reader_.line(), header_[column],
+                              base::excerpt(reader_.cell(column)), expected));
 }
 
 double InstantReader::number(std::size_t column) const {
-  const std::optional<double> value = parse_number(reader_.cell(column));
+  const std::optional<double> value = base::parse_number(reader_.cell(column));
   if (!value || !std::isfinite(*value)) fail(column, "a number");
   return *value;
 }
@@ -157,7 +158,7 @@ ContactState InstantReader::state(std::size_t contact, std::size_t column) const
   ContactState result;
   result.anchor = number(column + of_p);
   if (!own.empty()) {
-    const std::optional<double> found = parse_number(text);
+    const std::optional<double> found = base::parse_number(text);
     for (std::size_t i = 0; i < own.size(); ++i)
       if (found && *found == static_cast<double>(i)) {
         result.state = own[i];
@@ -166,7 +167,7 @@ ContactState InstantReader::state(std::size_t contact, std::size_t column) const
     fail(column, "the number of a state of its law");
   }
   for (const State known : {State::open, State::inside, State::closed, State::stick, State::slip_plus,
-                            State::slip_minus, State::held_plus, State::held_minus})
+                            State::slip_minus, State::static_limit_plus, State::static_limit_minus})
     if (text == text_of(known)) {
       result.state = known;
       return result;
@@ -198,9 +199,9 @@ void InstantReader::take_impulses(std::size_t contact, std::size_t column, Insta
     const std::size_t first = word.find(':'), second = word.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos)
       fail(column + of_blows, "turn:Pn:Pt between blanks");
-    const auto turn = parse_number(word.substr(0, first)),
-               n = parse_number(word.substr(first + 1, second - first - 1)),
-               t = parse_number(word.substr(second + 1));
+    const auto turn = base::parse_number(word.substr(0, first)),
+               n = base::parse_number(word.substr(first + 1, second - first - 1)),
+               t = base::parse_number(word.substr(second + 1));
     if (!turn || !n || !t || !(*turn >= 1.0 && *turn < 1e6) || !std::isfinite(*n) || !std::isfinite(*t))
       fail(column + of_blows, "turn:Pn:Pt between blanks");
     row.blows.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
@@ -224,7 +225,7 @@ std::optional<InstantRow> InstantReader::next() {
   row.load_jumps = flag(at_load);
   row.located = flag(at_located);
   row.forgiven = number(at_forgiven);
-  row.dependence = number(at_dependence);
+  row.eigenvector_condition = number(at_dependence);
   take_side(row.before, false);
   if (!reader_.next())
     throw FileError(
@@ -232,7 +233,8 @@ std::optional<InstantRow> InstantReader::next() {
         fmt::format("line {}: missing, expected the side \"after\" of t = {:.9g}; the file is cut",
                     reader_.line(), row.t));
   if (reader_.cell(at_side) != "after") fail(at_side, "after");
-  if (number(at_t) != row.t) fail(at_t, fmt::format("{}, the time of the side before", shortest(row.t)));
+  if (number(at_t) != row.t)
+    fail(at_t, fmt::format("{}, the time of the side before", base::shortest(row.t)));
   take_side(row.after, true);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) take_impulses(k, of_contact(k), row);
   return row;
@@ -240,8 +242,8 @@ std::optional<InstantRow> InstantReader::next() {
 
 namespace {
 
-Json names(const std::vector<NamedGuard>& guards, const Model& model, bool with_signs) {
-  Json result = Json::array();
+base::Json names(const std::vector<NamedGuard>& guards, const Model& model, bool with_signs) {
+  base::Json result = base::Json::array();
   for (const NamedGuard& g : guards) {
     result.push_back({{"contact", model.contacts[g.contact].name}, {"guard", g.guard}});
     if (with_signs) result.back().update({{"order", g.order}, {"excess", g.excess}});
@@ -252,27 +254,27 @@ Json names(const std::vector<NamedGuard>& guards, const Model& model, bool with_
 }  // namespace
 
 TraceWriter::TraceWriter(const std::filesystem::path& path, const Model& model) : model_(model), path_(path) {
-  check_output_file(path, "trace", R"(,"round":1,"fired":[)");
+  base::check_output_file(path, "trace", R"(,"round":1,"fired":[)");
   errno = 0;
   file_.open(path);
-  if (!file_) throw FileError(path.string(), "cannot be created" + because(errno));
+  if (!file_) throw FileError(path.string(), "cannot be created" + base::because(errno));
 }
 
 void TraceWriter::write(const Round& round) {
-  Json touching = Json::array(), tried = Json::object();
+  base::Json touching = base::Json::array(), tried = base::Json::object();
   for (const std::size_t c : round.touching) touching.push_back(model_.contacts[c].name);
   for (std::size_t c = 0; c < round.tried.size(); ++c)
-    tried[model_.contacts[c].name] = to_string(round.tried[c].state);
-  const Json line = {{"t", round.t},
-                     {"round", round.number},
-                     {"fired", names(round.fired, model_, false)},
-                     {"touching", touching},
-                     {"impact", round.impact},
-                     {"tried", tried},
-                     {"failed", names(round.failed, model_, true)},
-                     {"holds", round.failed.empty()}};
-  file_ << json_line(line) << std::endl;
+    tried[model_.contacts[c].name] = signorini::to_string(round.tried[c].state);
+  const base::Json line = {{"t", round.t},
+                           {"round", round.number},
+                           {"fired", names(round.triggered, model_, false)},
+                           {"touching", touching},
+                           {"impact", round.impact},
+                           {"tried", tried},
+                           {"failed", names(round.failed, model_, true)},
+                           {"holds", round.failed.empty()}};
+  file_ << base::json_line(line) << std::endl;
   if (!file_) throw FileError(path_.string(), "cannot be written");
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

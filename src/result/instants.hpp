@@ -21,7 +21,7 @@
 #include "signorini/result.hpp"
 #include "signorini/trace.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 inline constexpr const char* instants_file = "instants.csv";
 
@@ -82,4 +82,4 @@ class TraceWriter {
   std::ofstream file_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "result/picture_look.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -39,18 +39,18 @@ std::string named_tics(char axis, const std::vector<std::pair<std::string, std::
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::string formatted;
     for (const char c : names[i].first) formatted += c == '%' ? "%%" : std::string(1, c);
-    s += (i > 0 ? ", " : "") + signorini::quoted(formatted) + fmt::format(" {}", names[i].second);
+    s += (i > 0 ? ", " : "") + signorini::result::quoted(formatted) + fmt::format(" {}", names[i].second);
   }
   return s + ")";
 }
 
 std::string range_of(char axis, double from, double to) {
-  return fmt::format("set {}range [{}:{}]\n", axis, shortest(from), shortest(to));
+  return fmt::format("set {}range [{}:{}]\n", axis, base::shortest(from), base::shortest(to));
 }
 
 std::string upright(std::size_t number, double x, const std::string& look) {
   return fmt::format("set arrow {0} from first {1}, graph 0 to first {1}, graph 1 nohead {2}\n", number,
-                     shortest(x), look);
+                     base::shortest(x), look);
 }
 
 std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas& canvas, double space) {
@@ -113,7 +113,8 @@ std::string beginning(const PlottedRun& run, const Picture& picture) {
                   ".svg and the like from the tables of the run. In this folder: gnuplot " + picture.name +
                   ".gp\n";
   if (picture.over_time) {
-    s += fmt::format("from = {}; to = {}   # the time shown\n", shortest(run.from), shortest(run.to));
+    s += fmt::format("from = {}; to = {}   # the time shown\n", base::shortest(run.from),
+                     base::shortest(run.to));
   }
   s += "reset\nset datafile separator ','\nset encoding utf8\n";
   std::string formats;
@@ -139,7 +140,7 @@ std::string beginning(const PlottedRun& run, const Picture& picture) {
     s += fmt::format(
         "set object 1 rectangle from {},graph 0 to {},graph 1 front fillstyle "
         "transparent solid 0.25 noborder fillcolor '#505050'\n",
-        shortest(std::max(*run.facts.certain_until, run.from)), shortest(run.to));
+        base::shortest(std::max(*run.facts.certain_until, run.from)), base::shortest(run.to));
   s += "set y2range [0:1]\nunset y2tics\n";
   return s + picture.setup;
 }
@@ -194,4 +195,4 @@ std::string script_of(const PlottedRun& run, const Picture& picture) {
   return s + "unset multiplot\nunset output\n}\n";
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

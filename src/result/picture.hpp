@@ -18,7 +18,7 @@
 #include "result/picture_look.hpp"
 #include "result/plotted_run.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 /// Pixels of a canvas above the panels, for title and subtitle, and below them, for the axis and its label.
 inline constexpr double room_above = 62.0, room_below = 70.0;
@@ -77,4 +77,4 @@ struct Picture {
 /// A vertical line across the panel at x.
 [[nodiscard]] std::string upright(std::size_t number, double x, const std::string& look);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -8,7 +8,7 @@
 #include "result/csv.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 namespace fs = std::filesystem;
 
@@ -56,9 +56,9 @@ void clear_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {
 }
 
 void begin_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {
-  make_directory(folder);
+  base::make_directory(folder);
   clear_plot_folder(folder, ours);
-  make_directory(folder);
+  base::make_directory(folder);
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

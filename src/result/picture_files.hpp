@@ -11,7 +11,7 @@
 
 #include "result/picture.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 class PictureFiles {
  public:
@@ -48,4 +48,4 @@ void clear_plot_folder(const std::filesystem::path& folder, bool (*ours)(const s
 /// Creates the folder, or removes our earlier files from it. Errors: FileError.
 void begin_plot_folder(const std::filesystem::path& folder, bool (*ours)(const std::filesystem::path&));
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 namespace {
 
 constexpr double wide = 1120.0;                                           // pixels
@@ -32,9 +32,9 @@ const std::vector<std::string>& picture_formats() {
 
 void read_size(const std::string& text, PictureLook& look) {
   const std::size_t cross = text.find('x');
-  const auto width = parse_number(text.substr(0, cross));
+  const auto width = base::parse_number(text.substr(0, cross));
   const bool both = cross != std::string::npos;
-  const auto height = parse_number(both ? text.substr(cross + 1) : "0");
+  const auto height = base::parse_number(both ? text.substr(cross + 1) : "0");
   const auto fits = [](double mm) { return mm >= 20.0 && mm <= 2000.0; };
   if (!width || !height || !fits(*width) || (both && !fits(*height)))
     throw UsageError(
@@ -49,7 +49,7 @@ void read_formats(const std::string& text, PictureLook& look) {
   const std::vector<std::string>& known = picture_formats();
   for (std::string word; std::getline(words, word, ',');) {
     if (std::find(known.begin(), known.end(), word) == known.end())
-      throw UsageError(fmt::format("--format: found \"{}\"{}", word, suggestion(word, known)));
+      throw UsageError(fmt::format("--format: found \"{}\"{}", word, base::suggestion(word, known)));
     if (std::find(look.formats.begin(), look.formats.end(), word) == look.formats.end())
       look.formats.push_back(word);
   }
@@ -59,7 +59,7 @@ void read_formats(const std::string& text, PictureLook& look) {
 void read_language(const std::string& text, PictureLook& look) {
   const std::vector<std::string>& known = picture_languages();
   if (std::find(known.begin(), known.end(), text) == known.end())
-    throw UsageError(fmt::format("--language: found \"{}\"{}", text, suggestion(text, known)));
+    throw UsageError(fmt::format("--language: found \"{}\"{}", text, base::suggestion(text, known)));
   look.language = text;
 }
 
@@ -211,4 +211,4 @@ std::vector<std::string> translated_phrases() {
   return phrases;
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace signorini {
+namespace signorini::result {
 
 struct PictureLook {
   bool title = true;
@@ -71,4 +71,4 @@ struct Canvas {
 /// Every English phrase that has a row.
 [[nodiscard]] std::vector<std::string> translated_phrases();
 
-}  // namespace signorini
+}  // namespace signorini::result

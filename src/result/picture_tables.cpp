@@ -5,7 +5,7 @@
 
 #include "result/csv.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 void PictureTables::motion(int contact, const std::vector<MotionRow>& rows) {
   if (!motion_) motion_ = std::make_unique<TableFile<ContactRow>>(directory_ / "motion.csv", contact_table());
@@ -66,4 +66,4 @@ std::string load_table(const Model& model, double t_end) {
   return block.str();
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

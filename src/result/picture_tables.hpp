@@ -8,7 +8,7 @@
 #include "result/run_tables.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 /// Errors of all members: FileError.
 class PictureTables {
@@ -35,4 +35,4 @@ class PictureTables {
 /// Table from 0 to t_end; empty if no load varies.
 [[nodiscard]] std::string load_table(const Model& model, double t_end);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -7,7 +7,7 @@
 #include "result/plot_parts.hpp"
 #include "result/run_tables.hpp"
 
-namespace signorini {
+namespace signorini::result {
 namespace {
 
 std::string friction_text(const PlottedRun& run, const RunFacts::Contact& contact) {
@@ -209,7 +209,7 @@ std::vector<Curve> curves_of(const PlottedRun& run, std::size_t k, bool small) {
                     std::string("with points pointtype 7 pointsize ") + (small ? "0.2" : "0.35") +
                         " linecolor rgb variable"});
   for (const EventLook& look : event_looks) {
-    const PlottedRun::Rows events = marks_of(run, to_string(look.type), static_cast<int>(k));
+    const PlottedRun::Rows events = marks_of(run, signorini::to_string(look.type), static_cast<int>(k));
     if (events.count == 0) continue;
     curves.push_back(
         {recorded("'marks.csv'", events), fmt::format("(-{}):{}", marks.value("N"), marks.number("T")),
@@ -251,10 +251,12 @@ Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
       entry("points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) + "'", say(run, state));
   }
   for (const EventLook& look : event_looks) {
-    const auto drawn = [&](const auto& e) { return e.second == to_string(look.type) && rubs(run, e.first); };
+    const auto drawn = [&](const auto& e) {
+      return e.second == signorini::to_string(look.type) && rubs(run, e.first);
+    };
     if (std::any_of(run.occurring.begin(), run.occurring.end(), drawn))
       entry(fmt::format("points pointtype 6 pointsize 0.9 linecolor '{}'", look.colour),
-            say(run, "event") + ": " + say(run, to_string(look.type)));
+            say(run, "event") + ": " + say(run, signorini::to_string(look.type)));
   }
   panel.after = "set border 3\nset tics\nset grid\n";
   return panel;
@@ -272,9 +274,9 @@ std::string heading_and_ranges(const PlottedRun& run, std::size_t k, const Canva
                               canvas.font(small ? 10.0 : 13.0));
   const double greatest = run.greatest_compression[k];
   const double most = greatest > 0.0 ? 1.08 * greatest : 1.0;
-  s += fmt::format("set xrange [0:{0}]\nset yrange [-{1}:{1}]\n", shortest(most),
-                   shortest(1.05 * most * contact.static_friction));
-  return small ? s + "set xtics " + shortest(tic_step(most)) + "\n" : s;
+  s += fmt::format("set xrange [0:{0}]\nset yrange [-{1}:{1}]\n", base::shortest(most),
+                   base::shortest(1.05 * most * contact.static_friction));
+  return small ? s + "set xtics " + base::shortest(tic_step(most)) + "\n" : s;
 }
 
 }  // namespace
@@ -340,7 +342,8 @@ Picture cone_picture(const PlottedRun& run) {
 namespace {
 
 bool occurs(const PlottedRun& run, EventType type) {
-  return std::find(run.event_types.begin(), run.event_types.end(), to_string(type)) != run.event_types.end();
+  return std::find(run.event_types.begin(), run.event_types.end(), signorini::to_string(type)) !=
+         run.event_types.end();
 }
 
 /// Lanes of a row, from the top.
@@ -377,7 +380,7 @@ Picture raster_picture(const PlottedRun& run) {
   const std::size_t at = mark_table().number("t");
   const auto add = [&](EventType type, const std::string& columns, const std::string& look,
                        const std::optional<std::string>& name) {
-    const PlottedRun::Rows rows = marks_of(run, to_string(type));
+    const PlottedRun::Rows rows = marks_of(run, signorini::to_string(type));
     if (rows.count > 0)
       panel.curves.push_back({recorded("'marks" + run.suffix + ".csv'", rows), columns, look, name});
   };
@@ -392,7 +395,7 @@ Picture raster_picture(const PlottedRun& run) {
   if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot needs a plot
   for (const EventLook& look : lanes)
     panel.curves.push_back({"keyentry", "", fmt::format("with lines linewidth 4 linecolor '{}'", look.colour),
-                            say(run, to_string(look.type))});
+                            say(run, signorini::to_string(look.type))});
   panel.after = "unset arrow\n";
   return {"raster" + run.suffix,
           say(run, "Events of the contacts, a mark each"),
@@ -401,4 +404,4 @@ Picture raster_picture(const PlottedRun& run) {
           {panel}};
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

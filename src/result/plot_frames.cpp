@@ -9,7 +9,7 @@
 #include "result/frames.hpp"
 #include "result/table.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 namespace {
 
@@ -119,8 +119,8 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
                        : part < 0.2  ? "left"
                                      : "center";
     s += fmt::format("set label {} at {},{} {} offset character {:.2f},{:.2f} front font ',{:.4g}'\n",
-                     signorini::quoted(text), shortest(x), shortest(y), side, 0.8 * dx, 0.9 * dy,
-                     l.canvas.font(figures ? 11.0 : 9.0));
+                     signorini::result::quoted(text), base::shortest(x), base::shortest(y), side, 0.8 * dx,
+                     0.9 * dy, l.canvas.font(figures ? 11.0 : 9.0));
   }
   return s;
 }
@@ -231,4 +231,4 @@ void add_frame_pictures(const PlottedRun& run, PictureFiles& pictures) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -10,9 +10,9 @@
 #include "result/picture_files.hpp"
 #include "result/plot_parts.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 /// Adds one picture per frame in the time window, evenly selected if there are many.
 void add_frame_pictures(const PlottedRun& run, PictureFiles& pictures);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "result/run_tables.hpp"
 
-namespace signorini {
+namespace signorini::result {
 namespace {
 
 constexpr std::size_t most_points = 20000;  // per curve; an SVG with more is slow to open and shows no more
@@ -104,8 +104,8 @@ std::optional<Curve> band_curve(const PlottedRun& run, std::size_t k, const std:
   const std::size_t from = band_columns().number("from");
   return Curve{
       recorded("'states-" + run.slugs[k] + ".csv'", rows),
-      fmt::format("{0}:({1}):{0}:{2}:({3}):({4})", from, shortest(0.5 * (low + high)),
-                  band_columns().number("to"), shortest(low), shortest(high)),
+      fmt::format("{0}:({1}):{0}:{2}:({3}):({4})", from, base::shortest(0.5 * (low + high)),
+                  band_columns().number("to"), base::shortest(low), base::shortest(high)),
       fmt::format("with boxxy fillstyle solid {} noborder linecolor '{}'", opacity, state_colour(state))};
 }
 
@@ -160,4 +160,4 @@ std::string steady(const Range& range, double scale) {
   return axis(middle, around_middle * std::abs(middle));
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -10,7 +10,7 @@
 #include "result/plotted_run.hpp"
 #include "result/table.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 // Axes of nearly constant curves.
 //
@@ -101,4 +101,4 @@ static_assert(event_looks.size() + 1 == all_event_types.size(),
 [[nodiscard]] Picture response_picture(const PlottedRun& run);
 [[nodiscard]] Picture energy_picture(const PlottedRun& run);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -13,7 +13,7 @@
 #include "result/plot_parts.hpp"
 #include "result/run_tables.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 namespace fs = std::filesystem;
 
@@ -73,7 +73,7 @@ namespace {
 constexpr std::size_t most_curves = 24;  // number of names in a legend beside the panel; curves.csv has all
                                          // curves
 
-constexpr double turn = 1e-3;  // rad; relative to this, rotations of 1e-15 are rounding
+constexpr double unit_rotation = 1e-3;  // rad; relative to this, rotations of 1e-15 are rounding
 
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                 "#e7298a", "#666666", "#a6761d", "#17becf"};
@@ -143,7 +143,7 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
     for (const PlottedLine& line : p.lines)
       if (const auto found = run.moves.find(line.title + p.key); found != run.moves.end())
         all.take(found->second);
-    p.axis = steady(all, p.key == ".rz" ? turn : greatest);
+    p.axis = steady(all, p.key == ".rz" ? unit_rotation : greatest);
   }
   for (PanelOfLines& p : panels) choose_lines(run, p);
   panels.erase(
@@ -243,7 +243,7 @@ Picture energy_picture(const PlottedRun& run) {
         {balance.rows, fmt::format("{}:(0)", balance.time), "with lines", say(run, "kinetic")});
   Panel off{say(run, "balance off by") + unit,
             {{balance.rows,
-              fmt::format("{}:(${}-({}))", balance.time, balance.number, shortest(run.energies.start)),
+              fmt::format("{}:(${}-({}))", balance.time, balance.number, base::shortest(run.energies.start)),
               "with lines linewidth 1.2 linecolor '#1a1a1a'", say(run, "drift")}},
             "set format y '%.1e'\n",
             0.28,
@@ -276,4 +276,4 @@ Picture loads_picture(const PlottedRun& run) {
   return picture;
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

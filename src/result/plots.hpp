@@ -21,7 +21,7 @@
 
 #include "result/picture_files.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 /// Pictures of the run in `directory`; none if there are fewer than two output times. Errors: FileError; UsageError if
 /// the time window contains nothing of the run.
@@ -35,4 +35,4 @@ std::vector<std::filesystem::path> write_plots(const std::filesystem::path& dire
 /// Removes from DIR/plots the files of write_plots and its scripts, and the folder if it is empty then.
 void remove_plots(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -12,7 +12,7 @@
 #include "scene/components.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 namespace {
 
@@ -25,7 +25,7 @@ std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contac
   std::vector<std::string> slugs;
   std::set<std::string> taken;
   for (const auto& contact : contacts) {
-    const std::string slug = file_name(contact.name, 80, "-_", '_');
+    const std::string slug = base::file_name(contact.name, 80, "-_", '_');
     std::string unique = slug;
     const auto is_taken = [&] { return taken.contains(unique) || taken.contains(unique + close_up); };
     for (int n = 2; is_taken(); ++n) unique = slug + "-" + std::to_string(n);
@@ -105,15 +105,15 @@ void read_motion(const TableFolder& tables, const ContactNumbers& numbers, Plott
 /// Bands with limits at the exact event times.
 void read_events(const TableFolder& tables, const ContactNumbers& index, PlottedRun& run) {
   CsvReader events = tables.open("events.csv");
-  const std::size_t who = events.column("contact"), to = events.column("to");
+  const std::size_t contact_column = events.column("contact"), to = events.column("to");
   const std::size_t normal = events.column("N"), type = events.column("event");
   const double shortest_band = (run.t_last - run.t_first) / static_cast<double>(most_bands);
   while (events.next()) {
     const double t = events.t();
     if (std::find(run.event_types.begin(), run.event_types.end(), events.cell(type)) == run.event_types.end())
       run.event_types.push_back(events.cell(type));
-    if (events.cell(who).empty()) continue;
-    const std::size_t k = number_of(index, events.cell(who), events);
+    if (events.cell(contact_column).empty()) continue;
+    const std::size_t k = number_of(index, events.cell(contact_column), events);
     if (t <= run.t_first || t > run.t_last) continue;
     run.occurring.emplace(k, events.cell(type));
     run.greatest_compression[k] = std::max(run.greatest_compression[k], -events.number(normal));
@@ -176,9 +176,9 @@ void read_moves(const TableFolder& tables, PlottedRun& run) {
   const std::size_t name = record ? reader.column("curve") : 0, value = record ? reader.column("value") : 0;
   std::vector<std::pair<std::size_t, Range*>> columns;
   for (std::size_t i = 1; !record && i < reader.header().size(); ++i)
-    if (is_displacement(reader.header()[i])) columns.emplace_back(i, &run.moves[reader.header()[i]]);
+    if (scene::is_displacement(reader.header()[i])) columns.emplace_back(i, &run.moves[reader.header()[i]]);
   while (reader.next()) {
-    if (record && !is_displacement(reader.cell(name))) continue;
+    if (record && !scene::is_displacement(reader.cell(name))) continue;
     if (!shows(run, reader.t())) continue;
     if (record) run.moves[reader.cell(name)].take(reader.number(value));
     for (const auto& [i, range] : columns) range->take(reader.number(i));
@@ -189,21 +189,21 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
   run.marks.clear();
   const ContactNumbers rows = contact_numbers(run.facts);
   CsvReader events = tables.open("events.csv");
-  const std::size_t who = events.column("contact"), type = events.column("event");
+  const std::size_t contact_column = events.column("contact"), type = events.column("event");
   const std::size_t n = events.column("N"), friction = events.column("T");
   const double least = (run.to - run.from) / most_marks;
   std::map<std::pair<std::string, std::string>, double> last;
   while (events.next()) {
     const double t = events.t();
     if (!shows(run, t)) continue;
-    const auto [place, first] = last.try_emplace({events.cell(who), events.cell(type)}, t);
+    const auto [place, first] = last.try_emplace({events.cell(contact_column), events.cell(type)}, t);
     if (!first && t - place->second < least) continue;
     place->second = t;
     // A load's time event has no contact: row -1.
-    if (events.cell(who).empty())
+    if (events.cell(contact_column).empty())
       run.marks.push_back({-1, t, events.cell(type), 0.0, 0.0});
     else
-      run.marks.push_back({static_cast<int>(rows.at(events.cell(who))), t, events.cell(type),
+      run.marks.push_back({static_cast<int>(rows.at(events.cell(contact_column))), t, events.cell(type),
                            events.number(n), events.number(friction)});
   }
   std::stable_sort(run.marks.begin(), run.marks.end(), [](const Mark& a, const Mark& b) {
@@ -231,15 +231,16 @@ void read_headers(const TableFolder& tables, PlottedRun& run) {
 void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun& run) {
   const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
     if (!t || (std::isfinite(*t) && shows)) return;
-    throw UsageError(fmt::format("{} {}: nothing to draw, the run covers t = {} to {}", option, shortest(*t),
-                                 shortest(run.t_first), shortest(run.t_last)));
+    throw UsageError(fmt::format("{} {}: nothing to draw, the run covers t = {} to {}", option,
+                                 base::shortest(*t), base::shortest(run.t_first),
+                                 base::shortest(run.t_last)));
   };
   check("--from", window.from, window.from < run.t_last);
   check("--to", window.to, window.to > run.t_first);
   if (shown == 0)
     throw UsageError(fmt::format("--from {} --to {}: nothing to draw, no output time lies between",
-                                 shortest(window.from.value_or(run.t_first)),
-                                 shortest(window.to.value_or(run.t_last))));
+                                 base::shortest(window.from.value_or(run.t_first)),
+                                 base::shortest(window.to.value_or(run.t_last))));
 }
 
 }  // namespace
@@ -253,7 +254,7 @@ PlottedRun::Rows marks_of(const PlottedRun& run, const std::string& type, std::o
   return {static_cast<std::size_t>(begin - run.marks.begin()), static_cast<std::size_t>(end - begin)};
 }
 
-PlottedRun untold_run(const std::string& title, const Units& units, const PictureLook& look) {
+PlottedRun unreported_run(const std::string& title, const Units& units, const PictureLook& look) {
   PlottedRun run;
   run.look = look;
   run.facts.title = title;
@@ -338,4 +339,4 @@ double Range::size() const { return empty() ? 0.0 : std::max(std::abs(least), st
 
 std::string say(const PlottedRun& run, std::string_view english) { return say(run.look.language, english); }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -21,7 +21,7 @@
 #include "result/summary.hpp"
 #include "result/table.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 /// Range of a curve's values.
 struct Range {
@@ -93,8 +93,8 @@ struct PlottedRun {
                                         std::optional<int> row = std::nullopt);
 
 /// A run without data from files: the frame for pictures of several runs, or of none.
-[[nodiscard]] PlottedRun untold_run(const std::string& title, const Units& units,
-                                    const PictureLook& look = {});
+[[nodiscard]] PlottedRun unreported_run(const std::string& title, const Units& units,
+                                        const PictureLook& look = {});
 
 /// Time window; absent ends are those of the run.
 struct PlotWindow {
@@ -118,4 +118,4 @@ template <class... Parts>
   return fmt::format(fmt::runtime(say(run, english)), parts...);
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -24,7 +24,7 @@
 #include "scene/saved_state.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 DirectoryLock::~DirectoryLock() {
   if (descriptor_ >= 0) close(descriptor_);
@@ -43,8 +43,8 @@ namespace {
 
 /// The manifest first: without it the others vouch for nothing.
 std::vector<std::string_view> run_files() {
-  std::vector<std::string_view> files = {manifest_file, "report.html"};
-  files.insert(files.end(), result_files.begin(), result_files.end());
+  std::vector<std::string_view> files = {base::manifest_file, "report.html"};
+  files.insert(files.end(), base::result_files.begin(), base::result_files.end());
   return files;
 }
 
@@ -73,7 +73,7 @@ void remove_run(const fs::path& path, bool summary) {
 }
 
 void check_run_directory(const fs::path& path, bool force) {
-  check_output_directory(path, {"run", "summary.json"}, force);
+  base::check_output_directory(path, {"run", "summary.json"}, force);
 }
 
 struct RunDirectory::Writers {
@@ -117,20 +117,20 @@ RunDirectory::~RunDirectory() = default;
 RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
   check_run_directory(path_, options_.force);  // again: it may have been created since
-  const fs::path created = make_directory(path_);
+  const fs::path created = base::make_directory(path_);
   if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
   try {
-    remove_manifest(path_);
+    base::remove_manifest(path_);
     // First, and over an earlier one: a folder without it is no run, which --force would not replace.
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
     if (options_.force) remove_run(path_, false);
     write_file(path_ / "run.toml", scene_.resolved);
-    if (model_.geometric) write_file(path_ / frozen_file, frozen_text(model_.geometric->forces));
+    if (model_.geometric) write_file(path_ / scene::frozen_file, frozen_text(model_.geometric->forces));
     writers_ = std::make_unique<Writers>(path_, scene_, model_, options_.pictures);
   } catch (const FileError&) {
     std::error_code ignored;
     for (const std::string_view name : run_files()) fs::remove(path_ / name, ignored);
-    unmake_directory(path_, created);
+    base::unmake_directory(path_, created);
     throw;
   }
   return *writers_;
@@ -225,7 +225,7 @@ std::string RunDirectory::finish(const CertifiedReport& run) {
 }
 
 void RunDirectory::vouch(Outcome::Kind outcome) const {
-  write_file(path_ / manifest_file, manifest_of(path_, to_string(outcome)).text());
+  write_file(path_ / base::manifest_file, base::manifest_of(path_, to_string(outcome)).text());
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -17,7 +17,7 @@
 #include "signorini/certify.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 // One writer per directory.
 //
@@ -103,4 +103,4 @@ void remove_run(const std::filesystem::path& path, bool summary = true);
 /// Throws FileError unless a run may be written there.
 void check_run_directory(const std::filesystem::path& path, bool force);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <variant>
 
-namespace signorini {
+namespace signorini::result {
 namespace {
 
 double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // negative: fixed by a support
@@ -16,8 +16,8 @@ struct EventCell {
   void operator()(double value) const { block.number(value); }
   void operator()(const std::optional<double>& value) const { block.number(value); }
   void operator()(int contact) const { block.text(model.contacts[static_cast<std::size_t>(contact)].name); }
-  void operator()(EventType type) const { block.text(to_string(type)); }
-  void operator()(State state) const { block.text(to_string(state)); }
+  void operator()(EventType type) const { block.text(signorini::to_string(type)); }
+  void operator()(State state) const { block.text(signorini::to_string(state)); }
 };
 
 }  // namespace
@@ -44,7 +44,7 @@ const CsvTable<ContactRow>& contact_table() {
   static const CsvTable<R> table = {
       {"t", &R::t},
       {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
-      {"state", [](const R& r) { return to_string(r.sample.state); }},
+      {"state", [](const R& r) { return signorini::to_string(r.sample.state); }},
       {"gap", [](const R& r) { return r.contact.gap_if_any(r.sample.gap); }},
       {"ut", [](const R& r) { return r.sample.ut; }},
       {"vt", [](const R& r) { return r.sample.vt; }},
@@ -110,7 +110,7 @@ const CsvTable<FrameContactRow>& frame_contact_table() {
   static const CsvTable<R> table = {
       {"t", &R::t},
       {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
-      {"state", [](const R& r) { return to_string(r.sample.state); }},
+      {"state", [](const R& r) { return signorini::to_string(r.sample.state); }},
       {"node", [](const R& r) { return std::string_view(r.node.name); }},
       {"x", [](const R& r) { return r.drawn.x; }},
       {"y", [](const R& r) { return r.drawn.y; }},
@@ -157,4 +157,4 @@ SeamRow seam_row(const SeamSpec& seam, double t, const std::vector<ContactSample
   return row;
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -20,7 +20,7 @@
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 [[nodiscard]] CsvTable<Event> event_table(const Model& model);
 
@@ -90,4 +90,4 @@ struct SeamRow {
 /// contacts: one per contact of the scene.
 [[nodiscard]] SeamRow seam_row(const SeamSpec& seam, double t, const std::vector<ContactSample>& contacts);
 
-}  // namespace signorini
+}  // namespace signorini::result

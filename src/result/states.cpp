@@ -4,7 +4,7 @@
 #include "result/csv.hpp"
 #include "scene/saved_state.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 StateWriter::StateWriter(const std::filesystem::path& directory, const Model& model)
     : model_(model), file_(directory / "states.csv") {
@@ -27,7 +27,7 @@ void StateWriter::head() {
   for (std::size_t i = 0; i < structural_; ++i) block_.text(model_.physical_dofs()[i].displacement);
   for (std::size_t i = 0; i < structural_; ++i) block_.text(model_.physical_dofs()[i].velocity);
   for (const Load* support : supports_) block_.text(support->name);
-  for (const Load* support : supports_) block_.text(rate_of(support->name));
+  for (const Load* support : supports_) block_.text(assembly::rate_of(support->name));
   const auto name = [&](const std::vector<std::size_t>& contacts, const char* what) {
     for (const std::size_t k : contacts) block_.text(model_.contacts[k].name + what);
   };
@@ -54,26 +54,28 @@ void StateWriter::write(const Sample& sample) {
   for (const std::size_t k : sliding_) block_.number(sample.contacts[k].slip + surface(k));
   for (const std::size_t k : surfaces_) block_.number(surface(k));
   for (const std::size_t k : rubbing_) block_.number(sample.contacts[k].T);
-  for (const std::size_t k : rubbing_) block_.text(std::string(to_string(sample.contacts[k].state)));
-  for (const std::size_t k : own_) block_.number(static_cast<double>(number_of(sample.contacts[k].state)));
+  for (const std::size_t k : rubbing_)
+    block_.text(std::string(signorini::to_string(sample.contacts[k].state)));
+  for (const std::size_t k : own_)
+    block_.number(static_cast<double>(signorini::number_of(sample.contacts[k].state)));
   for (const std::size_t k : own_) block_.number(sample.contacts[k].memory);
   block_.end_row();
   file_.write(block_);
 }
 
-std::string frozen_text(const FrozenForces& forces) {
+std::string frozen_text(const Prestress& forces) {
   CsvBlock block;
-  for (const std::string& name : frozen_heading()) block.text(name);
+  for (const std::string& name : scene::frozen_heading()) block.text(name);
   block.end_row();
-  for (const FrozenForces::Element& e : forces.elements) {
+  for (const Prestress::Element& e : forces.elements) {
     block.text("member").text(e.from).text(e.to).number(e.at_from).number(e.at_to).empty();
     block.end_row();
   }
-  for (const FrozenForces::Body& body : forces.bodies) {
+  for (const Prestress::Body& body : forces.bodies) {
     block.text("rigid").text(body.name).empty().empty().empty().number(body.stiffness);
     block.end_row();
   }
   return block.str();
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -14,7 +14,7 @@
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 class StateWriter {
  public:
@@ -37,6 +37,6 @@ class StateWriter {
 
 // Writes geometric.csv (scene/saved_state.hpp).
 
-[[nodiscard]] std::string frozen_text(const FrozenForces& forces);
+[[nodiscard]] std::string frozen_text(const Prestress& forces);
 
-}  // namespace signorini
+}  // namespace signorini::result

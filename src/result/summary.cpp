@@ -16,7 +16,7 @@
 #include "result/summary_parts.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 const char* to_string(Outcome::Kind kind) {
   switch (kind) {
@@ -44,33 +44,33 @@ int exit_code(Outcome::Kind kind) {
   return static_cast<int>(ExitCode::bug);
 }
 
-Json unit_json(const Units& units) {
-  Json json = units_json(units);
+base::Json unit_json(const Units& units) {
+  base::Json json = units_json(units);
   json["energy"] = units.force + " " + units.length;
   json["power"] = units.force + " " + units.length + "/" + units.time;
   json["angle"] = "rad";
   return json;
 }
 
-Json version_json() {
+base::Json version_json() {
   return {{"signorini", version}, {"sundials", sundials_version}, {"compiler", "g++ " __VERSION__}};
 }
 
 /// History of a frictional start: changes of state, and the contacts at the end of each part of a stage.
-Json frictional_json(const Model& model) {
-  Json events = Json::array(), stages = Json::array();
+base::Json frictional_json(const Model& model) {
+  base::Json events = base::Json::array(), stages = base::Json::array();
   const auto name = [&](int k) { return model.contacts[static_cast<std::size_t>(k)].name; };
   for (const StageEvent& e : model.statics.events)
     events.push_back({{"stage", e.stage},
                       {"part", e.part},
                       {"contact", name(e.contact)},
-                      {"from", to_string(e.from)},
-                      {"to", to_string(e.to)}});
+                      {"from", signorini::to_string(e.from)},
+                      {"to", signorini::to_string(e.to)}});
   for (const StageEnd& end : model.statics.stages) {
-    Json contacts = Json::array();
+    base::Json contacts = base::Json::array();
     for (std::size_t k = 0; k < end.states.size(); ++k)
       contacts.push_back({{"name", model.contacts[k].name},
-                          {"state", to_string(end.states[k])},
+                          {"state", signorini::to_string(end.states[k])},
                           {"N", end.N[k]},
                           {"T", end.T[k]}});
     stages.push_back({{"stage", end.stage}, {"part", end.part}, {"contacts", contacts}});
@@ -78,20 +78,21 @@ Json frictional_json(const Model& model) {
   return {{"events", events}, {"stages", stages}};
 }
 
-Json model_json(const Model& model) {
+base::Json model_json(const Model& model) {
   long massless = 0;
   for (const Dof& dof : model.dofs) massless += dof.massless ? 1 : 0;
-  Json json = {{"degrees_of_freedom", model.size()},
-               {"massless", massless},
-               {"alpha", model.alpha},
-               {"beta", model.beta},
-               {"omega1", model.omega1},
-               {"omega_max", model.omega_max},
-               {"static_start", model.static_start}};
+  base::Json json = {{"degrees_of_freedom", model.size()},
+                     {"massless", massless},
+                     {"alpha", model.alpha},
+                     {"beta", model.beta},
+                     {"omega1", model.omega1},
+                     {"omega_max", model.omega_max},
+                     {"static_start", model.static_start}};
   if (model.static_start) json["free_motions"] = model.statics.free_motions;
   if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
   for (const Contact& contact : model.contacts)
-    if (const Bowl* surface = contact.curved_surface()) json["pendulums"][contact.name] = surface->carried;
+    if (const CurvedSurface* surface = contact.curved_surface())
+      json["pendulums"][contact.name] = surface->carried;
   if (model.geometric) json["load_factors"] = model.geometric->load_factors;
   if (model.statics.frictional) json["frictional_start"] = frictional_json(model);
   json["scales"] = {{"displacement", model.scales.displacement},
@@ -102,22 +103,23 @@ Json model_json(const Model& model) {
   return json;
 }
 
-Json turn_json(const Turn& turn) { return {{"value", turn.value}, {"t", turn.t}}; }
+base::Json turn_json(const Turn& turn) { return {{"value", turn.value}, {"t", turn.t}}; }
 
-Json support_json(const SupportLoad& load) {
+base::Json support_json(const SupportLoad& load) {
   return {{"N", {{"least", turn_json(load.least_N)}, {"greatest", turn_json(load.greatest_N)}}},
           {"T", {{"least", turn_json(load.least_T)}, {"greatest", turn_json(load.greatest_T)}}},
           {"residual_slip", load.residual_slip()}};
 }
 
 /// `run`: null before its end.
-Json contact_json(const Model& model, std::size_t k, double capture_velocity, const CertifiedReport* run) {
+base::Json contact_json(const Model& model, std::size_t k, double capture_velocity,
+                        const CertifiedReport* run) {
   const Report* report = run != nullptr ? &run->report : nullptr;
   const Contact& contact = model.contacts[k];
-  Json json = {{"name", contact.name},
-               {"law", contact.law->name()},
-               {"static_friction", contact.friction.static_},
-               {"kinetic_friction", contact.friction.kinetic}};
+  base::Json json = {{"name", contact.name},
+                     {"law", contact.law->name()},
+                     {"static_friction", contact.friction.static_},
+                     {"kinetic_friction", contact.friction.kinetic}};
   if (const auto gap = contact.gap_if_any(contact.gap)) {
     json["gap"] = *gap;
     if (contact.takes_impulses())
@@ -135,7 +137,7 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
   }
   if (contact.tangential_stiffness && !contact.compliance_split())
     json["tangential_stiffness"] = *contact.tangential_stiffness;
-  if (const auto reaction = static_reaction(model, k)) json["static_reaction"] = *reaction;
+  if (const auto reaction = statics::static_reaction(model, k)) json["static_reaction"] = *reaction;
   if (report == nullptr) return json;
   if (k < report->supports.size()) json["load"] = support_json(report->supports[k]);
   if (k < report->audit.friction_work.size()) json["friction_work"] = report->audit.friction_work[k];
@@ -145,7 +147,7 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     if (run->certificate) json["peaks"]["errors"] = peak_errors_json(*run, k);
   }
   if (k < report->landings.size() && !contact.normal_force_given()) {
-    json["landings"] = Json::array();
+    json["landings"] = base::Json::array();
     for (std::size_t i = 0; i < report->landings[k].size(); ++i) {
       const Landing& l = report->landings[k][i];
       json["landings"].push_back({{"start", l.start},
@@ -158,22 +160,22 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
   return json;
 }
 
-Json settings_json(const RunSpec& run, const Tolerance& tolerance, const Method& method) {
-  Json json = {{"t_end", run.t_end},
-               {"rtol", tolerance.rtol},
-               {"atol",
-                {{"displacement", tolerance.displacement},
-                 {"rotation", tolerance.rotation},
-                 {"velocity", tolerance.velocity},
-                 {"angular_velocity", tolerance.angular_velocity},
-                 {"force", tolerance.force}}},
-               {"engine_reason", method.engine_reason()},
-               {"max_order", method.max_order},
-               {"max_order_reason", method.max_order_reason},
-               {"max_events_at_once", run.max_events_at_once}};
-  const EngineName& engine = name_of(method.engine);
+base::Json settings_json(const RunSpec& run, const engine::Tolerance& tolerance, const Method& method) {
+  base::Json json = {{"t_end", run.t_end},
+                     {"rtol", tolerance.rtol},
+                     {"atol",
+                      {{"displacement", tolerance.displacement},
+                       {"rotation", tolerance.rotation},
+                       {"velocity", tolerance.velocity},
+                       {"angular_velocity", tolerance.angular_velocity},
+                       {"force", tolerance.force}}},
+                     {"engine_reason", method.engine_reason()},
+                     {"max_order", method.max_order},
+                     {"max_order_reason", method.max_order_reason},
+                     {"max_events_at_once", run.max_events_at_once}};
+  const EngineName& engine = signorini::name_of(method.engine);
   if (engine.accuracy == Accuracy::step) json["dt"] = method.accuracy;
-  const std::pair<const char*, Json> own[] = {
+  const std::pair<const char*, base::Json> own[] = {
       {"refine", run.refine == Refine::linear ? "linear" : "root"},
       {"step", run.step == StepControl::doubling ? "doubling" : "fixed"},
       {"relaxation", run.relaxation},
@@ -187,8 +189,8 @@ Json settings_json(const RunSpec& run, const Tolerance& tolerance, const Method&
   return json;
 }
 
-Json counter_json(const Counters& c) {
-  Json orders = Json::object();
+base::Json counter_json(const Counters& c) {
+  base::Json orders = base::Json::object();
   for (const auto& [order, steps] : c.steps_by_order) orders[std::to_string(order)] = steps;
   return {{"steps", c.steps},
           {"steps_by_order", orders},
@@ -208,17 +210,17 @@ Json counter_json(const Counters& c) {
           {"fallbacks", c.fallbacks}};
 }
 
-Json extreme_json(const Model& model, const Extreme& extreme, double scale) {
-  Json json = {{"value", extreme.value},
-               {"scale", scale},
-               {"relative", scale > 0.0 ? extreme.value / scale : 0.0},
-               {"t", extreme.t}};
+base::Json extreme_json(const Model& model, const Extreme& extreme, double scale) {
+  base::Json json = {{"value", extreme.value},
+                     {"scale", scale},
+                     {"relative", scale > 0.0 ? extreme.value / scale : 0.0},
+                     {"t", extreme.t}};
   if (extreme.contact >= 0) json["contact"] = model.contacts[static_cast<std::size_t>(extreme.contact)].name;
   return json;
 }
 
-Json output_extreme_json(const Output& output, double value, double t, const OutputPlace& place) {
-  Json json = {{"value", value}, {"t", t}};
+base::Json output_extreme_json(const Output& output, double value, double t, const OutputPlace& place) {
+  base::Json json = {{"value", value}, {"t", t}};
   if (place.stretch < 0) return json;
   const Output::Stretch& stretch = output.stretches[static_cast<std::size_t>(place.stretch)];
   json["at"] = {stretch.from, stretch.to};
@@ -227,8 +229,8 @@ Json output_extreme_json(const Output& output, double value, double t, const Out
   return json;
 }
 
-Json response_json(const Model& model, const Report& report) {
-  Json list = Json::array();
+base::Json response_json(const Model& model, const Report& report) {
+  base::Json list = base::Json::array();
   for (std::size_t i = 0; i < report.response.size() && i < model.outputs.size(); ++i) {
     const Output& output = model.outputs[i];
     const OutputExtremes& e = report.response[i];
@@ -243,28 +245,28 @@ Json response_json(const Model& model, const Report& report) {
   return list;
 }
 
-Json audit_json(const Model& model, const Audit& a) {
-  Json json = {{"gap", extreme_json(model, a.gap, a.length_scale)},
-               {"tension", extreme_json(model, a.tension, a.force_scale)},
-               {"product", extreme_json(model, a.product, a.energy_scale)},
-               {"friction", extreme_json(model, a.friction, a.force_scale)},
-               {"direction", extreme_json(model, a.direction, a.power_scale)},
-               {"equilibrium", extreme_json(model, a.equilibrium, a.force_scale)},
-               {"penetration", extreme_json(model, a.penetration, a.length_scale)},
-               {"impulses_on_closed", a.impulses_on_closed},
-               {"energy", extreme_json(model, a.energy, a.energy_scale)}};
+base::Json audit_json(const Model& model, const Audit& a) {
+  base::Json json = {{"gap", extreme_json(model, a.gap, a.length_scale)},
+                     {"tension", extreme_json(model, a.tension, a.force_scale)},
+                     {"product", extreme_json(model, a.product, a.energy_scale)},
+                     {"friction", extreme_json(model, a.friction, a.force_scale)},
+                     {"direction", extreme_json(model, a.direction, a.power_scale)},
+                     {"equilibrium", extreme_json(model, a.equilibrium, a.force_scale)},
+                     {"penetration", extreme_json(model, a.penetration, a.length_scale)},
+                     {"impulses_on_closed", a.impulses_on_closed},
+                     {"energy", extreme_json(model, a.energy, a.energy_scale)}};
   if (a.reactions) json["reactions"] = extreme_json(model, *a.reactions, a.force_scale);
   return json;
 }
 
-Json energy_json(const Energy& e) {
-  Json json;
+base::Json energy_json(const Energy& e) {
+  base::Json json;
   for (const EnergyColumn& column : energy_columns) json[column.name] = e.*column.value;
   json[balance_column] = e.balance();
   return json;
 }
 
-Json head_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line) {
+base::Json head_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line) {
   return {{"title", scene.title},
           {"scene", scene.file},
           {"command_line", command_line},
@@ -276,10 +278,10 @@ Json head_json(const Scene& scene, const Model& model, const std::vector<std::st
 // Names come from files in any encoding; a byte that is not UTF-8 must not prevent the summary.
 
 /// Reason why states could not be decided. Unknown or infinite values are written as null.
-Json refusal_json(const Model& model, const Refusal& refusal) {
-  Json contacts = Json::array();
+base::Json refusal_json(const Model& model, const Refusal& refusal) {
+  base::Json contacts = base::Json::array();
   for (const std::size_t c : refusal.contacts) contacts.push_back(model.contacts[c].name);
-  return {{"kind", to_string(refusal.kind)},
+  return {{"kind", signorini::to_string(refusal.kind)},
           {"contacts", contacts},
           {"cond", refusal.condition},
           {"residual", refusal.residual},
@@ -291,8 +293,8 @@ Json refusal_json(const Model& model, const Refusal& refusal) {
 std::string summary_json(const Scene& scene, const Model& model, const CertifiedReport& run,
                          const std::vector<std::string>& command_line) {
   const Report& report = run.report;
-  const Tolerance tolerance = tolerance_of(model, scene.run);
-  Json json;
+  const engine::Tolerance tolerance = engine::tolerance_of(model, scene.run);
+  base::Json json;
   json["outcome"] = {{"kind", to_string(report.outcome.kind)},
                      {"t", report.outcome.t},
                      {"t_end", scene.run.t_end},
@@ -301,10 +303,10 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   if (report.outcome.refusal) json["refusal"] = refusal_json(model, report.outcome.refusal);
   json["undecided"] = report.undecided;
   json.update(head_json(scene, model, command_line));
-  json["engine"] = to_string(report.method.engine);
+  json["engine"] = signorini::to_string(report.method.engine);
   json["warnings"] = report.warnings;
   json["settings"] = settings_json(scene.run, tolerance, report.method);
-  json["settings"]["rounding_floor"] = rounding_floor(model);
+  json["settings"]["rounding_floor"] = modes::rounding_floor(model);
   json["wall_time"] = report.wall_time;
   long total = 0;
   for (const auto& [type, count] : report.events_by_type) total += count;
@@ -319,26 +321,26 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
                     {"final", energy_json(report.audit.final)},
                     {"greatest_work_of_loads", report.audit.work_of_loads}};
   if (!model.outputs.empty()) json["response"] = response_json(model, report);
-  json["contacts"] = Json::array();
+  json["contacts"] = base::Json::array();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     json["contacts"].push_back(contact_json(model, k, tolerance.capture_velocity(), &run));
   }
-  return json_text(json);
+  return base::json_text(json);
 }
 
 namespace {
 
 /// summary.json without the results of the run's Report.
 std::string brief_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line,
-                       const Json& outcome) {
-  Json json;
+                       const base::Json& outcome) {
+  base::Json json;
   json["outcome"] = outcome;
   json.update(head_json(scene, model, command_line));
-  json["contacts"] = Json::array();
+  json["contacts"] = base::Json::array();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     json["contacts"].push_back(contact_json(model, k, 0.0, nullptr));
   }
-  return json_text(json);
+  return base::json_text(json);
 }
 
 }  // namespace
@@ -361,14 +363,15 @@ std::string abandoned_json(const Scene& scene, const Model& model,
 
 RunFacts read_run_facts(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
-  if (const std::string why = why_no_input_file(path); !why.empty())
+  if (const std::string why = base::why_no_input_file(path); !why.empty())
     throw FileError(path.string(), why + ", expected the summary of a run");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw FileError(path.string(), "cannot be read" + because(errno) + "; expected the directory of a run");
+    throw FileError(path.string(),
+                    "cannot be read" + base::because(errno) + "; expected the directory of a run");
   try {
-    const Json json = parse_json(file);
+    const base::Json json = base::parse_json(file);
     RunFacts facts;
     facts.title = json.at("title");
     facts.outcome = json.at("outcome").at("kind");
@@ -377,18 +380,19 @@ RunFacts read_run_facts(const std::filesystem::path& directory) {
       if (!found->at("complete").get<bool>()) facts.certain_until = found->at("until").get<double>();
     facts.units = units_from(json.at("units"));
     if (const auto found = json.find("response"); found != json.end())
-      for (const Json& output : *found) facts.response.push_back({output.at("name"), output.at("unit")});
+      for (const base::Json& output : *found)
+        facts.response.push_back({output.at("name"), output.at("unit")});
     std::set<std::string> names;
-    for (const Json& contact : json.at("contacts")) {
+    for (const base::Json& contact : json.at("contacts")) {
       facts.contacts.push_back({contact.at("name"), contact.at("law") == "slider",
                                 contact.at("static_friction"), contact.at("kinetic_friction")});
       if (const std::string& name = facts.contacts.back().name; !names.insert(name).second)
         throw FileError(path.string(), "names the contact '" + name + "' twice");
     }
     return facts;
-  } catch (const Json::exception& error) {
+  } catch (const base::Json::exception& error) {
     throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

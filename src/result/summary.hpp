@@ -10,7 +10,7 @@
 #include "signorini/certify.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 /// outcome.kind of a run that has ended.
 [[nodiscard]] const char* to_string(Outcome::Kind kind);
@@ -49,4 +49,4 @@ struct RunFacts {
 /// Reads them from DIR/summary.json. Errors: FileError.
 [[nodiscard]] RunFacts read_run_facts(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -6,27 +6,27 @@
 
 #include "base/json.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
-Json reduction_json(const Reduction& r, const Report* report) {
-  Json json = {{"cutoff_omega", r.cutoff},
-               {"modes_kept", r.modes},
-               {"free_motions", r.free_modes},
-               {"modes_left_out", r.left_out},
-               {"highest_kept", r.highest_kept},
-               {"first_left_out", r.first_left_out},
-               {"static_shapes", r.massless_shapes},
-               {"static_shapes_with_mass", r.massive_shapes},
-               {"highest_with_mass", r.highest_massive},
-               {"physical_degrees_of_freedom", r.dofs.size()},
-               {"ringing_left_out", r.ringing},
-               {"initial_displacement_lost", r.initial_displacement_lost},
-               {"initial_velocity_lost", r.initial_velocity_lost}};
+base::Json reduction_json(const Reduction& r, const Report* report) {
+  base::Json json = {{"cutoff_omega", r.cutoff},
+                     {"modes_kept", r.modes},
+                     {"free_motions", r.free_modes},
+                     {"modes_left_out", r.left_out},
+                     {"highest_kept", r.highest_kept},
+                     {"first_left_out", r.first_left_out},
+                     {"static_shapes", r.massless_shapes},
+                     {"static_shapes_with_mass", r.massive_shapes},
+                     {"highest_with_mass", r.highest_massive},
+                     {"physical_degrees_of_freedom", r.dofs.size()},
+                     {"ringing_left_out", r.ringing},
+                     {"initial_displacement_lost", r.initial_displacement_lost},
+                     {"initial_velocity_lost", r.initial_velocity_lost}};
   if (r.tolerance) {
     json["tolerance"] = *r.tolerance;
-    json["missed"] = r.tried.empty() ? Json() : Json(r.tried.back().missed);
-    json["error"] = r.tried.empty() ? Json() : Json(r.tried.back().error);
-    json["tried"] = Json::array();
+    json["missed"] = r.tried.empty() ? base::Json() : base::Json(r.tried.back().missed);
+    json["error"] = r.tried.empty() ? base::Json() : base::Json(r.tried.back().error);
+    json["tried"] = base::Json::array();
     for (const CutoffTrial& trial : r.tried)
       json["tried"].push_back({{"cutoff_omega", trial.cutoff_omega},
                                {"modes_kept", trial.modes},
@@ -34,9 +34,9 @@ Json reduction_json(const Reduction& r, const Report* report) {
                                {"moved", trial.moved},
                                {"error", trial.error}});
   }
-  json["compliance"] = Json::array();
+  json["compliance"] = base::Json::array();
   for (const ComplianceShare& share : r.shares) {
-    Json row = {{"of", share.what}, {"all_modes", share.compliance}, {"left_out", share.residual}};
+    base::Json row = {{"of", share.label}, {"all_modes", share.compliance}, {"left_out", share.residual}};
     if (report != nullptr && share.contact >= 0 &&
         static_cast<std::size_t>(share.contact) < report->peaks.size()) {
       const Peak& peak = report->peaks[static_cast<std::size_t>(share.contact)];
@@ -47,21 +47,22 @@ Json reduction_json(const Reduction& r, const Report* report) {
   return json;
 }
 
-Json units_json(const Units& units) {
+base::Json units_json(const Units& units) {
   return {{"force", units.force}, {"mass", units.mass}, {"length", units.length}, {"time", units.time}};
 }
 
-Units units_from(const Json& json) {
+Units units_from(const base::Json& json) {
   return {json.at("force"), json.at("mass"), json.at("length"), json.at("time")};
 }
 
-Json witness_json(const Model& model, const Testimony& witness) {
-  Json list = Json::array();
+base::Json witness_json(const Model& model, const Testimony& witness) {
+  base::Json list = base::Json::array();
   for (const Violation& v : witness.violations)
     list.push_back(
         {{"t", v.t},
          {"event", v.event},
-         {"contact", v.contact < 0 ? Json() : Json(model.contacts[static_cast<std::size_t>(v.contact)].name)},
+         {"contact", v.contact < 0 ? base::Json()
+                                   : base::Json(model.contacts[static_cast<std::size_t>(v.contact)].name)},
          {"law", v.law},
          {"value", v.value},
          {"limit", v.limit}});
@@ -81,13 +82,13 @@ std::string unit_in_words(std::string_view unit, const Units& units) {
       continue;
     }
     const std::string_view word = unit.substr(at, end - at);
-    std::string said(word);
+    std::string name_shown(word);
     for (const auto& [name, own] : words)
-      if (word == name) said = *own;
-    text += said;
+      if (word == name) name_shown = *own;
+    text += name_shown;
     at = end;
   }
   return text;
 }
 
-}  // namespace signorini
+}  // namespace signorini::result

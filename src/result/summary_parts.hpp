@@ -9,16 +9,16 @@
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 // Springs with a preload, in check and summary.json.
 
-inline Json hangers_json(const Model& model) {
-  Json list = Json::array();
+inline base::Json hangers_json(const Model& model) {
+  base::Json list = base::Json::array();
   for (const HangerLoad& hanger : model.hangers) {
-    Json json = {{"spring", hanger.spring}, {"cold", hanger.cold}, {"at_start", hanger.at_start}};
+    base::Json json = {{"spring", hanger.spring}, {"cold", hanger.cold}, {"at_start", hanger.at_start}};
     if (hanger.hot) json["hot"] = *hanger.hot;
-    if (hanger.at_start != 0.0) json["variability"] = variability(hanger);
+    if (hanger.at_start != 0.0) json["variability"] = outputs::variability(hanger);
     list.push_back(std::move(json));
   }
   return list;
@@ -26,19 +26,19 @@ inline Json hangers_json(const Model& model) {
 
 /// `report`: report of the run, or null. With it every direction of a contact has `followed`, its omitted compliance
 /// times the largest force: the displacement of the contact by the modes left out, without their inertia.
-[[nodiscard]] Json reduction_json(const Reduction& reduction, const Report* report);
+[[nodiscard]] base::Json reduction_json(const Reduction& reduction, const Report* report);
 
 // The units of a scene as JSON, with the keys of scene files.
 
 /// Object with force, mass, length, time.
-[[nodiscard]] Json units_json(const Units& units);
+[[nodiscard]] base::Json units_json(const Units& units);
 /// The inverse of units_json. Errors: Json::exception.
-[[nodiscard]] Units units_from(const Json& json);
+[[nodiscard]] Units units_from(const base::Json& json);
 
 // Results of a witness, for summary.json and `signorini witness --json`.
 
 /// {"checked", "violated", "violations": [{"t", "event", "contact", "law", "value", "limit"}, ...]}
-[[nodiscard]] Json witness_json(const Model& model, const Testimony& witness);
+[[nodiscard]] base::Json witness_json(const Model& model, const Testimony& witness);
 
 // Units of tables with the unit names of a scene.
 //
@@ -47,4 +47,4 @@ inline Json hangers_json(const Model& model) {
 /// In `unit`, letters only occur in names of quantities; words other than the four are unchanged.
 [[nodiscard]] std::string unit_in_words(std::string_view unit, const Units& units);
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -22,7 +22,7 @@
 
 #include "result/csv.hpp"
 
-namespace signorini {
+namespace signorini::result {
 
 /// Puts a value into a block: texts unchanged, numbers by shortest().
 template <class Value>
@@ -128,4 +128,4 @@ class TableFile {
   CsvFile file_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::result

@@ -9,7 +9,7 @@
 #include "contact/motion.hpp"
 #include "contact/work.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 void raise(Extreme& extreme, double value, double t, int contact = -1) {
@@ -25,16 +25,16 @@ struct Drops {
   int count = 0;
 };
 
-Drops drops_of(const Model& model, const Decision& decision) {
+Drops drops_of(const Model& model, const decide::Decision& decision) {
   const std::size_t contacts = model.contacts.size();
   Drops drops{std::vector<double>(contacts, 0.0), std::vector<bool>(contacts, false)};
   for (std::size_t k = 0; k < contacts; ++k) {
     const double from = decision.before[k].T, to = decision.after[k].T;
     if (!decision.jumped[k] || !(std::abs(to) < std::abs(from))) continue;
     const Contact& contact = model.contacts[k];
-    drops.own[k] = shear_energy(contact, from) - shear_energy(contact, to);
+    drops.own[k] = contact::shear_energy(contact, from) - contact::shear_energy(contact, to);
     const bool holds = decision.mode[k].state == State::stick && !decision.visited[k];
-    drops.any[k] = drops.own[k] > 0.0 || (slides_at_once(contact) && !holds);
+    drops.any[k] = drops.own[k] > 0.0 || (contact::slides_at_once(contact) && !holds);
     drops.sum += drops.own[k];
     drops.count += drops.any[k] ? 1 : 0;
   }
@@ -49,7 +49,7 @@ bool moves_at_once(const Model& model) {
   return false;
 }
 
-Auditor::Auditor(const Model& model, const Structure& structure)
+Auditor::Auditor(const Model& model, const linear::SystemMatrices& structure)
     : model_(model),
       structure_(structure),
       friction_(model.contacts.size(), 0.0),
@@ -58,7 +58,7 @@ Auditor::Auditor(const Model& model, const Structure& structure)
       landings_(model),
       massless_(moves_at_once(model)) {}
 
-void Auditor::add(const Works& works) {
+void Auditor::add(const motion::WorkIntegrals& works) {
   landings_.add(works);
   work_.loads += works.loads;
   work_.damping += works.damping;
@@ -69,7 +69,8 @@ void Auditor::add(const Works& works) {
   }
 }
 
-void Auditor::begin(const Decision& decision, const Mode& first, const Forcing& forcing, const Point& point) {
+void Auditor::begin(const decide::Decision& decision, const contact::ContactStates& first,
+                    const motion::Forcing& forcing, const motion::Point& point) {
   for (std::size_t k = 0; k < peaks_.size(); ++k)
     at_start_.push_back(place_of(k, forcing, decision.jet.t, decision.mode[k].state, point));
   for (std::size_t k = 0; k < supports_.size(); ++k) {
@@ -103,24 +104,26 @@ void Auditor::bears(std::size_t contact, double t, double N, double T) {
 
 double Auditor::slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const {
   const bool anchored = state.state == State::stick && model_.contacts[contact].tangential_stiffness;
-  return anchored ? state.anchor : slip_of(model_.contacts[contact], m);
+  return anchored ? state.anchor : contact::slip_of(model_.contacts[contact], m);
 }
 
-Auditor::Place Auditor::place_of(std::size_t k, const Forcing& forcing, double t, State state,
-                                 const Point& point) const {
+Auditor::Place Auditor::place_of(std::size_t k, const motion::Forcing& forcing, double t, State state,
+                                 const motion::Point& point) const {
   const Contact& contact = model_.contacts[k];
   if (!contact.compliance_split())
-    return {contact.normal.dot(point.u), slide_of(contact, k, forcing, t, point.u, point.v).ut};
+    return {contact.normal.dot(point.u), motion::slide_of(contact, k, forcing, t, point.u, point.v).ut};
   ContactMotion m = motion(k, forcing, t, point);
-  leave_out_borrowed(contact, state, m);
+  contact::leave_out_borrowed(contact, state, m);
   return {m.gap - contact.gap, m.ut};
 }
 
-void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const Point& point) {
+void Auditor::observe(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+                      const motion::Point& point) {
   for (std::size_t k = 0; k < mode.size(); ++k) observe(k, forcing, t, mode, point);
 }
 
-void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mode& mode, const Point& point) {
+void Auditor::observe(std::size_t k, const motion::Forcing& forcing, double t,
+                      const contact::ContactStates& mode, const motion::Point& point) {
   const Contact& contact = model_.contacts[k];
   const ContactMotion m = motion(k, forcing, t, point);
   const int index = static_cast<int>(k);
@@ -134,7 +137,7 @@ void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mod
   supports_[k].slip_at_end = slip(k, mode[k], m);
   landings_.observe(k, m.N);
 
-  const Violations off = violations(contact, mode[k].state, m);
+  const Violations off = contact::violations(contact, mode[k].state, m);
   raise(audit_.tension, off.tension, t, index);
   raise(audit_.gap, off.gap, t, index);
   raise(audit_.penetration, off.penetration, t, index);
@@ -145,8 +148,8 @@ void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mod
 
 void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }
 
-double Auditor::work_of_jump(const Forcing& forcing, double t, const Point& before,
-                             const Decision& decision) const {
+double Auditor::work_of_jump(const motion::Forcing& forcing, double t, const motion::Point& before,
+                             const decide::Decision& decision) const {
   Vector load = Vector::Zero(model_.size());
   forcing.add_load(t, 0, load.data());
   double work = 0.0;
@@ -155,14 +158,14 @@ double Auditor::work_of_jump(const Forcing& forcing, double t, const Point& befo
   return work;
 }
 
-void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
-                      const Forcing& forcing, bool load_jumps) {
+void Auditor::instant(double t, const decide::Decision& decision, const contact::ContactStates& old_mode,
+                      const motion::Point& before, const motion::Forcing& forcing, bool load_jumps) {
   landings_.instant(t, decision, old_mode);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
-  for (const Impulse& impulse : decision.impulses)
+  for (const decide::Impulse& impulse : decision.impulses)
     if (impulse.normal > 0.0 && !impulse.hit) ++audit_.impulses_on_closed;
-  const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
+  const motion::Point after{decision.u, decision.v, decision.jet.forces.col(0)};
   // If massless parts jump under constant loads, the loads do work.
   const bool any_jumps =
       std::find(decision.jumped.begin(), decision.jumped.end(), true) != decision.jumped.end();
@@ -184,7 +187,7 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
     if (!massless_) {
       loss = drops.own[k];
     } else if (load_jumps) {  // massless parts jump; a sliding contact is at its limit
-      loss = a.T * (slip_of(contact, a) - slip_of(contact, b));
+      loss = a.T * (contact::slip_of(contact, a) - contact::slip_of(contact, b));
     } else if (drops.any[k]) {  // massless parts follow: friction dissipates all released energy
       loss = drops.own[k] + (released - drops.sum) / drops.count;
     } else if (drops.count == 0 && contact.tangential_stiffness) {
@@ -199,7 +202,7 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
   work_.friction += lost;
 }
 
-Energy Auditor::stored(const Mode& mode, const Point& point) const {
+Energy Auditor::stored(const contact::ContactStates& mode, const motion::Point& point) const {
   Energy e;
   e.kinetic = point.energy ? point.energy->kinetic : 0.5 * structure_.quadratic(structure_.m, point.v.data());
   e.elastic = point.energy ? point.energy->elastic : 0.5 * structure_.quadratic(structure_.k, point.u.data());
@@ -209,8 +212,8 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
     m.N = point.N(model_.layout, k);
     m.T = point.T(model_.layout, k);
     m.gap = contact.gap_at(point.u);
-    m.vn = gap_rate(contact, point.v);
-    const double springs = stored_energy(contact, mode[k].state, m);
+    m.vn = contact::gap_rate(contact, point.v);
+    const double springs = contact::stored_energy(contact, mode[k].state, m);
     (contact.compliance_split() ? e.elastic : e.contact) += springs;
     if (const ShearElement* element =
             contact.sliding_point()) {  // its spring is part of the structure's stiffness
@@ -223,7 +226,7 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
   return e;
 }
 
-Energy Auditor::energy(double t, const Mode& mode, const Point& point) {
+Energy Auditor::energy(double t, const contact::ContactStates& mode, const motion::Point& point) {
   const Energy now = stored(mode, point);
   Energy e = work_;
   e.kinetic = now.kinetic;
@@ -232,7 +235,8 @@ Energy Auditor::energy(double t, const Mode& mode, const Point& point) {
   return audited(t, e);
 }
 
-Energy Auditor::energy(double t, const Works& ahead, const Mode& mode, const Point& point) {
+Energy Auditor::energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& mode,
+                       const motion::Point& point) {
   return audited(t, energy_before(ahead, mode, point));
 }
 
@@ -248,7 +252,8 @@ Energy Auditor::audited(double t, Energy e) {
   return e;
 }
 
-Energy Auditor::energy_before(const Works& works, const Mode& mode, const Point& point) const {
+Energy Auditor::energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& mode,
+                              const motion::Point& point) const {
   Energy e = stored(mode, point);
   e.impact = work_.impact;
   e.loads = work_.loads - works.loads;
@@ -258,13 +263,13 @@ Energy Auditor::energy_before(const Works& works, const Mode& mode, const Point&
   return e;
 }
 
-ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, const ContactState& state,
-                              const Point& point) const {
+ContactSample Auditor::sample(std::size_t k, const motion::Forcing& forcing, double t,
+                              const ContactState& state, const motion::Point& point) const {
   const ContactMotion m = motion(k, forcing, t, point);
   ContactSample s;
-  s.state = state_of_rows(state.state);
+  s.state = contact::state_of_rows(state.state);
   s.gap = m.gap;
-  const BodySlide slide = slide_of(model_.contacts[k], k, forcing, t, point.u, point.v);
+  const motion::BodySlide slide = motion::slide_of(model_.contacts[k], k, forcing, t, point.u, point.v);
   s.ut = slide.ut;
   s.vt = slide.vt;
   s.N = m.N;
@@ -272,7 +277,7 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   s.slip = slip(k, state, m);
   if (model_.contacts[k].compliance_split()) {
     ContactMotion touching = m;
-    leave_out_borrowed(model_.contacts[k], state.state, touching);
+    contact::leave_out_borrowed(model_.contacts[k], state.state, touching);
     s.gap = touching.gap;
     s.ut = touching.ut;
     s.vt = touching.vt;
@@ -281,7 +286,7 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   return s;
 }
 
-void Auditor::finish(Report& report, const Energy& last, double t, const Mode& mode) const {
+void Auditor::finish(Report& report, const Energy& last, double t, const contact::ContactStates& mode) const {
   report.landings = landings_.finish(t, mode);
   report.audit = audit_;
   report.audit.final = last;
@@ -295,4 +300,4 @@ void Auditor::finish(Report& report, const Energy& last, double t, const Mode& m
   report.supports = supports_;
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -10,45 +10,50 @@
 
 #include "run/touch_tracker.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 /// True if there are degrees of freedom with neither mass nor damping.
 [[nodiscard]] bool moves_at_once(const Model& model);
 
 class Auditor {
  public:
-  Auditor(const Model& model, const Structure& structure);
+  Auditor(const Model& model, const linear::SystemMatrices& structure);
 
   /// Adds the works and losses of a stretch of the motion.
-  void add(const Works& works);
+  void add(const motion::WorkIntegrals& works);
 
   /// Starts the audit. first: the states that were guessed before the decision; point: its motion.
-  void begin(const Decision& decision, const Mode& first, const Forcing& forcing, const Point& point);
+  void begin(const decide::Decision& decision, const contact::ContactStates& first,
+             const motion::Forcing& forcing, const motion::Point& point);
   /// Checks contacts at the end of a step or after an event.
-  void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
+  void observe(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+               const motion::Point& point);
   /// Checks one contact; only the entries of the point that it depends on are read.
-  void observe(std::size_t contact, const Forcing& forcing, double t, const Mode& mode, const Point& point);
+  void observe(std::size_t contact, const motion::Forcing& forcing, double t,
+               const contact::ContactStates& mode, const motion::Point& point);
   void equilibrium(double t, double residual);
   /// Adds the dissipation of an instant: friction forces that drop, loads that jump on massless parts.
-  void instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
-               const Forcing& forcing, bool load_jumps);
+  void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_mode,
+               const motion::Point& before, const motion::Forcing& forcing, bool load_jumps);
   /// Energies at t; also audits the balance. ahead: works that have been added and belong to times after t.
-  Energy energy(double t, const Mode& mode, const Point& point);
-  Energy energy(double t, const Works& ahead, const Mode& mode, const Point& point);
+  Energy energy(double t, const contact::ContactStates& mode, const motion::Point& point);
+  Energy energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& mode,
+                const motion::Point& point);
   /// Energies at a point before these works, which have been added; without an audit.
-  [[nodiscard]] Energy energy_before(const Works& works, const Mode& mode, const Point& point) const;
-  [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
-                                     const ContactState& state, const Point& point) const;
+  [[nodiscard]] Energy energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& mode,
+                                     const motion::Point& point) const;
+  [[nodiscard]] ContactSample sample(std::size_t contact, const motion::Forcing& forcing, double t,
+                                     const ContactState& state, const motion::Point& point) const;
 
   /// Energy dissipated by friction so far, by contact.
   [[nodiscard]] const std::vector<double>& losses() const { return friction_; }
 
-  void finish(Report& report, const Energy& last, double t, const Mode& mode) const;
+  void finish(Report& report, const Energy& last, double t, const contact::ContactStates& mode) const;
 
  private:
-  [[nodiscard]] ContactMotion motion(std::size_t k, const Forcing& forcing, double t,
-                                     const Point& point) const {
-    return motion_of(model_.contacts[k], k, forcing, t, point);
+  [[nodiscard]] ContactMotion motion(std::size_t k, const motion::Forcing& forcing, double t,
+                                     const motion::Point& point) const {
+    return motion::motion_of(model_.contacts[k], k, forcing, t, point);
   }
 
   /// Updates the extreme forces of a contact at t.
@@ -57,23 +62,23 @@ class Auditor {
   [[nodiscard]] double slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const;
 
   /// Work P . (u+ - u-) of constant loads on massless parts that jump.
-  [[nodiscard]] double work_of_jump(const Forcing& forcing, double t, const Point& before,
-                                    const Decision& decision) const;
+  [[nodiscard]] double work_of_jump(const motion::Forcing& forcing, double t, const motion::Point& before,
+                                    const decide::Decision& decision) const;
   /// Audits the balance of these energies.
   Energy audited(double t, Energy e);
   /// Kinetic, elastic and contact energies.
-  [[nodiscard]] Energy stored(const Mode& mode, const Point& point) const;
+  [[nodiscard]] Energy stored(const contact::ContactStates& mode, const motion::Point& point) const;
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   Audit audit_;
   Energy work_;  // dissipations and works so far
   std::vector<double> friction_;
   struct Place {
     double normal = 0.0, ut = 0.0;
   };
-  [[nodiscard]] Place place_of(std::size_t contact, const Forcing& forcing, double t, State state,
-                               const Point& point) const;
+  [[nodiscard]] Place place_of(std::size_t contact, const motion::Forcing& forcing, double t, State state,
+                               const motion::Point& point) const;
   std::vector<Place> at_start_;
   double seen_at_start_ = 0.0;  ///< Model::seen_energy
   std::vector<Peak> peaks_;
@@ -83,4 +88,4 @@ class Auditor {
   bool begun_ = false;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -10,7 +10,7 @@
 #include "run/engines.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 /// Relative to the fastest oscillation: see choose_engine.hpp.
@@ -24,7 +24,7 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
                integrator = engine_for(EngineRole::integrator);
   if (!exact_takes(model, run))
     return {integrator, true, "a law or a load of the scene has no motion in closed form"};
-  const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
+  const double decay = model::fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
     return {integrator, true,
             fmt::format("the fastest decay, {:.3g} 1/{}, is not slow beside the "
@@ -56,11 +56,11 @@ bool damped_modes_gain(const Model& model) {
 }
 
 ModalKind modal_kind(const Model& model) {
-  const std::string why = proportional_refusal(model);
+  const std::string why = modal::proportional_refusal(model);
   if (model.size() > most_unknowns) return {false, false, "so many unknowns that their modes are not stored"};
-  if (why.empty()) return {false, most_state_springs(model) > most_rank, ""};
-  if (std::string other = damped_refusal(model); !other.empty()) return {true, false, other};
-  return {true, most_state_terms(model) > most_damped_terms,
+  if (why.empty()) return {false, modal::most_state_springs(model) > modal::most_rank, ""};
+  if (std::string other = modal::damped_refusal(model); !other.empty()) return {true, false, other};
+  return {true, modal::most_state_terms(model) > modal::most_damped_terms,
           model.size() > most_damped_unknowns ? why + ", with so many unknowns" : ""};
 }
 
@@ -98,4 +98,4 @@ FlowChoice choose_flow(const Model& model, const RunSpec& run) {
   return {true, kind.damped ? "as given: complex modes" : "as given"};
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -14,7 +14,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 struct EngineChoice {
   Engine engine = Engine::automatic;
@@ -54,4 +54,4 @@ struct ModalKind {
 /// Errors: SceneError if run.flow = "modal" and modes cannot compute the scene.
 [[nodiscard]] FlowChoice choose_flow(const Model& model, const RunSpec& run);
 
-}  // namespace signorini
+}  // namespace signorini::run

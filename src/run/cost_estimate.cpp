@@ -12,7 +12,7 @@
 #include "signorini/error.hpp"
 #include "signorini/simulate.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 /// Seconds per step: a constant, and a term per unknown. Measured on a machine of 2024, one thread.
@@ -43,7 +43,7 @@ Effort effort(double steps_per_period, double steps, const StepTime& time, long 
 }
 
 Effort effort_of_series(const Model& model, const RunSpec& run, double omega_max) {
-  const double fastest = std::max(omega_max, fastest_decay(model));
+  const double fastest = std::max(omega_max, model::fastest_decay(model));
   return effort(2.0 * std::numbers::pi / radians_of_series * fastest / omega_max,
                 run.t_end * fastest / radians_of_series, time_of_series, model.size());
 }
@@ -153,7 +153,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double p
     const Effort effort = expected(model, run).effort;
     if (effort.first > longest_first) return effort.seconds;
     Stopwatch watch(patience);
-    const Report report = simulate(model, run, watch);
+    const Report report = signorini::simulate(model, run, watch);
     if (report.outcome.kind == Outcome::Kind::done) return watch.now();
     if (report.outcome.kind != Outcome::Kind::interrupted) return 0.0;
     const double moved = watch.t_reached - watch.t_1;
@@ -276,4 +276,4 @@ std::string about_seconds(double seconds) {
   return seconds < 0.1 ? "less than 0.1" : fmt::format("about {:g}", rough(seconds));
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -11,7 +11,7 @@
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 // Estimated cost of a time loop, as an order of magnitude, before it runs.
 //
@@ -113,4 +113,4 @@ struct Expected {
 /// Duration as text: "about 3", "less than 0.1".
 [[nodiscard]] std::string about_seconds(double seconds);
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -10,10 +10,10 @@
 #include "base/rounding.hpp"
 #include "scene/quantities.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
-constexpr std::size_t last = Chebyshev::count - 1;
+constexpr std::size_t last_node = Chebyshev::count - 1;
 
 using Matrix = std::array<Chebyshev::Values, Chebyshev::count>;
 
@@ -21,10 +21,10 @@ using Matrix = std::array<Chebyshev::Values, Chebyshev::count>;
 Matrix derivative(std::size_t stride) {
   const Chebyshev::Values& x = Chebyshev::nodes();
   Matrix d{};
-  for (std::size_t i = 0; i <= last; i += stride)
-    for (std::size_t j = 0; j <= last; j += stride) {
+  for (std::size_t i = 0; i <= last_node; i += stride)
+    for (std::size_t j = 0; j <= last_node; j += stride) {
       if (i == j) continue;
-      const double ci = i == 0 || i == last ? 2.0 : 1.0, cj = j == 0 || j == last ? 2.0 : 1.0;
+      const double ci = i == 0 || i == last_node ? 2.0 : 1.0, cj = j == 0 || j == last_node ? 2.0 : 1.0;
       d[i][j] = ci / cj * ((i + j) / stride % 2 == 0 ? 1.0 : -1.0) / (x[i] - x[j]);
     }
   return d;
@@ -40,9 +40,9 @@ const Matrix& derivative_of(std::size_t stride) {
 const Chebyshev::Values& Chebyshev::nodes() {
   static const Values x = [] {
     Values points{};
-    for (std::size_t i = 0; i <= last; ++i)
-      points[i] = -std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(last));
-    points[last / 2] = 0.0;
+    for (std::size_t i = 0; i <= last_node; ++i)
+      points[i] = -std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(last_node));
+    points[last_node / 2] = 0.0;
     return points;
   }();
   return x;
@@ -50,9 +50,9 @@ const Chebyshev::Values& Chebyshev::nodes() {
 
 double Chebyshev::through(const Values& values, std::size_t stride, double x) {
   double above = 0.0, below = 0.0, sign = 1.0;
-  for (std::size_t i = 0; i <= last; i += stride, sign = -sign) {
+  for (std::size_t i = 0; i <= last_node; i += stride, sign = -sign) {
     if (x == nodes()[i]) return values[i];
-    const double w = sign * (i == 0 || i == last ? 0.5 : 1.0) / (x - nodes()[i]);
+    const double w = sign * (i == 0 || i == last_node ? 0.5 : 1.0) / (x - nodes()[i]);
     above += w * values[i];
     below += w;
   }
@@ -63,8 +63,8 @@ Chebyshev::Values Chebyshev::slopes(const Values& values, std::size_t stride) {
   const Matrix& d = derivative_of(stride);
   Values result{};
   // Differences are used, so that a constant has the derivative zero: the diagonal is minus the sum of its row.
-  for (std::size_t i = 0; i <= last; i += stride)
-    for (std::size_t j = 0; j <= last; j += stride) result[i] += d[i][j] * (values[j] - values[i]);
+  for (std::size_t i = 0; i <= last_node; i += stride)
+    for (std::size_t j = 0; j <= last_node; j += stride) result[i] += d[i][j] * (values[j] - values[i]);
   return result;
 }
 
@@ -133,14 +133,14 @@ CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recor
   if (!wanted_) return;
   const std::vector<Column> columns = drawn_columns(model);
   const std::size_t most = most_points_of(share.whole() ? columns.size() : share.columns);
-  const Thinned<CurvePoint, 1, ValueOf> none(t_end * model.unit.time, {.most = most});
+  const base::Downsampled<CurvePoint, 1, ValueOf> none(t_end * model.unit.time, {.most = most});
   for (const Column& column : columns) {
     const bool turns =
         column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
     curves_.push_back(
         {column.name, turns ? Kind::angle : Kind::length, column.dof, turns ? 1.0 : model.unit.length, none});
   }
-  const double unit = factor_of(unit::energy, model.unit);
+  const double unit = scene::factor_of(unit::energy, model.unit);
   for (const EnergyColumn& column : energy_columns)
     curves_.push_back({column.name, Kind::energy, -1, unit, none, share.whole()});
   curves_.push_back({balance_column, Kind::balance, -1, unit, none, share.whole()});
@@ -227,4 +227,4 @@ void CurveRecord::write(Recorder& recorder) {
   recorder.curves(curves);
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -20,7 +20,7 @@
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 // Distance of rows such that straight lines between them represent the curve.
 //
@@ -101,7 +101,7 @@ class CurveRecord {
     Kind kind;
     int dof;        // -1: fixed, or an energy
     double factor;  // unit conversion
-    Thinned<CurvePoint, 1, ValueOf> points;
+    base::Downsampled<CurvePoint, 1, ValueOf> points;
     bool kept = true;  // false: another object sums it with those of other parts
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
 
@@ -124,4 +124,4 @@ class CurveRecord {
   std::vector<Curve> curves_;                            // displacements, energies, the balance
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -17,7 +17,7 @@
 #include "run/choose_engine.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 constexpr const char* ida_instead = "use \"ida\"";
@@ -49,7 +49,7 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
               "needs constant stiffnesses, but the stiffness of pendulum '{}' varies with its normal force",
               contact.name),
           ida_instead);
-    if (friction_varies(contact))
+    if (contact::friction_varies(contact))
       refuse(run,
              fmt::format("needs linear laws, but the friction of contact '{}' depends on its {}",
                          contact.name, contact.friction.by_force() ? "normal force" : "slip rate"),
@@ -84,13 +84,13 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
       refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid", contact.name),
              "use \"newmark\" or law = \"compliant\"");
   }
-  const SharedRows shared(model, Structure(model));
+  const linear::RedundantRows shared(model, linear::SystemMatrices(model));
   if (shared.groups().empty()) return;
   std::vector<std::string> names;
   for (const std::size_t k : shared.groups().front()) names.push_back(model.contacts[k].name);
   refuse(run,
          fmt::format("decides each contact alone, and contacts {} may hold one motion together",
-                     listed(names, 5)),
+                     base::listed(names, 5)),
          "use \"newmark\" or a tangential_stiffness");
 }
 
@@ -102,7 +102,7 @@ void refuse_endless_series(const Model& model, const RunSpec& run) {
          fmt::format(
              "follows the highest frequency, {:.3g} rad/{}, by series: {:.2g} radians to t_end, whose steps "
              "no double tells from none",
-             said(model, model.omega_max, unit::rate), model.units.time, radians),
+             model::in_scene_units(model, model.omega_max, unit::rate), model.units.time, radians),
          "use \"ida\", or less stiffness");
 }
 
@@ -112,11 +112,11 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
   refuse_functions(model, run);
   const auto check = [&](const History& history, const std::string& what) {
     for (const Piece& p : history.pieces())
-      for (std::size_t j = most_levels - 1; j < p.coefficients.size(); ++j)
+      for (std::size_t j = exact::most_levels - 1; j < p.coefficients.size(); ++j)
         if (p.coefficients[j] != 0.0)
           refuse(run,
-                 fmt::format("takes polynomials up to degree {}; {} has degree {} or more", most_levels - 2,
-                             what, j),
+                 fmt::format("takes polynomials up to degree {}; {} has degree {} or more",
+                             exact::most_levels - 2, what, j),
                  "");
   };
   for (const Load& load : model.loads) check(load.history, load.name);
@@ -133,7 +133,7 @@ Method closed_flow(const Model& model, const RunSpec& run) {
           false,
           "",
           0.0,
-          most_levels,
+          exact::most_levels,
           flow.modal ? "for the Taylor series of states without modes; rtol is not used"
                      : "Taylor series, as long as rounding accuracy needs; rtol is not used",
           flow.modal ? "modal" : "taylor",
@@ -141,7 +141,7 @@ Method closed_flow(const Model& model, const RunSpec& run) {
 }
 
 Method bdf(const Model& model, const RunSpec& run) {
-  const Order order = choose_order(model, run);
+  const ida::Order order = ida::choose_order(model, run);
   return {run.engine, false, "", run.rtol, order.greatest, order.reason};
 }
 
@@ -152,26 +152,26 @@ Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
   return {run.engine, false, "", *run.dt, 2, "average acceleration"};
 }
 
-std::unique_ptr<Stepper> make_exact(const EngineParts& p) {
+std::unique_ptr<engine::Stepper> make_exact(const EngineParts& p) {
   if (choose_flow(p.model, p.run).modal)
-    return std::make_unique<ModalEngine>(
+    return std::make_unique<modal::ModalEngine>(
         p.model, p.structure, p.systems, p.run.t_end,
-        ModalUse{p.needs.modal, p.needs.peaks, p.needs.step_seed, p.watched});
-  return std::make_unique<ExactEngine>(p.model, p.structure, p.systems, p.run.t_end,
-                                       SeriesUse{p.alone, p.needs.step_seed});
+        modal::ModalUse{p.needs.modal, p.needs.peaks, p.needs.step_seed, p.watched});
+  return std::make_unique<exact::ExactEngine>(p.model, p.structure, p.systems, p.run.t_end,
+                                              exact::SeriesUse{p.alone, p.needs.step_seed});
 }
 
-std::unique_ptr<Stepper> make_ida(const EngineParts& p) {
-  return std::make_unique<IdaEngine>(p.model, p.structure, p.systems, p.tolerance, p.max_order, p.run.t_end,
-                                     p.run.flight_tolerances);
+std::unique_ptr<engine::Stepper> make_ida(const EngineParts& p) {
+  return std::make_unique<ida::IdaEngine>(p.model, p.structure, p.systems, p.tolerance, p.max_order,
+                                          p.run.t_end, p.run.flight_tolerances);
 }
 
-std::unique_ptr<Stepper> make_newmark(const EngineParts& p) {
-  return std::make_unique<NewmarkEngine>(p.model, p.structure, p.systems, p.run, p.tolerance);
+std::unique_ptr<engine::Stepper> make_newmark(const EngineParts& p) {
+  return std::make_unique<newmark::NewmarkEngine>(p.model, p.structure, p.systems, p.run, p.tolerance);
 }
 
-std::unique_ptr<Stepper> make_friction_iteration(const EngineParts& p) {
-  return std::make_unique<FrictionIteration>(p.model, p.structure, p.systems, p.run);
+std::unique_ptr<engine::Stepper> make_friction_iteration(const EngineParts& p) {
+  return std::make_unique<newmark::FrictionIteration>(p.model, p.structure, p.systems, p.run);
 }
 
 bool always(const RunSpec& /*run*/) { return true; }
@@ -197,7 +197,7 @@ constexpr std::array rows_of_engines = {
               {.follow_orbits = true,
                .laws_at_ends = true,
                .locates_events = always,
-               .knows_low_flights = IdaEngine::follows_low_flights},
+               .knows_low_flights = ida::IdaEngine::follows_low_flights},
               refuse_nothing,
               bdf,
               make_ida,
@@ -248,4 +248,4 @@ std::string engines_that(bool EngineAbilities::*can) {
   return names;
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -21,15 +21,15 @@
 #include "signorini/error.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 /// Data for making an engine. All referenced objects must outlive the engine, except run and tolerance.
 struct EngineParts {
   const Model& model;
-  const Structure& structure;
-  ModeSystems& systems;
+  const linear::SystemMatrices& structure;
+  motion::StateSystems& systems;
   const RunSpec& run;
-  const Tolerance& tolerance;
+  const engine::Tolerance& tolerance;
   int max_order;
   ListenerNeeds needs = {};
   bool alone = false;  ///< no listener reads its steps
@@ -72,7 +72,7 @@ struct EngineRow {
   void (*refuse)(const Model& model, const RunSpec& run);
   /// Order and its reason. Errors: SceneError if a step is required and not given.
   Method (*method)(const Model& model, const RunSpec& run);
-  std::unique_ptr<Stepper> (*make)(const EngineParts& parts);
+  std::unique_ptr<engine::Stepper> (*make)(const EngineParts& parts);
   /// Estimated cost of the time loop, as an order of magnitude.
   Effort (*effort)(const EffortParts& parts);
 };
@@ -84,4 +84,4 @@ struct EngineRow {
 /// Names of the engines with an ability, as in "\"exact\" or \"ida\"".
 [[nodiscard]] std::string engines_that(bool EngineAbilities::*can);
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -11,19 +11,19 @@
 #include "model/machine_units.hpp"
 #include "run/physical.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 // Fraction of the time reached. Chosen value: data are rarely known more accurately; tests/behaviour/awkward.cpp
 // depends on it.
 constexpr double coincidence = 1e-9;
 
-bool is_hit(const Decision& decision, std::size_t k) {
+bool is_hit(const decide::Decision& decision, std::size_t k) {
   return !decision.impulses.empty() && decision.impulses[k].hit;
 }
 
 /// Ratio that decided between rest and flight: of the rebound or of the later departure, the one nearest to one.
-std::optional<double> departure_of(const Decision& decision, std::size_t k) {
+std::optional<double> departure_of(const decide::Decision& decision, std::size_t k) {
   const auto known = [](double ratio) { return std::isfinite(ratio) && ratio > 0.0; };
   const double rebound =
       decision.impulses.empty() ? std::numeric_limits<double>::quiet_NaN() : decision.impulses[k].rebound;
@@ -47,20 +47,20 @@ void settle(const Contact& contact, double error, Event& event) {
 
 /// True if the sliding point can jump: it is massless, or a spring connects it to the mass.
 bool can_slide_at_once(const Model& model, const Contact& contact) {
-  return !contact.takes_impulses() && (!contact.sticks_rigidly() || carries_massless(model, contact));
+  return !contact.takes_impulses() && (!contact.sticks_rigidly() || decide::carries_massless(model, contact));
 }
 
 /// State as named in events: held at the limit counts as slip.
-State in_events(State state) { return is_held(state) ? kind_of(state) : state_of_rows(state); }
+State in_events(State state) { return is_held(state) ? kind_of(state) : contact::state_of_rows(state); }
 
 /// Event of a contact from the decision, without data about the guard.
 Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, const Contact& contact) {
-  const Decision& decision = *now.decision;
+  const decide::Decision& decision = *now.decision;
   ContactMotion before = decision.before[k], after = decision.after[k];
   double vt = decision.slides_before[k].vt, vt_after = decision.slides_after[k].vt;
   if (contact.compliance_split()) {
-    leave_out_borrowed(contact, (*now.before)[k].state, before);
-    leave_out_borrowed(contact, decision.mode[k].state, after);
+    contact::leave_out_borrowed(contact, (*now.before)[k].state, before);
+    contact::leave_out_borrowed(contact, decision.mode[k].state, after);
     vt = before.vt;
     vt_after = after.vt;
   }
@@ -97,7 +97,7 @@ std::optional<EventType> classify(State from, State to, bool let_go) {
   return slip_sign(to) != 0 || slip_sign(from) == 0 ? EventType::slip : EventType::stick;
 }
 
-std::optional<double> time_uncertainty(const Crossing& crossing, double error) {
+std::optional<double> time_uncertainty(const decide::Crossing& crossing, double error) {
   double off = std::numeric_limits<double>::infinity(), factorial = 1.0;
   for (std::size_t m = 0; m < crossing.derivatives.size(); ++m) {
     const auto order = static_cast<double>(m + 1);
@@ -108,16 +108,16 @@ std::optional<double> time_uncertainty(const Crossing& crossing, double error) {
   return std::isfinite(off) ? std::optional(off) : std::nullopt;
 }
 
-void EventLog::start(const Instant& now, const Stepper& stepper) {
+void EventLog::start(const Instant& now, const engine::Stepper& stepper) {
   latest_.clear();
   for (std::size_t k = 0; k < now.before->size(); ++k)
     if (is_hit(*now.decision, k)) contact(now, k, EventType::impact, stepper);
 }
 
-void EventLog::instant(const Instant& now, const Stepper& stepper) {
+void EventLog::instant(const Instant& now, const engine::Stepper& stepper) {
   latest_.clear();
   if (now.load_jumps) load_jump(now);
-  const Decision& decision = *now.decision;
+  const decide::Decision& decision = *now.decision;
   for (std::size_t k = 0; k < now.before->size(); ++k) {
     const State from = in_events((*now.before)[k].state), to = in_events(decision.mode[k].state);
     const bool let_go = from == State::stick && decision.visited[k] && decision.jumped[k] &&
@@ -130,16 +130,16 @@ void EventLog::instant(const Instant& now, const Stepper& stepper) {
 }
 
 void EventLog::see_hits(const Instant& now) {
-  const Decision& decision = *now.decision;
+  const decide::Decision& decision = *now.decision;
   for (std::size_t k = 0; k < decision.impulses.size(); ++k) {
     if (!decision.impulses[k].hit) continue;
     const double apart = now.t - last_hit_.t;
     if (!last_hit_.moves.empty() && last_hit_.moves[k] && apart > now.resolution &&
         apart < coincidence * now.t)
-      order_.warn(
-          fmt::format("the hits of '{}' at {:.12g} and of '{}' {:.2g} later, which act on each other,",
-                      model_.contacts[last_hit_.contact].name, said_time(model_, last_hit_.t),
-                      model_.contacts[k].name, said_time(model_, apart)));
+      order_.warn(fmt::format(
+          "the hits of '{}' at {:.12g} and of '{}' {:.2g} later, which act on each other,",
+          model_.contacts[last_hit_.contact].name, model::time_in_scene_units(model_, last_hit_.t),
+          model_.contacts[k].name, model::time_in_scene_units(model_, apart)));
   }
   Hit hit;
   for (std::size_t k = 0; k < decision.impulses.size(); ++k)
@@ -166,7 +166,7 @@ void EventLog::load_jump(const Instant& now) {
   if (whole_) order_.load_jump(now.t);
 }
 
-void EventLog::contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper) {
+void EventLog::contact(const Instant& now, std::size_t k, EventType type, const engine::Stepper& stepper) {
   if (type != EventType::time) ++report_.events_by_type[to_string(type)];
   Event event = event_of(now, k, type, model_.contacts[k]);
   add_conditioning(now, stepper, k, event);
@@ -175,12 +175,13 @@ void EventLog::contact(const Instant& now, std::size_t k, EventType type, const 
 }
 
 /// Adds the uncertainty of an event's time, and checks its order among other events.
-void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event) {
-  const Crossing* failed = now.decision->crossing(k);
+void EventLog::add_conditioning(const Instant& now, const engine::Stepper& stepper, std::size_t k,
+                                Event& event) {
+  const decide::Crossing* failed = now.decision->crossing(k);
   if (failed == nullptr) return;
-  const Crossing& crossing = *failed;
-  event.guard_rate =
-      said(model_, crossing.derivatives[0], unit_of(crossing.form)) * said(model_, 1.0, unit::rate);
+  const decide::Crossing& crossing = *failed;
+  event.guard_rate = model::in_scene_units(model_, crossing.derivatives[0], contact::unit_of(crossing.form)) *
+                     model::in_scene_units(model_, 1.0, unit::rate);
   const double error =
       std::max(crossing.noise, stepper.guard_error(crossing.form, now.decision->before[k], k));
   // The instant itself is known only to the resolution of the clock.
@@ -198,21 +199,22 @@ constexpr int most_warnings = 5;  // limit for pairs of events of unknown order
 
 }  // namespace
 
-std::string EventOrder::told(const Event& event) const {
+std::string EventOrder::described(const Event& event) const {
   return fmt::format("'{}' at {:.12g}", model_.contacts[static_cast<std::size_t>(event.contact)].name,
-                     said_time(model_, event.t));
+                     model::time_in_scene_units(model_, event.t));
 }
 
 void EventOrder::event(const Event& event, double resolution) {
   if (last_.contact >= 0 && last_.contact != event.contact && event.t - last_.t > resolution &&
       event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty)
-    warn(fmt::format("the events of {} and of {}", told(last_), told(event)));
+    warn(fmt::format("the events of {} and of {}", described(last_), described(event)));
   last_ = event;
 }
 
 void EventOrder::load_jump(double t) {
   if (last_.contact >= 0 && t - last_.t < *last_.t_uncertainty)
-    warn(fmt::format("the event of {} and the jump of a load at {:.12g}", told(last_), said_time(model_, t)));
+    warn(fmt::format("the event of {} and the jump of a load at {:.12g}", described(last_),
+                     model::time_in_scene_units(model_, t)));
 }
 
 void EventOrder::warn(const std::string& which) {
@@ -229,4 +231,4 @@ void EventOrder::finish() {
         fmt::format("{} more pairs of events whose order is not determined", unordered_ - most_warnings));
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

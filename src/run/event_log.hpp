@@ -22,7 +22,7 @@
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 // Detects events whose order is unknown.
 //
@@ -42,7 +42,7 @@ class EventOrder {
   void finish();
 
  private:
-  [[nodiscard]] std::string told(const Event& event) const;
+  [[nodiscard]] std::string described(const Event& event) const;
 
   const Model& model_;
   Report& report_;
@@ -54,7 +54,7 @@ class EventOrder {
 [[nodiscard]] std::optional<EventType> classify(State from, State to, bool let_go);
 
 /// Uncertainty of the time at which a guard is zero, for an error of its value; nullopt: no derivative is known.
-[[nodiscard]] std::optional<double> time_uncertainty(const Crossing& crossing, double error);
+[[nodiscard]] std::optional<double> time_uncertainty(const decide::Crossing& crossing, double error);
 
 /// The rate guard_rate, whose unit depends on the guard, is in the scene's units; all other values are in those of the
 /// model.
@@ -67,23 +67,23 @@ class EventLog {
 
   struct Instant {
     double t = 0.0, resolution = 0.0;
-    const Decision* decision = nullptr;
-    const Mode* before = nullptr;  ///< states just before
+    const decide::Decision* decision = nullptr;
+    const contact::ContactStates* before = nullptr;  ///< states just before
     bool load_jumps = false;
     /// Time for which the triggered guard had been zero up to rounding, one entry per contact; empty: none had.
     std::vector<double> unseen = {};
   };
   /// Logs hits of rigid contacts; there are no other events at the start.
-  void start(const Instant& now, const Stepper& stepper);
-  void instant(const Instant& now, const Stepper& stepper);
+  void start(const Instant& now, const engine::Stepper& stepper);
+  void instant(const Instant& now, const engine::Stepper& stepper);
   void finish();
   /// Rows of the last instant that have a contact, in the units of the model except guard_rate.
   [[nodiscard]] const std::vector<Event>& latest() const { return latest_; }
 
  private:
   void load_jump(const Instant& now);
-  void contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper);
-  void add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event);
+  void contact(const Instant& now, std::size_t k, EventType type, const engine::Stepper& stepper);
+  void add_conditioning(const Instant& now, const engine::Stepper& stepper, std::size_t k, Event& event);
   void see_hits(const Instant& now);
 
   const Model& model_;
@@ -100,4 +100,4 @@ class EventLog {
   bool whole_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

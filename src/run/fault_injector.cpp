@@ -2,14 +2,15 @@
 
 #include <utility>
 
-namespace signorini {
+namespace signorini::run {
 
-void FaultInjector::inject(Decider& decider, Instant now, const Forcing& forcing, Decision& decided) {
-  Decision changed = decided;
+void FaultInjector::inject(decide::ContactStateSolver& decider, decide::Instant now,
+                           const motion::Forcing& forcing, decide::Decision& decided) {
+  decide::Decision changed = decided;
   if (!change(now.mode, now.v, changed)) return;
   now.u = changed.u;
   now.v = changed.v;
-  const Decision other = decider.adopt(now, changed.mode, forcing);
+  const decide::Decision other = decider.adopt(now, changed.mode, forcing);
   changed.consistent = other.consistent;
   changed.refusal = other.refusal;
   changed.system = other.system;
@@ -24,4 +25,4 @@ void FaultInjector::inject(Decider& decider, Instant now, const Forcing& forcing
   decided = std::move(changed);
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -8,7 +8,7 @@
 #include "decide/contact_state_solver.hpp"
 #include "engine/stepper.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 class FaultInjector {
  public:
@@ -16,22 +16,24 @@ class FaultInjector {
   /// Restores the correct model, rescaled like the one that the run computes; the witness receives the result.
   virtual void correct(Model& /*model*/) {}
   /// Delay of a located event.
-  virtual double late(const Step& /*step*/, const Decision& /*before*/) { return 0.0; }
+  virtual double late(const engine::Step& /*step*/, const decide::Decision& /*before*/) { return 0.0; }
   /// Sets guards that the engine is to miss to Guard::none.
-  virtual void watch(std::vector<GuardStart>& /*guards*/) {}
+  virtual void watch(std::vector<decide::GuardStart>& /*guards*/) {}
   /// Replaces the decided states, velocities and impulses. True: the motion continues from the replacement.
-  virtual bool change(const Mode& /*mode_before*/, const Vector& /*v_before*/, Decision& /*decided*/) {
+  virtual bool change(const contact::ContactStates& /*mode_before*/, const Vector& /*v_before*/,
+                      decide::Decision& /*decided*/) {
     return false;
   }
   /// True if peaks are taken at the ends of steps only.
   virtual bool forgets_peaks_inside() { return false; }
 
   /// Changes the decision of this instant, and recomputes the quantities that follow from the change.
-  void inject(Decider& decider, Instant now, const Forcing& forcing, Decision& decided);
+  void inject(decide::ContactStateSolver& decider, decide::Instant now, const motion::Forcing& forcing,
+              decide::Decision& decided);
 };
 
 /// Run as in signorini/simulate.hpp, with injected errors.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               FaultInjector& faults);
 
-}  // namespace signorini
+}  // namespace signorini::run

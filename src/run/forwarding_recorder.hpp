@@ -8,7 +8,7 @@
 
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 class ForwardingRecorder : public Recorder {
  public:
@@ -54,4 +54,4 @@ class ForwardingRecorder : public Recorder {
   double reached_ = 0.0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -11,12 +11,12 @@
 #include "run/choose_engine.hpp"
 #include "run/part_rows.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 constexpr std::size_t most_of_all_parts = 50;  // limit over all parts
 
-int number_of(const PartModel& part, int contact) {
+int number_of(const assembly::PartModel& part, int contact) {
   return contact < 0 ? contact : static_cast<int>(part.contacts[static_cast<std::size_t>(contact)]);
 }
 
@@ -24,7 +24,7 @@ constexpr Extreme Audit::*greatest_of_parts[] = {&Audit::gap,        &Audit::ten
                                                  &Audit::friction,   &Audit::direction, &Audit::equilibrium,
                                                  &Audit::penetration};
 
-void join(const PartModel& part, const Audit& own, Audit& all) {
+void join(const assembly::PartModel& part, const Audit& own, Audit& all) {
   for (Extreme Audit::*const extreme : greatest_of_parts)
     if ((own.*extreme).value > (all.*extreme).value) {
       all.*extreme = own.*extreme;
@@ -65,7 +65,7 @@ void join(const Counters& own, Counters& all) {
   for (const auto& [order, steps] : own.steps_by_order) all.steps_by_order[order] += steps;
 }
 
-void join(const PartModel& part, const Testimony& own, Testimony& all) {
+void join(const assembly::PartModel& part, const Testimony& own, Testimony& all) {
   all.checked += own.checked;
   all.violated += own.violated;
   for (Violation v : own.violations) {
@@ -76,18 +76,18 @@ void join(const PartModel& part, const Testimony& own, Testimony& all) {
 
 }  // namespace
 
-double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<RunEnd>& endings,
-            Report& report) {
+double join(const Model& whole, const std::vector<assembly::PartModel>& parts,
+            const std::vector<RunEnd>& endings, Report& report) {
   report.audit.energy_scale = 0.0;
   report.audit.friction_work.resize(whole.contacts.size());
   report.peaks.resize(whole.contacts.size());
   report.supports.resize(whole.contacts.size());
   report.landings.resize(whole.contacts.size());
   report.warnings.insert(report.warnings.begin(), whole.warnings.begin(), whole.warnings.end());
-  std::set<std::string> said;
+  std::set<std::string> unique;
   double energy_rounding = 0.0, greatest_off = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const PartModel& part = parts[i];
+    const assembly::PartModel& part = parts[i];
     const Report& own = endings[i].report;
     join(part, own.audit, report.audit);
     if (own.audit.energy.value > greatest_off) {
@@ -105,12 +105,13 @@ double join(const Model& whole, const std::vector<PartModel>& parts, const std::
     if (own.forgiven_at && !(report.forgiven_at && *report.forgiven_at <= *own.forgiven_at))
       report.forgiven_at = own.forgiven_at;
     for (const std::string& warning : own.warnings)
-      if (said.insert(warning).second && said.size() <= most_of_all_parts) report.warnings.push_back(warning);
+      if (unique.insert(warning).second && unique.size() <= most_of_all_parts)
+        report.warnings.push_back(warning);
     energy_rounding += endings[i].energy_rounding;
   }
-  if (said.size() > most_of_all_parts)
+  if (unique.size() > most_of_all_parts)
     report.warnings.push_back(
-        fmt::format("{} more warnings of parts that nothing couples", said.size() - most_of_all_parts));
+        fmt::format("{} more warnings of parts that nothing couples", unique.size() - most_of_all_parts));
   std::vector<Violation>& found = report.witness.violations;
   std::stable_sort(found.begin(), found.end(),
                    [](const Violation& a, const Violation& b) { return a.t < b.t; });
@@ -135,10 +136,10 @@ RunSpec as_chosen(RunSpec spec, const Method& method) {
 }
 
 /// Keeps only the curves that are drawn in pictures of the whole model.
-void keep_drawn(const Model& whole, std::vector<PartModel>& parts) {
+void keep_drawn(const Model& whole, std::vector<assembly::PartModel>& parts) {
   std::set<std::string> drawn;
   for (const Column& column : drawn_columns(whole)) drawn.insert(column.name);
-  for (PartModel& part : parts) {
+  for (assembly::PartModel& part : parts) {
     std::vector<Column>& columns = part.model.columns;
     columns.erase(std::remove_if(columns.begin(), columns.end(),
                                  [&](const Column& c) { return drawn.count(c.name) == 0; }),
@@ -146,10 +147,10 @@ void keep_drawn(const Model& whole, std::vector<PartModel>& parts) {
   }
 }
 
-class Apart {
+class IndependentParts {
  public:
-  Apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec, const EngineRow& engine,
-        Method method, Recorder& recorder)
+  IndependentParts(const Model& whole, std::vector<assembly::PartModel> parts, const RunSpec& spec,
+                   const EngineRow& engine, Method method, Recorder& recorder)
       : whole_(whole),
         parts_(std::move(parts)),
         spec_(as_chosen(spec, method)),
@@ -157,11 +158,11 @@ class Apart {
         recorder_(recorder),
         grid_(std::make_shared<const std::vector<double>>(spec_.grid())),
         rows_(whole, parts_, spec_.t_end, recorder, report_),
-        progress_([this] { return recorder_.progress(told_); }) {
+        progress_([this] { return recorder_.progress(reported_); }) {
     report_.method = std::move(method);
     keep_drawn(whole, parts_);
     columns_ = drawn_columns(whole).size();
-    for (PartModel& part : parts_) {
+    for (assembly::PartModel& part : parts_) {
       recorders_.push_back(std::make_unique<PartRecorder>(part, recorder.wants_motion(), progress_));
       rows_.add(*recorders_.back());
       loops_.push_back(loop_of(part, spec_, *recorders_.back(), grid_));
@@ -173,15 +174,16 @@ class Apart {
     see_stops();
     const double longest = longest_stage();
     double length = longest / stages;  // short at first: the density of events is not known yet
-    while (told_ < spec_.t_end && !over()) {
-      const std::size_t found = stage(told_ + length < spec_.t_end ? told_ + length : spec_.t_end);
+    while (reported_ < spec_.t_end && !over()) {
+      const std::size_t found = stage(reported_ + length < spec_.t_end ? reported_ + length : spec_.t_end);
       length = found > most_events ? 0.5 * length : std::min(longest, 2.0 * length);
     }
     return ending();
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<Loop> loop_of(PartModel& part, const RunSpec& spec, PartRecorder& recorder,
+  [[nodiscard]] std::unique_ptr<Loop> loop_of(assembly::PartModel& part, const RunSpec& spec,
+                                              PartRecorder& recorder,
                                               std::shared_ptr<const std::vector<double>> grid) const {
     return std::make_unique<Loop>(
         part.model, spec, engine_, report_.method, recorder, RunHooks{},
@@ -200,13 +202,13 @@ class Apart {
 
   /// Returns the number of events passed on.
   std::size_t stage(double until) {
-    const double from = told_;
+    const double from = reported_;
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
-      told_ = from + (until - from) * static_cast<double>(i) / static_cast<double>(loops_.size());
+      reported_ = from + (until - from) * static_cast<double>(i) / static_cast<double>(loops_.size());
       loops_[i]->advance_to(std::min(until, end_));
       see_stops(i);
     }
-    told_ = until;
+    reported_ = until;
     return over() ? 0 : rows_.pass_on(until == spec_.t_end ? until : reached(), until == spec_.t_end);
   }
 
@@ -258,7 +260,7 @@ class Apart {
     rows_.finish();
     rows_.pass_on_motion(end, drawn);
     result.energy_rounding = join(whole_, parts_, endings, report_);
-    tell_outcome(end, endings);
+    report_outcome(end, endings);
     result.report = std::move(report_);
     return result;
   }
@@ -269,7 +271,7 @@ class Apart {
   }
 
   /// Runs a part again, to an earlier end, and returns its results without rows.
-  [[nodiscard]] RunEnd until(double end, PartModel& part, PartRecorder& recorder) const {
+  [[nodiscard]] RunEnd until(double end, assembly::PartModel& part, PartRecorder& recorder) const {
     RunSpec spec = spec_;
     spec.t_end = end;
     spec.output_times = std::vector<double>{0.0};
@@ -280,7 +282,7 @@ class Apart {
     return loop->end();
   }
 
-  void tell_outcome(double end, const std::vector<RunEnd>& endings) {
+  void report_outcome(double end, const std::vector<RunEnd>& endings) {
     report_.outcome.t = end;
     if (interrupted_) {
       report_.outcome.kind = Outcome::Kind::interrupted;
@@ -294,7 +296,7 @@ class Apart {
   }
 
   const Model& whole_;
-  std::vector<PartModel> parts_;
+  std::vector<assembly::PartModel> parts_;
   const RunSpec spec_;
   const EngineRow& engine_;
   Recorder& recorder_;
@@ -305,27 +307,27 @@ class Apart {
   std::size_t columns_ = 0;
   std::vector<std::unique_ptr<PartRecorder>> recorders_;
   std::vector<std::unique_ptr<Loop>> loops_;
-  double told_ = 0.0;                                     // of the reported progress
+  double reported_ = 0.0;                                 // of the reported progress
   double end_ = std::numeric_limits<double>::infinity();  // time at which the first part stops
-  const PartModel* stopped_ = nullptr;
+  const assembly::PartModel* stopped_ = nullptr;
   bool interrupted_ = false;
 };
 
 }  // namespace
 
-RunEnd run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
-                 const EngineRow& engine, Method method, Recorder& recorder) {
-  return Apart(whole, std::move(parts), spec, engine, std::move(method), recorder).run();
+RunEnd run_independent_parts(const Model& whole, std::vector<assembly::PartModel> parts, const RunSpec& spec,
+                             const EngineRow& engine, Method method, Recorder& recorder) {
+  return IndependentParts(whole, std::move(parts), spec, engine, std::move(method), recorder).run();
 }
 
-std::vector<PartModel> parts_to_run(const Model& model, const Method& method, const Recorder& recorder,
-                                    const RunHooks& hooks) {
+std::vector<assembly::PartModel> parts_to_run(const Model& model, const Method& method,
+                                              const Recorder& recorder, const RunHooks& hooks) {
   if (!hooks.none() || recorder.steers() || recorder.wants_instants()) return {};
-  std::vector<PartModel> parts = part_models(model);
+  std::vector<assembly::PartModel> parts = assembly::part_models(model);
   if (method.flow == "modal")
-    for (const PartModel& part : parts)
+    for (const assembly::PartModel& part : parts)
       if (!modal_kind(part.model).objection.empty()) return {};
   return parts;
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

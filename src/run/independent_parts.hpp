@@ -12,7 +12,7 @@
 #include "model/assembly/parts.hpp"
 #include "run/loop.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 // Joins the results of parts that ran separately into one report.
 //
@@ -24,15 +24,16 @@ namespace signorini {
 
 /// Adds the results of the parts to `report`, which has outcome, method, events and load jumps of the whole model
 /// already. Returns the sum of RunEnd::energy_rounding.
-double join(const Model& whole, const std::vector<PartModel>& parts, const std::vector<RunEnd>& endings,
-            Report& report);
+double join(const Model& whole, const std::vector<assembly::PartModel>& parts,
+            const std::vector<RunEnd>& endings, Report& report);
 
 /// Runs the parts of `whole`, in its units. spec.engine is not automatic.
-[[nodiscard]] RunEnd run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
-                               const EngineRow& engine, Method method, Recorder& recorder);
+[[nodiscard]] RunEnd run_independent_parts(const Model& whole, std::vector<assembly::PartModel> parts,
+                                           const RunSpec& spec, const EngineRow& engine, Method method,
+                                           Recorder& recorder);
 
 /// Parts of the model if it is to be run in parts; empty: it is run as a whole.
-[[nodiscard]] std::vector<PartModel> parts_to_run(const Model& model, const Method& method,
-                                                  const Recorder& recorder, const RunHooks& hooks);
+[[nodiscard]] std::vector<assembly::PartModel> parts_to_run(const Model& model, const Method& method,
+                                                            const Recorder& recorder, const RunHooks& hooks);
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -10,7 +10,7 @@
 #include "model/machine_units.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 // Stretches shorter than this are skipped: engines divide by h^2, which must not overflow. In any unit of time.
@@ -23,20 +23,21 @@ std::optional<std::vector<int>> watched_entries(const Model& model, const Record
 }
 
 /// Contacts whose guards were triggered, or whose states the engine has changed.
-std::vector<std::size_t> concerned(const Instant& now, const std::optional<Mode>& adopted) {
-  std::vector<std::size_t> contacts = contacts_of(now.fired);
+std::vector<std::size_t> concerned(const decide::Instant& now,
+                                   const std::optional<contact::ContactStates>& adopted) {
+  std::vector<std::size_t> contacts = decide::contacts_of(now.triggered);
   for (std::size_t k = 0; adopted && k < adopted->size(); ++k)
     if ((*adopted)[k].state != now.mode[k].state) contacts.push_back(k);
   return contacts;
 }
 
 /// Converts graze and near hits to the units of the scene.
-void rescale(const Model& model, StepperReport& engine) {
-  if (engine.graze) engine.graze->t = said_time(model, engine.graze->t);
-  for (NearHit& hit : engine.near_hits) {
-    hit.t = said_time(model, hit.t);
-    hit.gap = said(model, hit.gap, unit::length);
-    hit.bend = said(model, hit.bend, unit::acceleration);
+void rescale(const Model& model, engine::StepperReport& engine) {
+  if (engine.graze) engine.graze->t = model::time_in_scene_units(model, engine.graze->t);
+  for (events::NearHit& hit : engine.near_hits) {
+    hit.t = model::time_in_scene_units(model, hit.t);
+    hit.gap = model::in_scene_units(model, hit.gap, unit::length);
+    hit.bend = model::in_scene_units(model, hit.bend, unit::acceleration);
   }
 }
 
@@ -50,16 +51,17 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
       hooks_(std::move(hooks)),
       structure_(model),
       systems_(model, structure_),
-      decider_(systems_, spec.max_events_at_once, tolerance_of(model, spec).capture_velocity(),
+      decider_(systems_, spec.max_events_at_once, engine::tolerance_of(model, spec).capture_velocity(),
                !hooks_.listeners.none()),
-      engine_(engine.make({model, structure_, systems_, spec, tolerance_of(model, spec), method.max_order,
-                           hooks_.needs, hooks_.listeners.none(), watched_entries(model, recorder)})),
+      engine_(
+          engine.make({model, structure_, systems_, spec, engine::tolerance_of(model, spec), method.max_order,
+                       hooks_.needs, hooks_.listeners.none(), watched_entries(model, recorder)})),
       record_(model, spec, method, structure_, *engine_, recorder, report_, hooks_.faults, share),
       touches_(model.contacts.size()),
-      standstill_(spec.t_end, spec.max_events_at_once, said_time(model, 1.0)),
+      stall_detector_(spec.t_end, spec.max_events_at_once, model::time_in_scene_units(model, 1.0)),
       breakpoints_(model, spec.t_end),
       changes_(model, spec, engine, report_.method),
-      state_{Forcing(model, 0.0, Side::after)} {
+      state_{motion::Forcing(model, 0.0, motion::Side::after)} {
   hooks_.listeners.add(record_);
   report_.method = std::move(method);
   decider_.trace(hooks_.rounds);
@@ -88,8 +90,8 @@ bool Loop::refuse(const Refusal& refusal) {
 /// False: the record of the motion up to here breaks a law without an explanation.
 bool Loop::lawful() { return record_.law_violated().empty() || stop(record_.law_violated()); }
 
-Point Loop::decided_point(const Decision& decision) const {
-  Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
+motion::Point Loop::decided_point(const decide::Decision& decision) const {
+  motion::Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   engine_->set_energy(point);
   return point;
 }
@@ -98,18 +100,18 @@ bool Loop::start() {
   State& s = state_;
   s.point.u = model_.u0;  // last point of a run that is refused here
   s.point.v = model_.v0;
-  Instant now;
+  decide::Instant now;
   now.u = model_.u0;
   now.v = model_.v0;
-  now.resolution = s.resolution = resolution_at(0.0, 0.0);
+  now.resolution = s.resolution = motion::resolution_at(0.0, 0.0);
   now.start = true;
   now.knows_low_flights = engine_->knows_low_flights;
-  now.mode = first_mode(model_, s.forcing, 0.0, model_.u0, model_.v0);
-  now.fired = fell_at_start(model_, model_.u0, model_.v0, now.mode);
-  const Mode guessed = now.mode;
+  now.mode = decide::first_mode(model_, s.forcing, 0.0, model_.u0, model_.v0);
+  now.triggered = decide::zero_at_start(model_, model_.u0, model_.v0, now.mode);
+  const contact::ContactStates guessed = now.mode;
   s.decision = decider_.decide(std::move(now), s.forcing, s.forcing);
   if (!s.decision.consistent) return refuse(s.decision.refusal);
-  Point after = decided_point(s.decision);
+  motion::Point after = decided_point(s.decision);
   hooks_.listeners.begin({0.0,
                           s.resolution,
                           {},
@@ -145,14 +147,14 @@ bool Loop::step() {
     stretch_.end = end;
     stretch_.open = true;
   }
-  Step step = engine_->advance();
-  if (step.kind == Step::Kind::failed) return stop(step.reason);
+  engine::Step step = engine_->advance();
+  if (step.kind == engine::Step::Kind::failed) return stop(step.reason);
   s.resolution = step.resolution;
-  const bool event = step.kind == Step::Kind::event;
+  const bool event = step.kind == engine::Step::Kind::event;
   if (event && hooks_.event_shift) step.end += hooks_.event_shift->shift(step);
   if (event && hooks_.faults) step.end += hooks_.faults->late(step, s.decision);
   advanced(step);
-  if (event) return instant(std::move(step.fired), std::move(step.adopted)) && steered();
+  if (event) return instant(std::move(step.triggered), std::move(step.adopted)) && steered();
   if (!recorder_.progress(s.t)) return stop("interrupted", Outcome::Kind::interrupted);
   if (step.end >= stretch_.end) return instant({}) && steered();
   if (!steer()) return false;
@@ -160,9 +162,9 @@ bool Loop::step() {
 }
 
 /// Listeners receive the interior of the step first, then its end.
-void Loop::advanced(const Step& step) {
-  DenseOutput& motion = engine_->dense_output();
-  const StepFacts facts = motion.facts();
+void Loop::advanced(const engine::Step& step) {
+  engine::DenseOutput& motion = engine_->dense_output();
+  const engine::StepFacts facts = motion.facts();
   const RunStep made{step, facts, state_.decision, state_.forcing, motion};
   hooks_.listeners.step(made);
   state_.t = step.end;
@@ -193,27 +195,27 @@ bool Loop::steered() {
 }
 
 /// Input of a decision: the side before it.
-Instant Loop::instant_now(std::vector<Fired> fired) const {
-  Instant now;
+decide::Instant Loop::instant_now(std::vector<decide::TriggeredGuard> fired) const {
+  decide::Instant now;
   now.resolution = state_.resolution;
   now.knows_low_flights = engine_->knows_low_flights;
   now.u = state_.point.u;
   now.v = state_.point.v;
   now.mode = state_.decision.mode;
-  now.fired = std::move(fired);
-  now.rested = resting(state_.decision);
+  now.triggered = std::move(fired);
+  now.rested = decide::resting(state_.decision);
   now.touched = touches_.times();
   return now;
 }
 
 /// Decides the states at t, applies them and notifies listeners.
-bool Loop::instant(std::vector<Fired> fired, std::optional<Mode> adopted) {
+bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<contact::ContactStates> adopted) {
   State& s = state_;
   // Computed under the forcing before. Without an open stretch the point is the decision's, and the engine may have
   // none.
   if (std::exchange(stretch_.open, false) && record_.needs_accelerations())
     engine_->dense_output().accelerate(s.t, s.point);
-  Instant now = instant_now(std::move(fired));
+  decide::Instant now = instant_now(std::move(fired));
   hooks_.listeners.before(here());
   // States found by the engine come first; a breakpoint at the same time is the next instant.
   LoadChanges::Change change;
@@ -224,27 +226,28 @@ bool Loop::instant(std::vector<Fired> fired, std::optional<Mode> adopted) {
   now.jump = change.any;
   now.t = s.t;
   if (!recorder_.progress(s.t)) return stop("interrupted", Outcome::Kind::interrupted);
-  auto stands = standstill_.count(s.t, s.resolution, concerned(now, adopted));
-  if (stands) *stands += "; last: " + names_of(model_, now.fired);
-  std::optional<Forcing> before;
+  auto stands = stall_detector_.count(s.t, s.resolution, concerned(now, adopted));
+  if (stands) *stands += "; last: " + decide::names_of(model_, now.triggered);
+  std::optional<motion::Forcing> before;
   stretch_.same_forcing = !change.any;
-  if (change.any) before = std::exchange(s.forcing, Forcing(model_, s.t, Side::after));
-  const Mode old_mode = s.decision.mode;
-  const std::vector<Fired> fell = now.fired;
-  const Forcing& forcing_before = before ? *before : s.forcing;
-  Instant again;
+  if (change.any) before = std::exchange(s.forcing, motion::Forcing(model_, s.t, motion::Side::after));
+  const contact::ContactStates old_mode = s.decision.mode;
+  const std::vector<decide::TriggeredGuard> triggered = now.triggered;
+  const motion::Forcing& forcing_before = before ? *before : s.forcing;
+  decide::Instant again;
   if (hooks_.faults) again = now;
-  Decision next = adopted ? decider_.adopt(now, *adopted, s.forcing)
-                          : decider_.decide(std::move(now), forcing_before, s.forcing);
+  decide::Decision next = adopted ? decider_.adopt(now, *adopted, s.forcing)
+                                  : decider_.decide(std::move(now), forcing_before, s.forcing);
   if (hooks_.faults && next.consistent) hooks_.faults->inject(decider_, std::move(again), s.forcing, next);
   if (!next.consistent || stands) {
     record_.refused(here());
-    return refuse(!next.consistent ? next.refusal
-                                   : decider_.standstill(next, standstill_.contacts(), std::move(*stands)));
+    return refuse(!next.consistent
+                      ? next.refusal
+                      : decider_.standstill(next, stall_detector_.contacts(), std::move(*stands)));
   }
-  Point after = decided_point(next);
+  motion::Point after = decided_point(next);
   const RunInstant decided{
-      s.t,       s.resolution, fell,        change.any,          old_mode, next,  forcing_before,
+      s.t,       s.resolution, triggered,   change.any,          old_mode, next,  forcing_before,
       s.forcing, s.point.v,    change.jump, adopted.has_value(), &s.point, &after};
   hooks_.listeners.instant(decided);
   touches_.instant(s.t, old_mode, next);
@@ -255,7 +258,7 @@ bool Loop::instant(std::vector<Fired> fired, std::optional<Mode> adopted) {
 
 RunEnd Loop::end() {
   report_.outcome.t = state_.t;
-  StepperReport engine = engine_->report();
+  engine::StepperReport engine = engine_->report();
   rescale(model_, engine);
   hooks_.listeners.end(here(), engine);
   const auto stored = [&](const Vector& u) { return 0.5 * structure_.magnitude(structure_.k, u.data()); };
@@ -263,4 +266,4 @@ RunEnd Loop::end() {
   return {std::move(report_), rounding, !record_.law_violated().empty()};
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

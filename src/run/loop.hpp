@@ -18,7 +18,7 @@
 #include "run/steering.hpp"
 #include "run/touch_tracker.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 /// Results of a loop, in the units of its model, except times in texts, which are in the scene's units.
 struct RunEnd {
@@ -55,13 +55,14 @@ class Loop {
   bool refuse(const Refusal& refusal);
   bool start();
   bool step();
-  void advanced(const Step& step);
+  void advanced(const engine::Step& step);
   bool steer();
   bool steered();
-  bool instant(std::vector<Fired> fired, std::optional<Mode> adopted = std::nullopt);
+  bool instant(std::vector<decide::TriggeredGuard> fired,
+               std::optional<contact::ContactStates> adopted = std::nullopt);
   [[nodiscard]] bool lawful();
-  [[nodiscard]] Instant instant_now(std::vector<Fired> fired) const;
-  [[nodiscard]] Point decided_point(const Decision& decision) const;
+  [[nodiscard]] decide::Instant instant_now(std::vector<decide::TriggeredGuard> fired) const;
+  [[nodiscard]] motion::Point decided_point(const decide::Decision& decision) const;
   [[nodiscard]] RunPoint here() const {
     return {state_.t, state_.forcing, state_.decision.mode, state_.point};
   }
@@ -71,19 +72,19 @@ class Loop {
   Recorder& recorder_;
   RunHooks hooks_;
   Report report_;
-  Structure structure_;
-  ModeSystems systems_;
-  Decider decider_;
-  std::unique_ptr<Stepper> engine_;
+  linear::SystemMatrices structure_;
+  motion::StateSystems systems_;
+  decide::ContactStateSolver decider_;
+  std::unique_ptr<engine::Stepper> engine_;
   RunRecord record_;
-  LastTouch touches_;
-  Standstill standstill_;
+  TouchTracker touches_;
+  StallDetector stall_detector_;
   BreakpointQueue breakpoints_;
   LoadChanges changes_;
   struct State {
-    Forcing forcing;  // forcing after t
-    Decision decision = {};
-    Point point = {};
+    motion::Forcing forcing;  // forcing after t
+    decide::Decision decision = {};
+    motion::Point point = {};
     double t = 0.0, resolution = 0.0;
   } state_;
   struct Stretch {
@@ -94,4 +95,4 @@ class Loop {
   bool begun_ = false, running_ = false;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

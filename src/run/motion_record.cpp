@@ -9,7 +9,7 @@
 #include "model/assembly/parts.hpp"
 #include "run/curve_record.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 // Limits that give a file of about five megabytes if motions are slow.
@@ -32,7 +32,7 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
     const bool drawn = share.number(k) < most_drawn;
     tracks_.push_back({{t_end, {most, !drawn, true, t_end / fewest_intervals}}, drawn});
   }
-  const auto parts = coupled_contacts(model);
+  const auto parts = assembly::coupled_contacts(model);
   reached_.resize(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (const std::size_t k : parts[i]) tracks_[k].part = i;
@@ -71,8 +71,8 @@ bool MotionRecord::needs(double t) const {
   return !tracks_.empty() && (t - last_ >= spacing_ || t >= t_end_);
 }
 
-void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
-                       const Point& point) {
+void MotionRecord::add(double t, const Auditor& auditor, const motion::Forcing& forcing,
+                       const contact::ContactStates& mode, const motion::Point& point) {
   last_ = t;
   if (tracks_.empty()) return;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
@@ -85,14 +85,15 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
   }
 }
 
-void MotionRecord::before(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
-                          const Point& point) {
+void MotionRecord::before(double t, const Auditor& auditor, const motion::Forcing& forcing,
+                          const contact::ContactStates& mode, const motion::Point& point) {
   for (std::size_t k = 0; k < tracks_.size(); ++k)
     tracks_[k].before = {t, auditor.sample(k, forcing, t, mode[k], point)};
 }
 
-void MotionRecord::after(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
-                         const Point& point, const std::optional<std::vector<std::size_t>>& changed) {
+void MotionRecord::after(double t, const Auditor& auditor, const motion::Forcing& forcing,
+                         const contact::ContactStates& mode, const motion::Point& point,
+                         const std::optional<std::vector<std::size_t>>& changed) {
   if (tracks_.empty()) return;
   reached_.assign(reached_.size(), !changed);
   if (changed)
@@ -155,4 +156,4 @@ void MotionRecord::write(Recorder& recorder) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

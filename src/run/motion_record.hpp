@@ -22,7 +22,7 @@
 #include "run/part_rows.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 class MotionRecord {
  public:
@@ -45,11 +45,14 @@ class MotionRecord {
   /// True if a line needs a row at t, the end of a step.
   [[nodiscard]] bool needs(double t) const;
   /// Adds a row of every contact; times ascend, and may repeat.
-  void add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
+  void add(double t, const Auditor& auditor, const motion::Forcing& forcing,
+           const contact::ContactStates& mode, const motion::Point& point);
   /// Keeps the side before an instant; `after` adds it for the contacts that the instant reaches.
-  void before(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
+  void before(double t, const Auditor& auditor, const motion::Forcing& forcing,
+              const contact::ContactStates& mode, const motion::Point& point);
   /// Adds the rows after an instant. changed: contacts; absent: all.
-  void after(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point,
+  void after(double t, const Auditor& auditor, const motion::Forcing& forcing,
+             const contact::ContactStates& mode, const motion::Point& point,
              const std::optional<std::vector<std::size_t>>& changed);
   /// Time of the last row of all contacts.
   [[nodiscard]] double last() const { return last_; }
@@ -65,7 +68,7 @@ class MotionRecord {
     }
   };
   struct Track {
-    Thinned<MotionRow, 5, Drawn, 4> rows;
+    base::Downsampled<MotionRow, 5, Drawn, 4> rows;
     bool drawn = true;     // has a picture of its own
     std::size_t part = 0;  // contacts of other parts do not affect this one
     MotionRow before = {};
@@ -88,4 +91,4 @@ class MotionRecord {
   std::vector<bool> reached_;  // by part
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -8,29 +8,29 @@
 #include "contact/contact_states.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 /// An oscillating piece of a history, while it acts.
-struct Swing {
+struct HalfPeriod {
   double from, to, omega;
 };
 
 /// Adds the oscillating pieces that are longer than the resolution of the clock.
-void add_swings(const History& history, std::vector<Swing>& all) {
+void add_swings(const History& history, std::vector<HalfPeriod>& all) {
   constexpr double ever = std::numeric_limits<double>::infinity();
   const std::vector<double>& starts = history.starts();
   for (std::size_t i = 0; i < history.pieces().size(); ++i) {
     const Piece& piece = history.pieces()[i];
     if (piece.amplitude == 0.0 || piece.omega == 0.0) continue;
     const double from = i == 0 ? -ever : starts[i - 1], to = i == starts.size() ? ever : starts[i];
-    if (std::isinf(to) || to - from > resolution_at(to, 0.0))
+    if (std::isinf(to) || to - from > motion::resolution_at(to, 0.0))
       all.push_back({from, to, std::abs(piece.omega)});
   }
 }
 
-std::vector<Swing> swings_given(const Model& model) {
-  std::vector<Swing> all;
+std::vector<HalfPeriod> swings_given(const Model& model) {
+  std::vector<HalfPeriod> all;
   for (const Load& load : model.loads) add_swings(load.history, all);
   for (const Contact& contact : model.contacts) {
     add_swings(contact.normal_force, all);
@@ -45,11 +45,12 @@ std::vector<Swing> swings_given(const Model& model) {
 
 }  // namespace
 
-Reach reach_of(const FastModes& modes, const Output& linear) {
+FormNorm reach_of(const engine::FastModes& modes, const Output& linear) {
   return {modes.form_norm(linear.u), modes.form_norm(linear.v), modes.form_norm(linear.a)};
 }
 
-double added(const Ripple& ripple, const Reach& reach, const Output& linear, const ForceLayout& layout) {
+double added(const engine::FastModeBound& ripple, const FormNorm& reach, const Output& linear,
+             const ForceLayout& layout) {
   double sum = reach.u * ripple.u + reach.v * ripple.v + reach.a * ripple.a;
   for (const Output::ContactForces& f : linear.forces)
     sum += std::abs(f.N) * ripple.forces[static_cast<Eigen::Index>(layout.normal(f.contact))] +
@@ -57,15 +58,17 @@ double added(const Ripple& ripple, const Reach& reach, const Output& linear, con
   return sum;
 }
 
-Pace::Pace(const Model& model, double t_end) : model_(model), t_end_(t_end) { loads_changed(); }
+FastModeCutoff::FastModeCutoff(const Model& model, double t_end) : model_(model), t_end_(t_end) {
+  loads_changed();
+}
 
-void Pace::loads_changed() {
+void FastModeCutoff::loads_changed() {
   struct Change {
     double t, omega;
     bool begins;
   };
   std::vector<Change> ends;
-  for (const Swing& swing : swings_given(model_)) {
+  for (const HalfPeriod& swing : swings_given(model_)) {
     ends.push_back({swing.from, swing.omega, true});
     ends.push_back({swing.to, swing.omega, false});
   }
@@ -84,7 +87,7 @@ void Pace::loads_changed() {
   }
 }
 
-double Pace::of_all(double radians, double begin, double end) {
+double FastModeCutoff::of_all(double radians, double begin, double end) {
   given_ = 1.0 / t_end_;
   auto next = std::upper_bound(changes_.begin(), changes_.end(), begin);
   do given_ = std::max(given_, fastest_[static_cast<std::size_t>(next - changes_.begin())]);
@@ -92,8 +95,9 @@ double Pace::of_all(double radians, double begin, double end) {
   return std::max(given_, std::min(model_.omega_max, radians / (end - begin)));
 }
 
-double Pace::of_what_counts(const FastModes& modes, double all,
-                            const std::function<bool(const Ripple&)>& is_rounding) const {
+double FastModeCutoff::counted_modes(
+    const engine::FastModes& modes, double all,
+    const std::function<bool(const engine::FastModeBound&)>& is_rounding) const {
   const auto quiet_above = [&](double omega) {
     const auto ripple = modes.fast_mode_bound(omega);
     return ripple && is_rounding(*ripple);
@@ -116,23 +120,23 @@ ValueBounds bounds_of(const Chebyshev::Values& values, std::size_t stride, bool 
 }
 
 /// Largest value of p at one time, and its rate.
-struct Crest {
+struct PeakPoint {
   double value = 0.0, rate = 0.0;
 };
 
-class Crests {
+class PeakSearch {
  public:
-  Crests(std::span<const Chebyshev::Values> f, std::size_t stride, double sign)
+  PeakSearch(std::span<const Chebyshev::Values> f, std::size_t stride, double sign)
       : f_(f), stride_(stride), sign_(sign) {
     for (const Chebyshev::Values& values : f) rates_.push_back(Chebyshev::slopes(values, stride));
   }
 
-  [[nodiscard]] Crest at(double t) const {
-    Along::Values values = values_along(f_, stride_, t);
+  [[nodiscard]] PeakPoint at(double t) const {
+    base::Along::Values values = values_along(f_, stride_, t);
     for (double& value : values) value *= sign_;
-    const Along::Extremes e = Along::extremes(values, f_.size());
-    const Along::Values rates = values_along(rates_, stride_, t);
-    return {e.greatest, sign_ * Along::through(rates, f_.size(), e.at_greatest)};
+    const base::Along::Extremes e = base::Along::extremes(values, f_.size());
+    const base::Along::Values rates = values_along(rates_, stride_, t);
+    return {e.greatest, sign_ * base::Along::through(rates, f_.size(), e.at_greatest)};
   }
 
  private:
@@ -143,7 +147,7 @@ class Crests {
 };
 
 /// Value at which both tangents meet, at least the values at the ends: an upper bound.
-double greatest_below_tangents(const Crest& a, const Crest& b, double width) {
+double greatest_below_tangents(const PeakPoint& a, const PeakPoint& b, double width) {
   const double to = (b.value - a.value - b.rate * width) / (a.rate - b.rate);
   return std::max({a.value, b.value, a.value + a.rate * std::clamp(to, 0.0, width)});
 }
@@ -180,30 +184,30 @@ ValueBounds bounds_along(std::span<const Chebyshev::Values> f, std::size_t strid
   b = {std::min(b.least, end.least), std::max(b.greatest, end.greatest)};
   double off = 0.0;
   for (std::size_t i = 1; i + 1 < f.size(); ++i) {
-    const double x = Along::point(f.size(), i);
+    const double x = base::Along::point(f.size(), i);
     Chebyshev::Values bow{};
     for (std::size_t j = 0; j < Chebyshev::count; j += stride)
       bow[j] = f[i][j] - ((1.0 - x) * f.front()[j] + x * f.back()[j]);
     const ValueBounds of = bounds_of(bow, stride, between);
     off = std::max({off, of.greatest, -of.least});
   }
-  return {b.least - Along::lebesgue * off, b.greatest + Along::lebesgue * off};
+  return {b.least - base::Along::lebesgue * off, b.greatest + base::Along::lebesgue * off};
 }
 
-Along::Values values_along(std::span<const Chebyshev::Values> f, std::size_t stride, double x) {
-  Along::Values values{};
+base::Along::Values values_along(std::span<const Chebyshev::Values> f, std::size_t stride, double x) {
+  base::Along::Values values{};
   for (std::size_t i = 0; i < f.size(); ++i) values[i] = Chebyshev::through(f[i], stride, x);
   return values;
 }
 
 std::vector<double> peaks_along(std::span<const Chebyshev::Values> f, std::size_t stride, double sign,
                                 double known) {
-  const Crests crests(f, stride, sign);
+  const PeakSearch crests(f, stride, sign);
   const Chebyshev::Values& x = Chebyshev::nodes();
   std::vector<double> peaks;
-  Crest before = crests.at(x[0]);
+  PeakPoint before = crests.at(x[0]);
   for (std::size_t j = stride; j < Chebyshev::count; j += stride) {
-    const Crest after = crests.at(x[j]);
+    const PeakPoint after = crests.at(x[j]);
     const bool turns = before.rate > 0.0 && after.rate <= 0.0;
     if (turns && greatest_below_tangents(before, after, x[j] - x[j - stride]) > sign * known) {
       double rising = x[j - stride], falling = x[j];
@@ -218,4 +222,4 @@ std::vector<double> peaks_along(std::span<const Chebyshev::Values> f, std::size_
   return peaks;
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

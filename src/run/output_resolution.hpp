@@ -16,30 +16,31 @@
 #include "engine/dense_output.hpp"
 #include "run/curve_record.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 /// Norms of the parts of a linear output.
-struct Reach {
+struct FormNorm {
   double u = 0.0, v = 0.0, a = 0.0;
 };
-[[nodiscard]] Reach reach_of(const FastModes& modes, const Output& linear);
+[[nodiscard]] FormNorm reach_of(const engine::FastModes& modes, const Output& linear);
 /// Upper bound of the contribution of a ripple to a linear output.
-[[nodiscard]] double added(const Ripple& ripple, const Reach& reach, const Output& linear,
+[[nodiscard]] double added(const engine::FastModeBound& ripple, const FormNorm& reach, const Output& linear,
                            const ForceLayout& layout);
 
 /// Frequencies in a run. All rates are in rad per time.
-class Pace {
+class FastModeCutoff {
  public:
   /// The model must outlive the object.
-  Pace(const Model& model, double t_end);
+  FastModeCutoff(const Model& model, double t_end);
 
   /// Updates the frequencies after a change of the model's loads.
   void loads_changed();
   /// Rate of structure and loads, in a step whose motion turns by so many radians (StepFacts::radians).
   [[nodiscard]] double of_all(double radians, double begin, double end);
   /// Rate that outputs show, in the step of the last of_all(): at most `all`, and at least that of loads.
-  [[nodiscard]] double of_what_counts(const FastModes& modes, double all,
-                                      const std::function<bool(const Ripple&)>& is_rounding) const;
+  [[nodiscard]] double counted_modes(
+      const engine::FastModes& modes, double all,
+      const std::function<bool(const engine::FastModeBound&)>& is_rounding) const;
   /// Rate at which the phase advances by so many radians in the whole run.
   [[nodiscard]] double fastest(double radians) const { return radians / t_end_; }
 
@@ -79,6 +80,7 @@ struct ValueBounds {
                                               double sign, double known);
 
 /// Values along the stretch at time x.
-[[nodiscard]] Along::Values values_along(std::span<const Chebyshev::Values> f, std::size_t stride, double x);
+[[nodiscard]] base::Along::Values values_along(std::span<const Chebyshev::Values> f, std::size_t stride,
+                                               double x);
 
-}  // namespace signorini
+}  // namespace signorini::run

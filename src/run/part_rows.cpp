@@ -9,7 +9,7 @@
 #include "run/curve_record.hpp"
 #include "scene/quantities.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 void add_to(Energy& sum, const Energy& part) {
@@ -33,8 +33,8 @@ PartRecorder::Row PartRecorder::row_of(const Sample& sample) {
   return {sample.t, *sample.u, *sample.v, sample.contacts, sample.energy};
 }
 
-PartRows::PartRows(const Model& whole, const std::vector<PartModel>& parts, double t_end, Recorder& recorder,
-                   Report& report)
+PartRows::PartRows(const Model& whole, const std::vector<assembly::PartModel>& parts, double t_end,
+                   Recorder& recorder, Report& report)
     : whole_(whole),
       parts_(parts),
       recorder_(recorder),
@@ -66,7 +66,7 @@ std::size_t PartRows::pass_on_events(double t, bool last) {
       order_.load_jump(event.t);
     }
     // The length of its step is unknown here; it is at most the length of the run.
-    if (event.t_uncertainty) order_.event(event, resolution_at(event.t, event.t));
+    if (event.t_uncertainty) order_.event(event, motion::resolution_at(event.t, event.t));
     if (event.contact < 0 || event.type != EventType::time) ++report_.events_by_type[to_string(event.type)];
     recorder_.event(event);
   }
@@ -88,7 +88,7 @@ void PartRows::pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Samp
     sample.contacts.resize(whole_.contacts.size());
     for (std::size_t i = 0; i < of_.size(); ++i) {
       const PartRecorder::Row& row = (of_[i]->*rows).front();
-      const PartModel& part = parts_[i];
+      const assembly::PartModel& part = parts_[i];
       for (std::size_t j = 0; j < part.dofs.size(); ++j) {
         u[part.dofs[j]] = row.u[static_cast<Eigen::Index>(j)];
         v[part.dofs[j]] = row.v[static_cast<Eigen::Index>(j)];
@@ -192,7 +192,7 @@ EnergyValues values_of(const Energy& energy) {
 
 EnergySum::EnergySum(const Model& whole, double t_end, std::size_t most)
     : time_(whole.unit.time),
-      energy_(factor_of(unit::energy, whole.unit)),
+      energy_(scene::factor_of(unit::energy, whole.unit)),
       curves_(energy_values, {t_end * time_, {.most = most}}) {}
 
 void EnergySum::take(const std::vector<EnergyLine*>& lines, double until) {
@@ -238,4 +238,4 @@ void EnergySum::write(Curves& curves) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -21,12 +21,14 @@
 #include "signorini/result.hpp"
 
 namespace signorini {
+struct Energy;
+}  // namespace signorini
+
+namespace signorini::run {
 
 // Data that a run of a part has in common with the runs of the other parts.
 //
 //   rows per contact, points per curve:   as if all parts were one
-
-struct Energy;
 
 /// Share of a part; the default is the whole model.
 struct PartShare {
@@ -78,7 +80,7 @@ class EnergySum {
   void add(double t, const EnergyValues& values);
 
   double time_, energy_;  // units
-  std::vector<Thinned<CurvePoint, 1, ValueOf>> curves_;
+  std::vector<base::Downsampled<CurvePoint, 1, ValueOf>> curves_;
 };
 
 /// Rows that a part has recorded and that are not merged yet; contacts have their numbers in the whole model.
@@ -91,7 +93,7 @@ class PartRecorder final : public Recorder {
     Energy energy;
   };
 
-  PartRecorder(const PartModel& part, bool wants_motion, const std::function<bool()>& progress)
+  PartRecorder(const assembly::PartModel& part, bool wants_motion, const std::function<bool()>& progress)
       : part_(part), wants_motion_(wants_motion), progress_(progress) {}
 
   void event(const Event& event) override;
@@ -113,7 +115,7 @@ class PartRecorder final : public Recorder {
  private:
   [[nodiscard]] static Row row_of(const Sample& sample);
 
-  const PartModel& part_;
+  const assembly::PartModel& part_;
   bool wants_motion_;
   const std::function<bool()>& progress_;
 };
@@ -122,8 +124,8 @@ class PartRows {
  public:
   /// All arguments must outlive the object. The report receives events by type, load jumps, and events of unknown
   /// order.
-  PartRows(const Model& whole, const std::vector<PartModel>& parts, double t_end, Recorder& recorder,
-           Report& report);
+  PartRows(const Model& whole, const std::vector<assembly::PartModel>& parts, double t_end,
+           Recorder& recorder, Report& report);
 
   /// Adds a part; called in the order of the parts.
   void add(PartRecorder& recorder) {
@@ -145,7 +147,7 @@ class PartRows {
   [[nodiscard]] Curves displacements_of(const std::vector<PartRecorder*>& from) const;
 
   const Model& whole_;
-  const std::vector<PartModel>& parts_;
+  const std::vector<assembly::PartModel>& parts_;
   Recorder& recorder_;
   Report& report_;
   std::vector<PartRecorder*> of_;
@@ -155,4 +157,4 @@ class PartRows {
   double jumped_ = -1.0;  // time of the last jump of a load
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

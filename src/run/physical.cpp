@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, Unit>, 5> units_by_name = {{{"time", unit::time},
@@ -19,11 +19,11 @@ class ToScene {
   explicit ToScene(const Factors& factors) : factors_(factors) {}
 
   void operator()(const Unit& of, std::initializer_list<double*> values) const {
-    const double factor = factor_of(of, factors_);
+    const double factor = scene::factor_of(of, factors_);
     for (double* x : values) *x *= factor;
   }
   void operator()(const Unit& of, std::optional<double>& x) const {
-    if (x) *x *= factor_of(of, factors_);
+    if (x) *x *= scene::factor_of(of, factors_);
   }
   void operator()(ContactSample& c) const {
     (*this)(unit::length, {&c.gap, &c.ut, &c.slip, &c.memory});
@@ -127,7 +127,7 @@ Report physical(Report report, const Model& computed) {
 }
 
 Vector physical(Vector motion, const std::vector<Dof>& dofs, int order, const Factors& of) {
-  const double per_time = factor_of({0, 0, -order}, of);
+  const double per_time = scene::factor_of({0, 0, -order}, of);
   for (std::size_t i = 0; i < dofs.size(); ++i)
     motion[static_cast<Eigen::Index>(i)] *= dofs[i].rotation ? per_time : of.length * per_time;
   return motion;
@@ -144,7 +144,7 @@ InstantRow physical(InstantRow row, const std::vector<Dof>& dofs, const Factors&
     side->forces *= of.force;
   }
   for (InstantBlow& blow : row.blows) convert(unit::impulse, {&blow.normal, &blow.tangent});
-  row.captures *= factor_of(unit::impulse, of);
+  row.captures *= scene::factor_of(unit::impulse, of);
   return row;
 }
 
@@ -161,7 +161,7 @@ void PhysicalRecorder::motion(int contact, const std::vector<MotionRow>& rows) {
 void PhysicalRecorder::response(double t, const std::vector<double>& values) {
   values_ = values;
   for (std::size_t i = 0; i < values_.size(); ++i)
-    values_[i] *= factor_of(model_.outputs[i].unit, model_.unit);
+    values_[i] *= scene::factor_of(model_.outputs[i].unit, model_.unit);
   recorder_.response(t * model_.unit.time, values_);
 }
 
@@ -183,4 +183,4 @@ Sample PhysicalRecorder::in_scene(const Sample& sample) {
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -9,7 +9,7 @@
 #include "signorini/result.hpp"
 #include "signorini/trace.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 /// Converts all but guard_rate, whose unit only the guard knows (event_log.hpp).
 [[nodiscard]] Event physical(Event event, const Factors& of);
@@ -53,4 +53,4 @@ class PhysicalRecorder : public Recorder {
 /// Listener that forwards rounds in the scene's units; empty if `listener` is. `model` must outlive it.
 [[nodiscard]] RoundListener physical(const RoundListener& listener, const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -7,15 +7,15 @@
 #include "base/rounding.hpp"
 #include "run/output_resolution.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
-double given_at(const Output::Given& given, double t, Side side) {
-  return (side == Side::after ? given.history.piece(t) : given.history.piece_before(t)).value(t);
+double given_at(const Output::Given& given, double t, motion::Side side) {
+  return (side == motion::Side::after ? given.history.piece(t) : given.history.piece_before(t)).value(t);
 }
 
-double restored(const Output::Restoring& r, const Point& point, const ForceLayout& layout) {
-  return r.factor * (-point.N(layout, r.contact) - r.said) * r.slip.dot(point.u);
+double restored(const Output::Restoring& r, const motion::Point& point, const ForceLayout& layout) {
+  return r.factor * (-point.N(layout, r.contact) - r.scene_force) * r.slip.dot(point.u);
 }
 
 void take(OutputReading& all, const OutputReading& part) {
@@ -25,8 +25,8 @@ void take(OutputReading& all, const OutputReading& part) {
 
 }  // namespace
 
-double value_of(const Output& output, double t, Side side, const Point& point, const ForceLayout& layout,
-                const std::vector<double>& losses) {
+double value_of(const Output& output, double t, motion::Side side, const motion::Point& point,
+                const ForceLayout& layout, const std::vector<double>& losses) {
   if (output.loss) return *output.loss < losses.size() ? losses[*output.loss] : 0.0;
   double sum = output.constant + output.u.dot(point.u) + output.v.dot(point.v);
   if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.dot(point.a);
@@ -37,16 +37,16 @@ double value_of(const Output& output, double t, Side side, const Point& point, c
   return sum;
 }
 
-OutputReading along_stretch(const Output& output, std::size_t i, const Along::Values& values) {
+OutputReading along_stretch(const Output& output, std::size_t i, const base::Along::Values& values) {
   const Output::Stretch& stretch = output.stretches[i];
-  const Along::Extremes e = Along::extremes(values, stretch.at.size());
+  const base::Along::Extremes e = base::Along::extremes(values, stretch.at.size());
   const auto place = [&](double x) {
     return OutputPlace{static_cast<int>(i), stretch.begin + x * (stretch.end - stretch.begin)};
   };
   return {std::max(e.greatest, -e.least), e.greatest, e.least, place(e.at_greatest), place(e.at_least)};
 }
 
-OutputReading reading_of(const Output& output, double t, Side side, const Point& point,
+OutputReading reading_of(const Output& output, double t, motion::Side side, const motion::Point& point,
                          const ForceLayout& layout, const std::vector<double>& losses) {
   OutputReading all;
   if (output.stretches.empty()) {
@@ -55,7 +55,7 @@ OutputReading reading_of(const Output& output, double t, Side side, const Point&
   }
   for (std::size_t i = 0; i < output.stretches.size(); ++i) {
     const std::vector<Output>& at = output.stretches[i].at;
-    Along::Values values{};
+    base::Along::Values values{};
     for (std::size_t j = 0; j < at.size(); ++j) values[j] = value_of(at[j], t, side, point, layout, losses);
     const OutputReading part = along_stretch(output, i, values);
     if (i == 0)
@@ -67,7 +67,7 @@ OutputReading reading_of(const Output& output, double t, Side side, const Point&
   return all;
 }
 
-double magnitude_of(const Output& output, double t, Side side, const Point& point,
+double magnitude_of(const Output& output, double t, motion::Side side, const motion::Point& point,
                     const ForceLayout& layout) {
   double sum = std::abs(output.constant) + output.u.magnitude(point.u) + output.v.magnitude(point.v);
   if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.magnitude(point.a);
@@ -112,7 +112,7 @@ bool is_of_motion(const Output& linear) {
 ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense)
     : model_(model),
       recorder_(recorder),
-      pace_(model, t_end),
+      fast_mode_cutoff_(model, t_end),
       dense_(dense),
       extremes_(model.outputs.size()) {
   for (std::size_t i = 0; i < model.outputs.size(); ++i) {
@@ -128,8 +128,8 @@ ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorde
   samples_.resize(forms_.size());
 }
 
-void ResponseWatch::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
-                             std::vector<OutputReading>& readings) const {
+void ResponseWatch::evaluate(double t, motion::Side side, const motion::Point& point,
+                             const std::vector<double>& losses, std::vector<OutputReading>& readings) const {
   readings.clear();
   for (const Output& output : model_.outputs)
     readings.push_back(reading_of(output, t, side, point, model_.layout, losses));
@@ -167,13 +167,14 @@ void ResponseWatch::write(double t, const std::vector<OutputReading>& readings) 
   last_ = std::move(values);
 }
 
-void ResponseWatch::before(double t, const Point& point, const std::vector<double>& losses) {
+void ResponseWatch::before(double t, const motion::Point& point, const std::vector<double>& losses) {
   if (!any()) return;
-  evaluate(t, Side::before, point, losses, before_);
+  evaluate(t, motion::Side::before, point, losses, before_);
   before_t_ = t;
 }
 
-void ResponseWatch::row(double t, Side side, const Point& point, const std::vector<double>& losses) {
+void ResponseWatch::row(double t, motion::Side side, const motion::Point& point,
+                        const std::vector<double>& losses) {
   if (!any()) return;
   evaluate(t, side, point, losses, readings_);
   if (before_t_ == t) write(t, before_);
@@ -185,7 +186,7 @@ void ResponseWatch::row(double t, Side side, const Point& point, const std::vect
   }
 }
 
-void ResponseWatch::inside(DenseOutput& motion, double begin, double end) {
+void ResponseWatch::inside(engine::DenseOutput& motion, double begin, double end) {
   if (!any() || !(end > begin)) return;
   std::vector<char> open, at_end(model_.outputs.size(), 0);
   for (const Watched& watched : watched_) {
@@ -202,7 +203,7 @@ void ResponseWatch::inside(DenseOutput& motion, double begin, double end) {
     motion.accelerate(end, point_);
     for (std::size_t i = 0; i < at_end.size(); ++i)
       if (at_end[i] != 0)
-        see(i, end, reading_of(model_.outputs[i], end, Side::before, point_, model_.layout, none_));
+        see(i, end, reading_of(model_.outputs[i], end, motion::Side::before, point_, model_.layout, none_));
   }
   radian_ = 1.0 / turning(motion, {begin, end, open});
   const double pieces = std::max(1.0, std::ceil((end - begin) / (longest * radian_)));
@@ -224,33 +225,36 @@ void ResponseWatch::inside(DenseOutput& motion, double begin, double end) {
 }
 
 /// Rate of the motion that outputs show in a step. Its ranges include at least those at the points of the whole step.
-double ResponseWatch::turning(DenseOutput& motion, const Part& step) {
-  const StepFacts facts = motion.facts();
-  double omega = pace_.of_all(facts.radians, step.begin, step.end);
-  const FastModes* modes = facts.fast_modes;
+double ResponseWatch::turning(engine::DenseOutput& motion, const Part& step) {
+  const engine::StepFacts facts = motion.facts();
+  double omega = fast_mode_cutoff_.of_all(facts.radians, step.begin, step.end);
+  const engine::FastModes* modes = facts.fast_modes;
   if (omega * (step.end - step.begin) > longest && modes != nullptr && modes->fast_mode_bound(omega)) {
     for (std::size_t j = 0; j < Chebyshev::count; ++j) sample(motion, step, step.begin, j);
     for (std::size_t k = 0; k < watched_.size(); ++k)
       if (step.open[k] != 0 && watched_[k].stretch >= 0) see_samples(watched_[k], step, 1);
     for (std::size_t i = reaches_.size(); i < forms_.size(); ++i)
       reaches_.push_back(reach_of(*modes, *forms_[i]));
-    const Ripple whole = modes->term_sizes();
-    omega = pace_.of_what_counts(*modes, omega, [&](const Ripple& r) { return is_rounding(r, whole); });
+    const engine::FastModeBound whole = modes->term_sizes();
+    omega = fast_mode_cutoff_.counted_modes(
+        *modes, omega, [&](const engine::FastModeBound& r) { return is_rounding(r, whole); });
   }
   // A step that is one part costs no more than other steps.
-  const double most = std::max(pace_.fastest(most_pieces * longest), longest / (step.end - step.begin));
+  const double most =
+      std::max(fast_mode_cutoff_.fastest(most_pieces * longest), longest / (step.end - step.begin));
   if (omega > most && !coarse_)
     coarse_ = fmt::format(
         "outputs: the motion turns by {:.2g} radians in the run; between rows their extremes were looked for "
         "in "
         "parts of {:.2g}, in which a peak may be missed",
-        omega / pace_.fastest(1.0), omega / most * longest);
+        omega / fast_mode_cutoff_.fastest(1.0), omega / most * longest);
   return std::min(omega, most);
 }
 
 /// True if the contribution of `ripple` to any output, at any position of its stretches, is rounding of the terms or of
 /// the sums over modes, or less than the allowed error of p.
-bool ResponseWatch::is_rounding(const Ripple& ripple, const Ripple& whole) const {
+bool ResponseWatch::is_rounding(const engine::FastModeBound& ripple,
+                                const engine::FastModeBound& whole) const {
   for (const Watched& watched : watched_) {
     const OutputExtremes& known = extremes_[watched.output];
     double magnitude = 0.0, most = 0.0, terms = 0.0;
@@ -274,7 +278,7 @@ void ResponseWatch::see_samples(const Watched& watched, const Part& part, std::s
   const double half = 0.5 * (part.end - part.begin);
   for (std::size_t j = 0; j < Chebyshev::count; j += stride) {
     const double x = Chebyshev::nodes()[j];
-    Along::Values values{};
+    base::Along::Values values{};
     for (std::size_t i = 0; i < watched.count; ++i) values[i] = all[i][j];
     see(watched.output, j + 1 == Chebyshev::count ? part.end : part.begin + half * (x + 1.0),
         along_stretch(output, static_cast<std::size_t>(watched.stretch), values));
@@ -285,12 +289,12 @@ std::span<const Chebyshev::Values> ResponseWatch::samples_of(const Watched& watc
   return std::span(samples_).subspan(watched.first, watched.count);
 }
 
-void ResponseWatch::sample(DenseOutput& motion, const Part& part, double begin, std::size_t point) {
+void ResponseWatch::sample(engine::DenseOutput& motion, const Part& part, double begin, std::size_t point) {
   const double x = Chebyshev::nodes()[point];
   const double t =
       point + 1 == Chebyshev::count ? part.end : part.begin + 0.5 * (x + 1.0) * (part.end - part.begin);
   motion.interpolate(t, point_);
-  const Side side = t == begin ? Side::after : Side::before;
+  const motion::Side side = t == begin ? motion::Side::after : motion::Side::before;
   for (std::size_t k = 0; k < watched_.size(); ++k) {
     if (part.open[k] == 0) continue;
     const Watched& watched = watched_[k];
@@ -304,7 +308,7 @@ void ResponseWatch::sample(DenseOutput& motion, const Part& part, double begin, 
   }
 }
 
-bool ResponseWatch::look(DenseOutput& motion, Part& part, double begin) {
+bool ResponseWatch::look(engine::DenseOutput& motion, Part& part, double begin) {
   for (const std::size_t point : {0U, 8U, 16U}) sample(motion, part, begin, point);
   for (const std::size_t stride : {4U, 2U, 1U}) {
     for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride) sample(motion, part, begin, j);
@@ -322,7 +326,7 @@ bool ResponseWatch::look(DenseOutput& motion, Part& part, double begin) {
   return false;
 }
 
-bool ResponseWatch::settled(const Watched& watched, DenseOutput& motion, const Part& part,
+bool ResponseWatch::settled(const Watched& watched, engine::DenseOutput& motion, const Part& part,
                             std::size_t stride) {
   const std::span<const Chebyshev::Values> all = samples_of(watched);
   double error = 0.0;
@@ -330,7 +334,7 @@ bool ResponseWatch::settled(const Watched& watched, DenseOutput& motion, const P
     for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride)
       error = std::max(error,
                        std::abs(Chebyshev::through(values, 2 * stride, Chebyshev::nodes()[j]) - values[j]));
-  if (watched.stretch >= 0) error *= Along::lebesgue;
+  if (watched.stretch >= 0) error *= base::Along::lebesgue;
   const OutputExtremes& known = extremes_[watched.output];
   const auto within = [&](const ValueBounds& b, double rest) {
     return b.greatest + rest <= known.maximum && b.least - rest >= known.minimum;
@@ -348,7 +352,7 @@ bool ResponseWatch::settled(const Watched& watched, DenseOutput& motion, const P
   return true;
 }
 
-void ResponseWatch::sharpen(const Watched& watched, DenseOutput& motion, const Part& part,
+void ResponseWatch::sharpen(const Watched& watched, engine::DenseOutput& motion, const Part& part,
                             std::size_t stride) {
   if (watched.stretch < 0)
     sharpen_output(watched, motion, part, stride);
@@ -356,18 +360,18 @@ void ResponseWatch::sharpen(const Watched& watched, DenseOutput& motion, const P
     sharpen_stretch(watched, motion, part, stride);
 }
 
-void ResponseWatch::see_motion(const Watched& watched, DenseOutput& motion, double t) {
+void ResponseWatch::see_motion(const Watched& watched, engine::DenseOutput& motion, double t) {
   motion.interpolate(t, point_);
   const Output& output = model_.outputs[watched.output];
-  Along::Values values{};
+  base::Along::Values values{};
   for (std::size_t i = 0; i < watched.count; ++i)
-    values[i] = value_of(*forms_[watched.first + i], t, Side::before, point_, model_.layout, none_);
+    values[i] = value_of(*forms_[watched.first + i], t, motion::Side::before, point_, model_.layout, none_);
   see(watched.output, t,
       watched.stretch < 0 ? OutputReading{values[0], values[0], values[0], {}, {}}
                           : along_stretch(output, static_cast<std::size_t>(watched.stretch), values));
 }
 
-void ResponseWatch::sharpen_output(const Watched& watched, DenseOutput& motion, const Part& part,
+void ResponseWatch::sharpen_output(const Watched& watched, engine::DenseOutput& motion, const Part& part,
                                    std::size_t stride) {
   const Chebyshev::Values& values = samples_[watched.first];
   const Chebyshev::Values& nodes = Chebyshev::nodes();
@@ -384,7 +388,7 @@ void ResponseWatch::sharpen_output(const Watched& watched, DenseOutput& motion, 
   }
 }
 
-void ResponseWatch::sharpen_stretch(const Watched& watched, DenseOutput& motion, const Part& part,
+void ResponseWatch::sharpen_stretch(const Watched& watched, engine::DenseOutput& motion, const Part& part,
                                     std::size_t stride) {
   const std::span<const Chebyshev::Values> all = samples_of(watched);
   const double half = 0.5 * (part.end - part.begin);
@@ -397,4 +401,4 @@ void ResponseWatch::sharpen_stretch(const Watched& watched, DenseOutput& motion,
     see_motion(watched, motion, part.begin + half * (x + 1.0));
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -28,7 +28,7 @@
 #include "run/curve_record.hpp"
 #include "run/output_resolution.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 // Value of an output at one instant.
 //
@@ -43,16 +43,18 @@ struct OutputReading {
 };
 
 /// Value of a linear output; losses: of all contacts.
-[[nodiscard]] double value_of(const Output& output, double t, Side side, const Point& point,
+[[nodiscard]] double value_of(const Output& output, double t, motion::Side side, const motion::Point& point,
                               const ForceLayout& layout, const std::vector<double>& losses);
-[[nodiscard]] OutputReading reading_of(const Output& output, double t, Side side, const Point& point,
-                                       const ForceLayout& layout, const std::vector<double>& losses);
+[[nodiscard]] OutputReading reading_of(const Output& output, double t, motion::Side side,
+                                       const motion::Point& point, const ForceLayout& layout,
+                                       const std::vector<double>& losses);
 /// Extremes along the i-th stretch, with their positions.
-[[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i, const Along::Values& values);
+[[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i,
+                                          const base::Along::Values& values);
 
 /// Sum of the absolute terms of a linear output, to which rounding is relative.
-[[nodiscard]] double magnitude_of(const Output& output, double t, Side side, const Point& point,
-                                  const ForceLayout& layout);
+[[nodiscard]] double magnitude_of(const Output& output, double t, motion::Side side,
+                                  const motion::Point& point, const ForceLayout& layout);
 
 class ResponseWatch {
  public:
@@ -61,14 +63,14 @@ class ResponseWatch {
   ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense);
 
   /// Updates the frequencies after a change of the model's loads.
-  void loads_changed() { pace_.loads_changed(); }
+  void loads_changed() { fast_mode_cutoff_.loads_changed(); }
   [[nodiscard]] bool any() const { return !model_.outputs.empty(); }
   /// Writes a row, with the losses of all contacts so far; the point must have a = M^-1 (...) if an output needs it.
-  void row(double t, Side side, const Point& point, const std::vector<double>& losses);
+  void row(double t, motion::Side side, const motion::Point& point, const std::vector<double>& losses);
   /// Keeps the side before an event instant; the following call of `row` writes both sides.
-  void before(double t, const Point& point, const std::vector<double>& losses);
+  void before(double t, const motion::Point& point, const std::vector<double>& losses);
   /// Finds extremes inside a step.
-  void inside(DenseOutput& motion, double begin, double end);
+  void inside(engine::DenseOutput& motion, double begin, double end);
   /// Largest |sum of reactions - loads + inertia| of the rows.
   [[nodiscard]] const Extreme& reactions() const { return reactions_; }
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
@@ -87,28 +89,31 @@ class ResponseWatch {
     std::vector<char> open;  // watched functions that are not settled in this part
   };
 
-  void evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
+  void evaluate(double t, motion::Side side, const motion::Point& point, const std::vector<double>& losses,
                 std::vector<OutputReading>& readings) const;
   void write(double t, const std::vector<OutputReading>& readings);
   void see(std::size_t output, double t, const OutputReading& reading);
-  [[nodiscard]] double turning(DenseOutput& motion, const Part& step);
-  [[nodiscard]] bool is_rounding(const Ripple& ripple, const Ripple& whole) const;
+  [[nodiscard]] double turning(engine::DenseOutput& motion, const Part& step);
+  [[nodiscard]] bool is_rounding(const engine::FastModeBound& ripple,
+                                 const engine::FastModeBound& whole) const;
   void see_samples(const Watched& watched, const Part& part, std::size_t stride);
   [[nodiscard]] std::span<const Chebyshev::Values> samples_of(const Watched& watched) const;
   /// Samples a part and closes settled functions; false: none is left.
-  [[nodiscard]] bool look(DenseOutput& motion, Part& part, double begin);
-  void sample(DenseOutput& motion, const Part& part, double begin, std::size_t point);
-  [[nodiscard]] bool settled(const Watched& watched, DenseOutput& motion, const Part& part,
+  [[nodiscard]] bool look(engine::DenseOutput& motion, Part& part, double begin);
+  void sample(engine::DenseOutput& motion, const Part& part, double begin, std::size_t point);
+  [[nodiscard]] bool settled(const Watched& watched, engine::DenseOutput& motion, const Part& part,
                              std::size_t stride);
-  void sharpen(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
-  void sharpen_output(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
-  void sharpen_stretch(const Watched& watched, DenseOutput& motion, const Part& part, std::size_t stride);
+  void sharpen(const Watched& watched, engine::DenseOutput& motion, const Part& part, std::size_t stride);
+  void sharpen_output(const Watched& watched, engine::DenseOutput& motion, const Part& part,
+                      std::size_t stride);
+  void sharpen_stretch(const Watched& watched, engine::DenseOutput& motion, const Part& part,
+                       std::size_t stride);
   /// Updates extremes with the engine's own values at t.
-  void see_motion(const Watched& watched, DenseOutput& motion, double t);
+  void see_motion(const Watched& watched, engine::DenseOutput& motion, double t);
 
   const Model& model_;
   Recorder& recorder_;
-  Pace pace_;
+  FastModeCutoff fast_mode_cutoff_;
   double radian_ = 0.0;  // duration of a radian of the step's fastest motion, or of a load
   bool dense_;
   bool began_ = false;
@@ -118,12 +123,12 @@ class ResponseWatch {
   std::vector<Watched> watched_;
   std::vector<const Output*> forms_;  // linear outputs
   std::vector<double> magnitudes_;    // largest sum of terms of each form so far
-  std::vector<Reach> reaches_;        // of each form, once the engine has provided modes
+  std::vector<FormNorm> reaches_;     // of each form, once the engine has provided modes
   double last_t_ = 0.0, before_t_ = -1.0;
   std::vector<Chebyshev::Values> samples_;  // one entry per form
-  Point point_;
+  motion::Point point_;
   Extreme reactions_;
   std::optional<std::string> coarse_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

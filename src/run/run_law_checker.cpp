@@ -10,7 +10,7 @@
 #include "model/machine_units.hpp"
 #include "run/engines.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 // Modes of a state are used if they reproduce a motion to 1e-12 of its size (src/engine/exact/modal), relative to the
@@ -20,15 +20,15 @@ constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::of_e
 }  // namespace
 
 // A sum over modes starts a flight at g = 0 and does not detect its return if it is lower than the rounding of the sum.
-WitnessedEngine witnessed_engine(const RunSpec& run, const Tolerance& tolerance, const std::string& flow,
-                                 bool low_flights) {
-  WitnessedEngine engine;
+CheckedEngine checked_engine(const RunSpec& run, const engine::Tolerance& tolerance, const std::string& flow,
+                             bool low_flights) {
+  CheckedEngine engine;
   const Accuracy accuracy = name_of(run.engine).accuracy;
   engine.sums_over_modes = flow == "modal";
   const EngineAbilities& can = engine_row(run.engine).can;
   engine.follows = can.laws_at_ends;
   engine.located = can.locates_events(run);
-  WitnessLimits& limits = engine.limits;
+  law_check::LawLimits& limits = engine.limits;
   limits.capture_velocity = tolerance.capture_velocity();
   limits.knows_low_flights = low_flights && !engine.sums_over_modes;
   if (accuracy == Accuracy::step) limits.step = run.dt.value_or(0.0);
@@ -42,8 +42,8 @@ WitnessedEngine witnessed_engine(const RunSpec& run, const Tolerance& tolerance,
   return engine;
 }
 
-RecordedEvent recorded_event(const Event& event) {
-  RecordedEvent result;
+law_check::RecordedEvent recorded_event(const Event& event) {
+  law_check::RecordedEvent result;
   result.contact = static_cast<std::size_t>(event.contact);
   result.type = to_string(event.type);
   result.from = event.from;
@@ -84,7 +84,7 @@ Vector left_forces(const Model& model) {
   return forces;
 }
 
-WitnessedMotion::WitnessedMotion(const Model& model, const WitnessedEngine& engine)
+CheckedMotion::CheckedMotion(const Model& model, const CheckedEngine& engine)
     : model_(model),
       sums_over_modes_(engine.sums_over_modes),
       massless_(
@@ -96,32 +96,34 @@ WitnessedMotion::WitnessedMotion(const Model& model, const WitnessedEngine& engi
       driven_.push_back(k);
 }
 
-void WitnessedMotion::leave(const Forcing& forcing, double t) {
+void CheckedMotion::leave(const motion::Forcing& forcing, double t) {
   if (!(step_ > 0.0)) return;
   for (const std::size_t k : driven_) jerk_[k] = std::abs(forcing.surface(k, t, 3));
 }
 
-WitnessedSide WitnessedMotion::side(const Forcing& forcing, double t, double dependence) const {
-  WitnessedSide side;
+law_check::CheckedSide CheckedMotion::side(const motion::Forcing& forcing, double t,
+                                           double dependence) const {
+  law_check::CheckedSide side;
   fill(forcing, t, dependence, side);
   return side;
 }
 
-Driven WitnessedMotion::driven_at(std::size_t k, const Forcing& forcing, double t) const {
-  Driven d;
+law_check::Driven CheckedMotion::driven_at(std::size_t k, const motion::Forcing& forcing, double t) const {
+  law_check::Driven d;
   d.s = forcing.surface(k, t, 0);
   d.ds = forcing.surface(k, t, 1);
   d.dds = forcing.surface(k, t, 2);
-  d.q = forcing.pressing(k, t, 0);
-  d.dq = forcing.pressing(k, t, 1);
-  d.ddq = forcing.pressing(k, t, 2);
+  d.q = forcing.applied_normal_force(k, t, 0);
+  d.dq = forcing.applied_normal_force(k, t, 1);
+  d.ddq = forcing.applied_normal_force(k, t, 2);
   if (step_ > 0.0)
     d.drift = step_ * step_ / 12.0 *
               (jerk_[k] + std::abs(forcing.surface(k, t, 3)) + step_ * std::abs(forcing.surface(k, t, 4)));
   return d;
 }
 
-void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const {
+void CheckedMotion::fill(const motion::Forcing& forcing, double t, double dependence,
+                         law_check::CheckedSide& side) const {
   side.layout = model_.layout;
   for (std::size_t turns : {0U, 1U}) {
     // Between two instants the motion may reach the scene's displacements, even if it is at rest at both.
@@ -149,7 +151,7 @@ void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, 
   }
 }
 
-void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vector& v) {
+void CheckedMotion::reach(const law_check::LawChecker& witness, const Vector& u, const Vector& v) {
   for (int i = 0; i < model_.size(); ++i) {
     const bool turns = model_.dofs[static_cast<std::size_t>(i)].rotation;
     u_reach_[turns] = std::max(u_reach_[turns], std::abs(u[i]));
@@ -174,8 +176,8 @@ void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vecto
   }
 }
 
-std::array<double, 2> WitnessedMotion::of_accelerations(const Witness& witness, const Vector& a,
-                                                        double dependence) const {
+std::array<double, 2> CheckedMotion::of_accelerations(const law_check::LawChecker& witness, const Vector& a,
+                                                      double dependence) const {
   if (!sums_over_modes_) return {0.0, 0.0};
   const std::array<double, 2> size = witness.modal_size(a);
   return {dependence * of_round_trip * size[0], dependence * of_round_trip * size[1]};
@@ -184,9 +186,9 @@ std::array<double, 2> WitnessedMotion::of_accelerations(const Witness& witness, 
 namespace {
 
 /// Event with the guard's rate in the units of the computation, which are not those of its row.
-RecordedEvent recorded(const Event& event, const Decision& decision) {
-  RecordedEvent result = recorded_event(event);
-  const Crossing* crossing = event.t_uncertainty ? decision.crossing(result.contact) : nullptr;
+law_check::RecordedEvent recorded(const Event& event, const decide::Decision& decision) {
+  law_check::RecordedEvent result = recorded_event(event);
+  const decide::Crossing* crossing = event.t_uncertainty ? decision.crossing(result.contact) : nullptr;
   if (crossing != nullptr) result.guard_rate = crossing->derivatives[0];
   return result;
 }
@@ -207,7 +209,7 @@ std::string sentence_of(const Testimony& testimony, const Model& model) {
   return sentence;
 }
 
-RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Recorder& recorder)
+RunLawChecker::RunLawChecker(const Model& model, const CheckedEngine& engine, Recorder& recorder)
     : model_(model),
       recorder_(recorder),
       engine_(engine),
@@ -219,22 +221,22 @@ RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Record
 namespace {
 
 /// Copy of the data that the record points to.
-InstantRow row_of(const InstantRecord& record) {
-  const auto side = [](const WitnessedSide& s) {
+InstantRow row_of(const law_check::InstantRecord& record) {
+  const auto side = [](const law_check::CheckedSide& s) {
     return InstantSide{*s.u, *s.v, s.a != nullptr ? *s.a : Vector(), *s.mode, *s.forces};
   };
   InstantRow row;
   row.t = record.t;
   row.resolution = record.resolution;
   row.forgiven = record.forgiven;
-  row.dependence = record.dependence;
+  row.eigenvector_condition = record.eigenvector_condition;
   row.start = record.start;
   row.breakpoint = record.breakpoint;
   row.load_jumps = record.load_jumps;
   row.located = record.located;
   row.before = side(record.before);
   row.after = side(record.after);
-  for (const RecordedImpulse& p : record.impulses)
+  for (const law_check::RecordedImpulse& p : record.impulses)
     row.blows.push_back({static_cast<int>(p.contact), p.turn, p.normal, p.tangent});
   row.captures = record.captures;
   for (const std::size_t k : record.released) row.released.push_back(static_cast<int>(k));
@@ -243,29 +245,29 @@ InstantRow row_of(const InstantRecord& record) {
 
 }  // namespace
 
-void RunWitness::instant(const Instant& now) {
-  const Decision& d = *now.decision;
+void RunLawChecker::instant(const Instant& now) {
+  const decide::Decision& d = *now.decision;
   if (now.start) start_peaks(now);
   motion_.reach(witness_, now.before->u, now.before->v);
-  InstantRecord record;
+  law_check::InstantRecord record;
   record.t = now.t;
   record.resolution = now.resolution;
   record.before = std::move(before_);  // their memory is reused
   record.after = std::move(after_);
-  motion_.fill(*now.forcing_before, now.t, now.dependence, record.before);
+  motion_.fill(*now.forcing_before, now.t, now.eigenvector_condition, record.before);
   record.before.u = &now.before->u;
   record.before.v = &now.before->v;
   record.before.forces = &now.before->forces;
   record.before.mode = now.mode_before;
-  motion_.fill(*now.forcing_after, now.t, now.dependence, record.after);
+  motion_.fill(*now.forcing_after, now.t, now.eigenvector_condition, record.after);
   const Vector forces = d.jet.forces.col(0), a = d.jet.a();
   record.after.u = &d.u;
   record.after.v = &d.v;
   record.after.a = &a;
-  record.after.a_reach = motion_.of_accelerations(witness_, a, now.dependence);
+  record.after.a_reach = motion_.of_accelerations(witness_, a, now.eigenvector_condition);
   record.after.forces = &forces;
   record.after.mode = &d.mode;
-  for (const Blow& blow : d.blows)
+  for (const decide::Blow& blow : d.blows)
     record.impulses.push_back({blow.contact, blow.turn, blow.normal, blow.tangent});
   record.captures = d.captures;
   record.released = d.released;
@@ -285,7 +287,7 @@ void RunWitness::instant(const Instant& now) {
   record.load_jumps = now.load_jumps;
   record.located = engine_.located && !now.adopted;
   record.forgiven = d.forgiven;
-  record.dependence = now.dependence;
+  record.eigenvector_condition = now.eigenvector_condition;
   if (holds_) held_forces_ = std::max(held_forces_, witness_.held_forces(record.after));
   for (std::size_t k = 0; k < passed_.size(); ++k)
     passed_[k].surface = std::max(passed_[k].surface, std::abs(record.before.driven[k].s));
@@ -298,11 +300,11 @@ void RunWitness::instant(const Instant& now) {
   after_ = std::move(record.after);
 }
 
-void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, const Point& point,
-                         double dependence) {
+void RunLawChecker::between(double t, const motion::Forcing& forcing, const contact::ContactStates& mode,
+                            const motion::Point& point, double dependence) {
   if (!engine_.follows) return;
   motion_.fill(forcing, t, dependence, point_);
-  WitnessedSide& side = point_;
+  law_check::CheckedSide& side = point_;
   side.u = &point.u;
   side.v = &point.v;
   side.a = point.a.size() > 0 ? &point.a : nullptr;
@@ -323,7 +325,7 @@ std::pair<double, double> borrowed(const Contact& c, const ForceLayout& layout, 
 
 }  // namespace
 
-void RunWitness::start_peaks(const Instant& now) {
+void RunLawChecker::start_peaks(const Instant& now) {
   passed_.resize(model_.contacts.size());
   for (std::size_t k = 0; k < passed_.size(); ++k) {
     const Contact& c = model_.contacts[k];
@@ -333,11 +335,12 @@ void RunWitness::start_peaks(const Instant& now) {
   }
 }
 
-void RunWitness::passes(double t, const Forcing& forcing, const Point& point) {
+void RunLawChecker::passes(double t, const motion::Forcing& forcing, const motion::Point& point) {
   for (std::size_t k = 0; k < passed_.size(); ++k) passes(k, t, forcing, point);
 }
 
-void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const Point& point) {
+void RunLawChecker::passes(std::size_t k, double t, const motion::Forcing& forcing,
+                           const motion::Point& point) {
   if (engine_.limits.step > 0.0) return;  // peaks are taken at the ends of steps
   const Contact& c = model_.contacts[k];
   PassedPeak& p = passed_[k];
@@ -350,7 +353,7 @@ void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const P
 }
 
 /// Size of the terms of a contact's g and ut, with the largest displacement of each kind.
-double RunWitness::place_of(std::size_t k) const {
+double RunLawChecker::place_of(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const auto size = [&](const Combination& form) {
     double of_form = 0.0, of_u = reached_[0] * reached_[0];
@@ -364,44 +367,45 @@ double RunWitness::place_of(std::size_t k) const {
   return size(c.normal) + size(c.tangent) + std::abs(c.gap) + passed_[k].surface;
 }
 
-void RunWitness::peaks(double t, const std::vector<Peak>& told) {
-  for (std::size_t k = 0; k < passed_.size() && k < told.size(); ++k) {
+void RunLawChecker::peaks(double t, const std::vector<Peak>& recorded) {
+  for (std::size_t k = 0; k < passed_.size() && k < recorded.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const PassedPeak& p = passed_[k];
     // Both values are the same sum, at different points. A fixed point moves by the rounding of the scene's
     // displacements.
-    const WitnessLimits& tol = engine_.limits;
+    const law_check::LawLimits& tol = engine_.limits;
     const double place = place_of(k);
     const double length = rounding::of_elimination * (place + model_.scales.displacement) +
-                          of_tolerance * (tol.rtol * place + tol.displacement);
-    const double force = (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
-                         (rounding::of_elimination + of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
-                         (c.normal_spring() ? 0.0 : rounding::of_elimination * held_forces_) +
-                         of_tolerance * tol.force;
-    const auto check = [&](double farthest, double said, double limit, const Unit& unit) {
-      if (farthest - said > limit)
-        keep({{t, "end", static_cast<int>(k), "peak", farthest - said, limit, unit, false}});
+                          law_check::of_tolerance * (tol.rtol * place + tol.displacement);
+    const double force =
+        (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
+        (rounding::of_elimination + law_check::of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
+        (c.normal_spring() ? 0.0 : rounding::of_elimination * held_forces_) +
+        law_check::of_tolerance * tol.force;
+    const auto check = [&](double farthest, double recorded_value, double limit, const Unit& unit) {
+      if (farthest - recorded_value > limit)
+        keep({{t, "end", static_cast<int>(k), "peak", farthest - recorded_value, limit, unit, false}});
     };
-    check(p.most.N, told[k].N, force, unit::force);
-    check(p.most.T, told[k].T, force, unit::force);
-    check(p.most.normal, told[k].normal, length, unit::length);
-    check(p.most.tangential, told[k].tangential, length, unit::length);
+    check(p.most.N, recorded[k].N, force, unit::force);
+    check(p.most.T, recorded[k].T, force, unit::force);
+    check(p.most.normal, recorded[k].normal, length, unit::length);
+    check(p.most.tangential, recorded[k].tangential, length, unit::length);
   }
 }
 
-void RunWitness::keep(std::vector<Violation> found) {
+void RunLawChecker::keep(std::vector<Violation> found) {
   ++testimony_.checked;
   testimony_.violated += static_cast<long>(found.size());
   for (Violation& v : found) {
-    if (v.grave && grave_.empty()) {
+    if (v.unexplained && law_violated_.empty()) {
       Violation shown = v;
-      shown.t = said_time(model_, v.t);
-      shown.value = said(model_, v.value, v.unit);
-      shown.limit = said(model_, v.limit, v.unit);
-      grave_ = sentence_of(shown, model_);
+      shown.t = model::time_in_scene_units(model_, v.t);
+      shown.value = model::in_scene_units(model_, v.value, v.unit);
+      shown.limit = model::in_scene_units(model_, v.limit, v.unit);
+      law_violated_ = sentence_of(shown, model_);
     }
     if (testimony_.violations.size() < most_violations) testimony_.violations.push_back(std::move(v));
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -13,64 +13,65 @@
 #include "law_check/law_checker.hpp"
 #include "motion/forcing.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 // Data of a motion that the witness needs in addition to u and v: motions and forces that drive
 // contacts, loads on massless parts, and the largest displacements so far.
 //
-//   WitnessedMotion motion(model, engine);
+//   CheckedMotion motion(model, engine);
 //   motion.reach(witness, u, v);
-//   WitnessedSide side = motion.side(forcing, t);        u, v, forces, states: to be set
+//   CheckedSide side = motion.side(forcing, t);        u, v, forces, states: to be set
 //   motion.leave(forcing, t);                            the instant is over
 //
 // Used for a run (run/run_law_checker.hpp) and for a directory of results (study/law_check/directory_law_checker.hpp).
 
 /// Limits and abilities of a run's engine.
-struct WitnessedEngine {
-  WitnessLimits limits;
+struct CheckedEngine {
+  law_check::LawLimits limits;
   bool located = true;  ///< the engine locates the zeros of guards
   bool follows = true;  ///< laws hold at ends of steps
   bool sums_over_modes = false;
 };
 /// flow: "modal" or not. low_flights: the engine computes flights lower than the rounding of their gaps.
-[[nodiscard]] WitnessedEngine witnessed_engine(const RunSpec& run, const Tolerance& tolerance,
-                                               const std::string& flow, bool low_flights);
+[[nodiscard]] CheckedEngine checked_engine(const RunSpec& run, const engine::Tolerance& tolerance,
+                                           const std::string& flow, bool low_flights);
 
 /// Event row of a contact, without guard_rate.
-[[nodiscard]] RecordedEvent recorded_event(const Event& event);
+[[nodiscard]] law_check::RecordedEvent recorded_event(const Event& event);
 
 /// Final states and forces of the run that is continued (Model::continues); guessed: states for user-defined laws.
 [[nodiscard]] std::vector<ContactState> left_states(const Model& model,
                                                     const std::vector<ContactState>& guessed);
 [[nodiscard]] Vector left_forces(const Model& model);
 
-class WitnessedMotion {
+class CheckedMotion {
  public:
-  WitnessedMotion(const Model& model, const WitnessedEngine& engine);
+  CheckedMotion(const Model& model, const CheckedEngine& engine);
 
   /// Called at instants only: values between two instants are hardly larger, or of the scene's own scale.
-  void reach(const Witness& witness, const Vector& u, const Vector& v);
-  /// Value of WitnessedSide::a_reach.
-  [[nodiscard]] std::array<double, 2> of_accelerations(const Witness& witness, const Vector& a,
+  void reach(const law_check::LawChecker& witness, const Vector& u, const Vector& v);
+  /// Value of CheckedSide::a_reach.
+  [[nodiscard]] std::array<double, 2> of_accelerations(const law_check::LawChecker& witness, const Vector& a,
                                                        double dependence) const;
   /// dependence: StepFacts::eigenvector_condition of the motion up to t.
-  [[nodiscard]] WitnessedSide side(const Forcing& forcing, double t, double dependence) const;
+  [[nodiscard]] law_check::CheckedSide side(const motion::Forcing& forcing, double t,
+                                            double dependence) const;
   /// The same for an existing side, whose memory is reused. It must come from this motion, since constant `driven`
   /// entries are kept, or be without `driven`.
-  void fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const;
+  void fill(const motion::Forcing& forcing, double t, double dependence, law_check::CheckedSide& side) const;
   /// Ends an instant, with the forcing after it.
-  void leave(const Forcing& forcing, double t);
+  void leave(const motion::Forcing& forcing, double t);
 
  private:
-  [[nodiscard]] Driven driven_at(std::size_t k, const Forcing& forcing, double t) const;
+  [[nodiscard]] law_check::Driven driven_at(std::size_t k, const motion::Forcing& forcing, double t) const;
 
   const Model& model_;
   bool sums_over_modes_, massless_;
-  double step_;                      // WitnessLimits::step
+  double step_;                      // LawLimits::step
   std::vector<std::size_t> driven_;  // contacts whose surface or compression may change
   std::vector<double> jerk_;         // |s'''| of each surface just after the last instant
-  std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // WitnessedSide
-  double energy_ = 0.0;                                                // largest Witness::twice_energy
+  std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // CheckedSide
+  double energy_ = 0.0;                                                // largest LawChecker::twice_energy
   double kinetic_ = 0.0;                                               // for sums over modes: largest v^T M v
   std::vector<double> lightness_, speeds_;  // of each contact; times the root of energy_
   std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // Witness::modal_size
@@ -84,35 +85,36 @@ struct PassedPeak {
   Peak most;
 };
 
-class RunWitness {
+class RunLawChecker {
  public:
   /// All arguments must outlive the object; the recorder receives instants if it wants them.
-  RunWitness(const Model& model, const WitnessedEngine& engine, Recorder& recorder);
+  RunLawChecker(const Model& model, const CheckedEngine& engine, Recorder& recorder);
 
   struct Instant {
     double t = 0.0, resolution = 0.0;
-    const Point* before = nullptr;
-    const Mode* mode_before = nullptr;
-    const Forcing *forcing_before = nullptr, *forcing_after = nullptr;
-    const Decision* decision = nullptr;
+    const motion::Point* before = nullptr;
+    const contact::ContactStates* mode_before = nullptr;
+    const motion::Forcing *forcing_before = nullptr, *forcing_after = nullptr;
+    const decide::Decision* decision = nullptr;
     const std::vector<Event>* events = nullptr;
     bool start = false, breakpoint = false, load_jumps = false;
-    bool adopted = false;     ///< the engine found states, and no time
-    double dependence = 1.0;  ///< Stepper::dependence()
+    bool adopted = false;                ///< the engine found states, and no time
+    double eigenvector_condition = 1.0;  ///< Stepper::dependence()
   };
   void instant(const Instant& now);
   /// Checks a point inside a stretch.
-  void between(double t, const Forcing& forcing, const Mode& mode, const Point& point, double dependence);
+  void between(double t, const motion::Forcing& forcing, const contact::ContactStates& mode,
+               const motion::Point& point, double dependence);
 
   /// Adds a point inside a step: that of a row, or a turning point.
-  void passes(double t, const Forcing& forcing, const Point& point);
+  void passes(double t, const motion::Forcing& forcing, const motion::Point& point);
   /// Adds a point for one contact; only the entries of the point that it depends on are read.
-  void passes(std::size_t contact, double t, const Forcing& forcing, const Point& point);
+  void passes(std::size_t contact, double t, const motion::Forcing& forcing, const motion::Point& point);
   /// Checks at the end that none of these points exceeds the reported peaks.
-  void peaks(double t, const std::vector<Peak>& told);
+  void peaks(double t, const std::vector<Peak>& recorded);
 
   /// Reason for ending the run: the first violation without an explanation. Empty: none.
-  [[nodiscard]] const std::string& grave() const { return grave_; }
+  [[nodiscard]] const std::string& unexplained() const { return law_violated_; }
   /// Violations in the units of the model; physical() converts them.
   [[nodiscard]] Testimony& testimony() { return testimony_; }
 
@@ -123,16 +125,16 @@ class RunWitness {
 
   const Model& model_;
   Recorder& recorder_;
-  const WitnessedEngine engine_;
-  Witness witness_;
-  WitnessedMotion motion_;
-  WitnessedSide point_, before_, after_;  // between instants, and at one
+  const CheckedEngine engine_;
+  law_check::LawChecker witness_;
+  CheckedMotion motion_;
+  law_check::CheckedSide point_, before_, after_;  // between instants, and at one
   std::vector<PassedPeak> passed_;
-  std::array<double, 2> reached_ = {0.0, 0.0};  // largest WitnessedSide::u_reach
+  std::array<double, 2> reached_ = {0.0, 0.0};  // largest CheckedSide::u_reach
   bool holds_ = false;                          // some contact has no spring: its forces enforce constraints
-  double held_forces_ = 0.0;                    // largest Witness::held_forces, if there is such a contact
+  double held_forces_ = 0.0;                    // largest LawChecker::held_forces, if there is such a contact
   Testimony testimony_;
-  std::string grave_;
+  std::string law_violated_;
 };
 
 /// Sentence about a violation, in its units: "at t = 0.1 the momentum of the structure is off by 12.6, where 3e-12 is
@@ -141,4 +143,4 @@ class RunWitness {
 /// Sentence about the first violation, with the number of violations.
 [[nodiscard]] std::string sentence_of(const Testimony& testimony, const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::run

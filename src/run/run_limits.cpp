@@ -6,7 +6,7 @@
 
 #include "model/machine_units.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 // A bouncing ball with e = 0.99 passes its accumulation point with 2000 events; one with e = 0.999 needs 20000, in a
@@ -17,8 +17,8 @@ constexpr double resolutions_of_instant = 10.0;  // largest distance of events o
 
 }  // namespace
 
-std::optional<std::string> Standstill::count(double t, double resolution,
-                                             const std::vector<std::size_t>& contacts) {
+std::optional<std::string> StallDetector::count(double t, double resolution,
+                                                const std::vector<std::size_t>& contacts) {
   after_mark_.insert(contacts.begin(), contacts.end());
   if (auto reason = crawl(t)) return reason;
   if (at_once_ == 0 || t - cluster_ > resolutions_of_instant * resolution) {
@@ -32,7 +32,7 @@ std::optional<std::string> Standstill::count(double t, double resolution,
   return fmt::format("{} events at one instant; time does not advance", most_at_once_);
 }
 
-std::optional<std::string> Standstill::crawl(double t) {
+std::optional<std::string> StallDetector::crawl(double t) {
   if (++since_mark_ < watched_events) return std::nullopt;
   const double advanced = t - mark_;
   since_mark_ = 0;
@@ -65,12 +65,14 @@ void LargeMotions::note(double t, double angle, const std::string& what) {
   of_greatest_ = what;
 }
 
-void LargeMotions::see(double t, const Forcing& forcing, const Point& now) {
+void LargeMotions::see(double t, const motion::Forcing& forcing, const motion::Point& now) {
   for (const std::size_t i : rotations_)
     note(t, std::abs(now.u[static_cast<Eigen::Index>(i)]), model_.dofs[i].displacement);
   for (const std::size_t k : pendulums_) {
     const Contact& contact = model_.contacts[k];
-    note(t, std::abs(slide_of(contact, k, forcing, t, now.u, now.v).ut) / contact.curved_surface()->radius,
+    note(t,
+         std::abs(motion::slide_of(contact, k, forcing, t, now.u, now.v).ut) /
+             contact.curved_surface()->radius,
          "ut / R of contact '" + contact.name + "'");
   }
 }
@@ -81,7 +83,8 @@ std::optional<std::string> LargeMotions::warning() const {
       "{} is {:.3g} rad at t = {:.6g}, and {} reaches {:.3g} rad: rotations are computed as small ones, so "
       "that from there on "
       "results are far from those of the real structure",
-      first_->what, first_->angle, said_time(model_, first_->t), of_greatest_, greatest_);
+      first_->description, first_->angle, model::time_in_scene_units(model_, first_->t), of_greatest_,
+      greatest_);
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

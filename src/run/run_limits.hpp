@@ -11,12 +11,12 @@
 
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
-class Standstill {
+class StallDetector {
  public:
   /// unit: factor that converts times for messages.
-  Standstill(double t_end, int most_at_once, double unit = 1.0)
+  StallDetector(double t_end, int most_at_once, double unit = 1.0)
       : t_end_(t_end), most_at_once_(most_at_once), unit_(unit) {}
 
   /// Counts an instant; times do not decrease. Returns the reason for ending the run; nullopt: it continues. contacts:
@@ -53,13 +53,13 @@ class LargeMotions {
   explicit LargeMotions(const Model& model);
 
   /// Examines the end of a step.
-  void see(double t, const Forcing& forcing, const Point& now);
+  void see(double t, const motion::Forcing& forcing, const motion::Point& now);
   /// Text of the warning; nullopt: all motions stayed small.
   [[nodiscard]] std::optional<std::string> warning() const;
 
  private:
   struct Large {
-    std::string what;
+    std::string description;
     double t = 0.0, angle = 0.0;
   };
   void note(double t, double angle, const std::string& what);
@@ -71,4 +71,4 @@ class LargeMotions {
   std::string of_greatest_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

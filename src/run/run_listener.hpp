@@ -15,47 +15,50 @@
 #include "engine/stepper.hpp"
 #include "signorini/trace.hpp"
 
-namespace signorini {
-
+namespace signorini::modal {
 struct ModalShare;
+}  // namespace signorini::modal
+
+namespace signorini::run {
+
 class FaultInjector;
 
 /// A completed step.
 struct RunStep {
-  const Step& step;
-  const StepFacts& facts;
-  const Decision& decision;  ///< the mode of the step
-  const Forcing& forcing;
-  DenseOutput& motion;
+  const engine::Step& step;
+  const engine::StepFacts& facts;
+  const decide::Decision& decision;  ///< the mode of the step
+  const motion::Forcing& forcing;
+  engine::DenseOutput& motion;
 };
 
 /// Motion at a time, in the mode before it.
 struct RunPoint {
   double t = 0.0;
-  const Forcing& forcing;
-  const Mode& mode;
-  const Point& point;
+  const motion::Forcing& forcing;
+  const contact::ContactStates& mode;
+  const motion::Point& point;
 };
 
 /// An instant at which states were decided.
 struct RunInstant {
   double t = 0.0, resolution = 0.0;
-  const std::vector<Fired>& fired;
+  const std::vector<decide::TriggeredGuard>& triggered;
   bool breakpoint = false;  ///< the forcing is not smooth here
-  const Mode& mode_before;
-  const Decision& after;
-  const Forcing &forcing_before, &forcing_after;
+  const contact::ContactStates& mode_before;
+  const decide::Decision& after;
+  const motion::Forcing &forcing_before, &forcing_after;
   const Vector& v_before;  ///< velocities before; u is that of `after`
   bool load_jumps = false;
   bool adopted = false;  ///< the engine found states, and no time
   /// Points of the loop; null if an instant is computed again without a loop.
-  const Point *point_before = nullptr, *point_after = nullptr;
+  const motion::Point *point_before = nullptr, *point_after = nullptr;
 };
 
 /// Requirements of a listener for the engine of the run.
 struct ListenerNeeds {
   /// Data that engine `exact` in modes shares with the listener (engine/exact/modal/modal_flow.hpp); null: none.
-  ModalShare* modal = nullptr;
+  modal::ModalShare* modal = nullptr;
   /// True if the largest N, T, gap and ut inside steps are needed. `exact` in modes computes them only then.
   bool peaks = true;
   /// Seed, not 0: engine `exact` in series varies the lengths of its steps randomly.
@@ -73,7 +76,7 @@ class RunListener {
   virtual void before(const RunPoint& /*point*/) {}
   virtual void instant(const RunInstant& /*instant*/) {}
   /// Receives the end of the run; near hits and the graze of the engine are in the units of the scene.
-  virtual void end(const RunPoint& /*last*/, const StepperReport& /*engine*/) {}
+  virtual void end(const RunPoint& /*last*/, const engine::StepperReport& /*engine*/) {}
 };
 
 /// A list of listeners, called in the order in which they were added.
@@ -98,7 +101,7 @@ class RunListeners final : public RunListener {
   void instant(const RunInstant& instant) override {
     for (RunListener* listener : list_) listener->instant(instant);
   }
-  void end(const RunPoint& last, const StepperReport& engine) override {
+  void end(const RunPoint& last, const engine::StepperReport& engine) override {
     for (RunListener* listener : list_) listener->end(last, engine);
   }
 
@@ -110,7 +113,7 @@ class RunListeners final : public RunListener {
 class EventShift {
  public:
   virtual ~EventShift() = default;
-  virtual double shift(const Step& step) = 0;
+  virtual double shift(const engine::Step& step) = 0;
 };
 
 /// Listeners of a run, and objects that influence it; empty or null: none.
@@ -129,4 +132,4 @@ struct RunHooks {
                               RunListener& listener, const ListenerNeeds& needs = {},
                               EventShift* event_shift = nullptr);
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -5,12 +5,12 @@
 
 #include "engine/tolerance.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 /// Contacts whose guards were triggered, or whose states have changed.
 std::vector<std::size_t> changed_contacts(const RunInstant& now) {
-  std::vector<std::size_t> contacts = contacts_of(now.fired);
+  std::vector<std::size_t> contacts = decide::contacts_of(now.triggered);
   for (std::size_t k = 0; k < now.mode_before.size(); ++k)
     if (now.after.mode[k].state != now.mode_before[k].state) contacts.push_back(k);
   return contacts;
@@ -18,16 +18,16 @@ std::vector<std::size_t> changed_contacts(const RunInstant& now) {
 
 }  // namespace
 
-RunRecord::RunRecord(const Model& model, const RunSpec& run, const Method& method, const Structure& structure,
-                     const Stepper& engine, Recorder& recorder, Report& report, FaultInjector* faults,
-                     const PartShare& share)
+RunRecord::RunRecord(const Model& model, const RunSpec& run, const Method& method,
+                     const linear::SystemMatrices& structure, const engine::Stepper& engine,
+                     Recorder& recorder, Report& report, FaultInjector* faults, const PartShare& share)
     : model_(model),
       engine_(engine),
       recorder_(recorder),
       report_(report),
       faults_(faults),
       witness_(exact_model(faults),
-               witnessed_engine(run, tolerance_of(model, run), method.flow, engine.knows_low_flights),
+               checked_engine(run, engine::tolerance_of(model, run), method.flow, engine.knows_low_flights),
                recorder),
       auditor_(model, structure),
       log_(model, recorder, report, share.whole()),
@@ -55,15 +55,15 @@ void RunRecord::begin(const RunInstant& start) {
   auditor_.begin(start.after, start.mode_before, start.forcing_after, *start.point_after);
   log_.start({t, start.resolution, &start.after, &start.mode_before, false}, engine_);
   zero_since_.decided(t, start.after, true);
-  const Point given{model_.u0, model_.v0, start.after.jet.forces.col(0)};
-  RunWitness::Instant seen{t,
-                           start.resolution,
-                           &given,
-                           &start.mode_before,
-                           &start.forcing_before,
-                           &start.forcing_after,
-                           &start.after,
-                           &log_.latest()};
+  const motion::Point given{model_.u0, model_.v0, start.after.jet.forces.col(0)};
+  RunLawChecker::Instant seen{t,
+                              start.resolution,
+                              &given,
+                              &start.mode_before,
+                              &start.forcing_before,
+                              &start.forcing_after,
+                              &start.after,
+                              &log_.latest()};
   seen.start = true;
   witness_.instant(seen);
   after(start, std::nullopt);
@@ -80,7 +80,7 @@ void RunRecord::step(const RunStep& step) {
   const bool each_alone = step.facts.contact_turns != nullptr && !motion_.wanted() && !curves_.wanted();
   motion_.step(begin, end, each_alone ? std::span<const double>() : step.facts.turning_points);
   if (each_alone) turns(step);
-  const Mode& mode = step.decision.mode;
+  const contact::ContactStates& mode = step.decision.mode;
   while (const auto moment = motion_.next()) {
     const double t = moment->t;
     step.motion.evaluate_watched(t, std::nullopt, point_);
@@ -95,7 +95,7 @@ void RunRecord::step(const RunStep& step) {
 /// Records the rows requested inside a step.
 void RunRecord::rows(const RunStep& step) {
   for (double t = samples_.next(); t < step.step.end; t = samples_.next()) {
-    Point point;
+    motion::Point point;
     step.motion.evaluate(t, point);
     works_.clear();
     step.motion.integrate(t, step.step.end, works_);
@@ -105,20 +105,20 @@ void RunRecord::rows(const RunStep& step) {
 }
 
 /// Records a row. works_: from t to the end of the step.
-void RunRecord::row(const RunStep& step, double t, Point& point) {
+void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
   samples_.emit(t, works_, step.forcing, step.decision.mode, point);
   if (response_.any()) {
     step.motion.accelerate(t, point);
     std::vector<double> losses = auditor_.losses();
     for (std::size_t k = 0; k < losses.size(); ++k) losses[k] -= works_.friction[k];
-    response_.row(t, Side::before, point, losses);
+    response_.row(t, motion::Side::before, point, losses);
   }
   residual_due_ = true;
 }
 
 /// Checks each contact at its own turning points, for a motion that is not drawn.
 void RunRecord::turns(const RunStep& step) {
-  for (const TurningPoints::Turn& turn : *step.facts.contact_turns) {
+  for (const events::TurningPoints::Turn& turn : *step.facts.contact_turns) {
     if (!std::isfinite(turn.time)) continue;
     const std::size_t contact = turn.contact();
     step.motion.evaluate_watched(turn.time, contact, point_);
@@ -129,7 +129,7 @@ void RunRecord::turns(const RunStep& step) {
 
 void RunRecord::reached(const RunStep& step, const RunPoint& end) {
   large_.see(end.t, end.forcing, end.point);
-  if (step.step.kind == Step::Kind::event) return;
+  if (step.step.kind == engine::Step::Kind::event) return;
   if (motion_.needs(end.t)) motion_.add(end.t, auditor_, end.forcing, end.mode, end.point);
   if (curves_.needs(end.t)) {
     add_curves(end.t, end.mode, end.point);
@@ -152,7 +152,7 @@ void RunRecord::instant(const RunInstant& now) {
   auditor_.instant(t, now.after, now.mode_before, *now.point_before, now.forcing_after, now.load_jumps);
   warnings_.add(t, now.after, report_.warnings);
   log_.instant(
-      {t, now.resolution, &now.after, &now.mode_before, now.load_jumps, zero_since_.before(t, now.fired)},
+      {t, now.resolution, &now.after, &now.mode_before, now.load_jumps, zero_since_.before(t, now.triggered)},
       engine_);
   zero_since_.decided(t, now.after, now.breakpoint);
   witness_.instant({t, now.resolution, now.point_before, &now.mode_before, &now.forcing_before,
@@ -165,9 +165,9 @@ void RunRecord::instant(const RunInstant& now) {
 /// velocities have changed; absent: possibly all.
 void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std::size_t>>& changed) {
   const double t = now.t;
-  const Decision& decision = now.after;
-  const Point& point = *now.point_after;
-  const Forcing& forcing = now.forcing_after;
+  const decide::Decision& decision = now.after;
+  const motion::Point& point = *now.point_after;
+  const motion::Forcing& forcing = now.forcing_after;
   if (decision.undecided) ++report_.undecided;
   const bool open = decision.forgiven > 0.0 || decision.unresolved || !decision.at_limit.empty();
   if (open && !report_.forgiven_at) report_.forgiven_at = t;
@@ -178,13 +178,14 @@ void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std
     samples_.emit(next, works_, forcing, decision.mode, point);
     residual_due_ = true;
   }
-  response_.row(t, Side::after, point, auditor_.losses());
+  response_.row(t, motion::Side::after, point, auditor_.losses());
   motion_.after(t, auditor_, forcing, decision.mode, point, changed);
   curves_.add(t, point.u, last_energy_);
 }
 
 /// Adds a row of curves. step: the one that contains t; the auditor has its works up to its end.
-void RunRecord::add_curves(double t, const Mode& mode, const Point& point, const RunStep* step) {
+void RunRecord::add_curves(double t, const contact::ContactStates& mode, const motion::Point& point,
+                           const RunStep* step) {
   works_.clear();
   if (step != nullptr && t < step->step.end) step->motion.integrate(t, step->step.end, works_);
   curves_.add(t, point.u, auditor_.energy_before(works_, mode, point));
@@ -195,7 +196,7 @@ Sample RunRecord::sample(const RunPoint& now) {
   return samples_.sample(now.t, works_, now.forcing, now.mode, now.point);
 }
 
-void RunRecord::end(const RunPoint& last, const StepperReport& engine) {
+void RunRecord::end(const RunPoint& last, const engine::StepperReport& engine) {
   report_.counters = engine.counters;
   log_.finish();
   if (motion_.last() < last.t) motion_.add(last.t, auditor_, last.forcing, last.mode, last.point);
@@ -213,4 +214,4 @@ void RunRecord::end(const RunPoint& last, const StepperReport& engine) {
   if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

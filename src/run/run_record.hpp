@@ -23,14 +23,14 @@
 #include "run/touch_tracker.hpp"
 #include "run/warnings.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 class RunRecord final : public RunListener {
  public:
   /// All arguments except method and share must outlive the object. faults: null, or errors injected by a test.
-  RunRecord(const Model& model, const RunSpec& run, const Method& method, const Structure& structure,
-            const Stepper& engine, Recorder& recorder, Report& report, FaultInjector* faults,
-            const PartShare& share);
+  RunRecord(const Model& model, const RunSpec& run, const Method& method,
+            const linear::SystemMatrices& structure, const engine::Stepper& engine, Recorder& recorder,
+            Report& report, FaultInjector* faults, const PartShare& share);
 
   void begin(const RunInstant& start) override;
   void step(const RunStep& step) override;
@@ -38,7 +38,7 @@ class RunRecord final : public RunListener {
   void before(const RunPoint& point) override;
   void instant(const RunInstant& instant) override;
   /// Completes the report.
-  void end(const RunPoint& last, const StepperReport& engine) override;
+  void end(const RunPoint& last, const engine::StepperReport& engine) override;
 
   /// Records a point at which no states could be decided.
   void refused(const RunPoint& point) { last_energy_ = auditor_.energy(point.t, point.mode, point.point); }
@@ -47,7 +47,7 @@ class RunRecord final : public RunListener {
   /// Sample for a steering recorder, valid until the next row.
   [[nodiscard]] Sample sample(const RunPoint& point);
   /// Reason for ending the run: a violated law without an explanation. Empty: none.
-  [[nodiscard]] const std::string& law_violated() const { return witness_.grave(); }
+  [[nodiscard]] const std::string& law_violated() const { return witness_.unexplained(); }
   /// Energy after the last decision.
   [[nodiscard]] const Energy& energy() const { return last_energy_; }
   /// True if outputs need accelerations in the points before instants.
@@ -59,18 +59,19 @@ class RunRecord final : public RunListener {
     return faults_ == nullptr || !faults_->forgets_peaks_inside();
   }
   void rows(const RunStep& step);
-  void row(const RunStep& step, double t, Point& point);
+  void row(const RunStep& step, double t, motion::Point& point);
   void turns(const RunStep& step);
-  void add_curves(double t, const Mode& mode, const Point& point, const RunStep* step = nullptr);
+  void add_curves(double t, const contact::ContactStates& mode, const motion::Point& point,
+                  const RunStep* step = nullptr);
   void after(const RunInstant& instant, const std::optional<std::vector<std::size_t>>& changed);
 
   const Model& model_;
-  const Stepper& engine_;
+  const engine::Stepper& engine_;
   Recorder& recorder_;
   Report& report_;
   FaultInjector* faults_;
   std::unique_ptr<Model> exact_model_;  // null: same as model_
-  RunWitness witness_;
+  RunLawChecker witness_;
   Auditor auditor_;
   EventLog log_;
   Samples samples_;
@@ -78,13 +79,13 @@ class RunRecord final : public RunListener {
   CurveRecord curves_;
   ResponseWatch response_;
   LargeMotions large_;
-  ZeroSince zero_since_;
+  ZeroTracker zero_since_;
   DecisionWarnings warnings_;
-  Point point_;  // inside a step
-  Works works_;
+  motion::Point point_;  // inside a step
+  motion::WorkIntegrals works_;
   Energy last_energy_;
   double condition_ = 1.0;     // StepFacts::eigenvector_condition of the last step
   bool residual_due_ = false;  // at the end of the step: once for every row
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace signorini {
+namespace signorini::run {
 
 double Samples::next() const {
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -11,8 +11,8 @@ double Samples::next() const {
                   next_frame_ < frames_.size() ? frames_[next_frame_] : never);
 }
 
-void Samples::emit(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
-                   const Point& point) {
+void Samples::emit(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
+                   const contact::ContactStates& mode, const motion::Point& point) {
   const Sample now = sample(t, ahead, forcing, mode, point);
   if (next_row_ < grid_->size() && (*grid_)[next_row_] == t) {
     recorder_.sample(now);
@@ -24,8 +24,8 @@ void Samples::emit(double t, const Works& ahead, const Forcing& forcing, const M
   }
 }
 
-Sample Samples::sample(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
-                       const Point& point) {
+Sample Samples::sample(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
+                       const contact::ContactStates& mode, const motion::Point& point) {
   Sample result;
   result.t = t;
   result.u = &point.u;
@@ -42,4 +42,4 @@ Sample Samples::sample(double t, const Works& ahead, const Forcing& forcing, con
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -9,7 +9,7 @@
 
 #include "run/audit.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 class Samples {
  public:
@@ -25,10 +25,11 @@ class Samples {
   /// The next time of the grid or of a frame; infinity after the last.
   [[nodiscard]] double next() const;
   /// Records the time t = next(). ahead: works that the auditor has and that belong to times after t.
-  void emit(double t, const Works& ahead, const Forcing& forcing, const Mode& mode, const Point& point);
+  void emit(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
+            const contact::ContactStates& mode, const motion::Point& point);
   /// Sample at t, whose u and v are valid until the next call. ahead: as above.
-  [[nodiscard]] Sample sample(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
-                              const Point& point);
+  [[nodiscard]] Sample sample(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
+                              const contact::ContactStates& mode, const motion::Point& point);
 
  private:
   const Model& model_;
@@ -40,4 +41,4 @@ class Samples {
   Vector physical_u_, physical_v_;  // of a model with other unknowns
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

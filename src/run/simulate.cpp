@@ -24,6 +24,10 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder)
   return simulate(model, settings, recorder, RoundListener());
 }
 
+}  // namespace signorini
+
+namespace signorini::run {
+
 namespace {
 
 RunEnd run_whole(Model& model, const RunSpec& spec, const EngineRow& engine, Method method,
@@ -39,7 +43,7 @@ Report concluded(RunEnd ending, const Model& computed, const RunSpec& spec) {
   Report report = physical(std::move(ending.report), computed);
   if (report.witness.violated > 0 && !ending.law_violated)
     report.warnings.push_back(sentence_of(report.witness, computed));
-  const double rounding = ending.energy_rounding * factor_of(unit::energy, computed.unit);
+  const double rounding = ending.energy_rounding * scene::factor_of(unit::energy, computed.unit);
   if (const auto sentence = energy_lost(report.audit, report.method, rounding, exact_takes(computed, spec)))
     report.warnings.push_back(*sentence);
   return report;
@@ -54,16 +58,17 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
   Method method = engine.method(model, spec);
   method.automatic = choice.automatic;
   method.reason = choice.reason;
-  const Factors to_machine = inverse(model.machine);
-  Model computed = rescaled(model, to_machine);
-  spec = rescaled(std::move(spec), to_machine);
+  const Factors to_machine = scene::inverse(model.machine);
+  Model computed = model::rescaled(model, to_machine);
+  spec = scene::rescaled(std::move(spec), to_machine);
   PhysicalRecorder in_scene(computed, recorder);
   hooks.rounds = physical(hooks.rounds, computed);
   const auto clock = std::chrono::steady_clock::now();
-  std::vector<PartModel> parts = parts_to_run(computed, method, recorder, hooks);
-  RunEnd ending = parts.empty()
-                      ? run_whole(computed, spec, engine, std::move(method), in_scene, std::move(hooks))
-                      : run_apart(computed, std::move(parts), spec, engine, std::move(method), in_scene);
+  std::vector<assembly::PartModel> parts = parts_to_run(computed, method, recorder, hooks);
+  RunEnd ending =
+      parts.empty()
+          ? run_whole(computed, spec, engine, std::move(method), in_scene, std::move(hooks))
+          : run_independent_parts(computed, std::move(parts), spec, engine, std::move(method), in_scene);
   Report report = concluded(std::move(ending), computed, spec);
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return report;
@@ -71,12 +76,20 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
 
 }  // namespace
 
+}  // namespace signorini::run
+
+namespace signorini {
+
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                 const RoundListener& listener) {
-  RunHooks hooks;
+  run::RunHooks hooks;
   hooks.rounds = listener;
-  return simulated(model, settings, recorder, std::move(hooks));
+  return run::simulated(model, settings, recorder, std::move(hooks));
 }
+
+}  // namespace signorini
+
+namespace signorini::run {
 
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, RunListener& listener,
                 const ListenerNeeds& needs, EventShift* event_shift) {
@@ -92,6 +105,10 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
   hooks.faults = &faults;
   return simulated(model, settings, recorder, std::move(hooks));
 }
+
+}  // namespace signorini::run
+
+namespace signorini {
 
 Result simulate(const Model& model, const RunSpec& settings) {
   Result result;
@@ -122,7 +139,7 @@ SavedState last_state(const Model& model, const Result& result) {
     if (load.kind == LoadKind::support) {
       const Piece& motion = load.history.piece(last.t);
       state.motions.emplace_back(load.name, motion.value(last.t));
-      state.motions.emplace_back(rate_of(load.name), motion.value(last.t, 1));
+      state.motions.emplace_back(assembly::rate_of(load.name), motion.value(last.t, 1));
     }
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const ContactSample& contact = last.contacts[k];
@@ -139,9 +156,9 @@ SavedState last_state(const Model& model, const Result& result) {
   }
   const Scales& s = model.scales;
   state.scales = {s.displacement, s.rotation, s.velocity, s.angular_velocity, s.force};
-  state.motions.emplace_back(saved_alpha, model.alpha);
+  state.motions.emplace_back(scene::saved_alpha, model.alpha);
   for (const Contact& contact : model.contacts)
-    if (const Bowl* surface = contact.curved_surface())
+    if (const CurvedSurface* surface = contact.curved_surface())
       state.carried.emplace_back(contact.name, surface->carried);
   if (model.geometric) state.frozen = model.geometric->forces;
   return state;

@@ -12,7 +12,7 @@
 #include "run/choose_engine.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 bool is_given(const Load& load) {
@@ -30,8 +30,8 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
   if (found == model_.loads.end())
     throw SceneError(run_.place, "set_load",
                      fmt::format("found \"{}\", expected a force or a moment of the scene{}", name,
-                                 suggestion(name, names)));
-  const History next = rescaled(history, found->of_history, inverse(model_.unit));
+                                 base::suggestion(name, names)));
+  const History next = model::rescaled(history, found->of_history, scene::inverse(model_.unit));
   const double before = found->history.value(t_), after = next.value(t_);
   past_.push_back(std::exchange(found->history, found->history.then(t_, next)));
   for (std::vector<Output>* outputs : {&model_.outputs, &model_.reaction_sums})
@@ -59,7 +59,8 @@ struct Owned {
 /// True if the changes of f between the two times, which count as one, change its value.
 bool leaps(const History& f, double first, double last) {
   const Piece &before = f.piece_before(first), &after = f.piece(last);
-  return std::abs(after.value(last) - before.value(first)) > roundoff(before, first) + roundoff(after, last);
+  return std::abs(after.value(last) - before.value(first)) >
+         history::roundoff(before, first) + history::roundoff(after, last);
 }
 
 /// Merges the breakpoints [first, last) into one instant.
@@ -91,7 +92,7 @@ std::vector<Breakpoint> breakpoints(const Model& model, double t_end) {
   std::vector<Breakpoint> result;
   for (auto first = all.cbegin(); first != all.cend();) {
     const auto last = std::find_if(first, all.cend(), [&](const Owned& o) {
-      return o.at.time - first->at.time > resolution_at(o.at.time, 0.0);
+      return o.at.time - first->at.time > motion::resolution_at(o.at.time, 0.0);
     });
     result.push_back(merged(first, last));
     first = last;
@@ -116,4 +117,4 @@ void BreakpointQueue::loads_changed(const Model& model, double t) {
   next_ = static_cast<std::size_t>(after - list_.begin());
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

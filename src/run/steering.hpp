@@ -8,7 +8,7 @@
 #include "run/engines.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 /// Converts requests, in the scene's units, to changes of the computed model.
 class LoadChanges final : public Steering {
@@ -68,4 +68,4 @@ class BreakpointQueue {
   std::size_t next_ = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace signorini {
+namespace signorini::run {
 
-void Landings::begin(double t, const Mode& mode) {
+void Landings::begin(double t, const contact::ContactStates& mode) {
   lasts_.assign(mode.size(), false);
   for (std::size_t k = 0; k < mode.size(); ++k)
     if (!model_.contacts[k].normal_force_given() && !mode[k].is_open()) {
@@ -14,16 +14,16 @@ void Landings::begin(double t, const Mode& mode) {
     }
 }
 
-void Landings::add(const Works& works) {
+void Landings::add(const motion::WorkIntegrals& works) {
   for (std::size_t k = 0; k < lasts_.size(); ++k)
-    if (lasts_[k]) now_[k].impulse += works.pressing[k];
+    if (lasts_[k]) now_[k].impulse += works.applied_normal_force[k];
 }
 
 void Landings::observe(std::size_t k, double N) {
   if (lasts_[k]) now_[k].peak_force = std::max(now_[k].peak_force, -N);
 }
 
-void Landings::instant(double t, const Decision& decision, const Mode& old_mode) {
+void Landings::instant(double t, const decide::Decision& decision, const contact::ContactStates& old_mode) {
   for (std::size_t k = 0; k < lasts_.size(); ++k) {
     if (model_.contacts[k].normal_force_given()) continue;
     const bool was = !old_mode[k].is_open(), is = !decision.mode[k].is_open();
@@ -41,7 +41,7 @@ void Landings::instant(double t, const Decision& decision, const Mode& old_mode)
   }
 }
 
-std::vector<std::vector<Landing>> Landings::finish(double t, const Mode& mode) const {
+std::vector<std::vector<Landing>> Landings::finish(double t, const contact::ContactStates& mode) const {
   std::vector<std::vector<Landing>> result = ended_;
   for (std::size_t k = 0; k < lasts_.size(); ++k) {
     if (!lasts_[k]) continue;
@@ -51,4 +51,4 @@ std::vector<std::vector<Landing>> Landings::finish(double t, const Mode& mode) c
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

@@ -10,13 +10,13 @@
 #include "decide/instant.hpp"
 #include "engine/stepper.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
-class LastTouch {
+class TouchTracker {
  public:
-  explicit LastTouch(std::size_t contacts) : times_(contacts, 0.0) {}
+  explicit TouchTracker(std::size_t contacts) : times_(contacts, 0.0) {}
 
-  void instant(double t, const Mode& before, const Decision& decision) {
+  void instant(double t, const contact::ContactStates& before, const decide::Decision& decision) {
     for (std::size_t k = 0; k < times_.size(); ++k)
       if (!before[k].is_open() || !decision.mode[k].is_open() ||
           (!decision.impulses.empty() && decision.impulses[k].normal > 0.0))
@@ -35,13 +35,13 @@ class LastTouch {
 // A guard that changes with a high power of time stays below its rounding for a long time: if a guard was never
 // observed above it, its event may have happened at any time since then.
 
-class ZeroSince {
+class ZeroTracker {
  public:
   /// Updates the times after a decision at t. changed: the forcing has another formula from here on.
-  void decided(double t, const Decision& decision, bool changed) {
+  void decided(double t, const decide::Decision& decision, bool changed) {
     since_.resize(decision.guards.size(), none);
     for (std::size_t slot = 0; slot < since_.size(); ++slot) {
-      const GuardStart& guard = decision.guards[slot];
+      const decide::GuardStart& guard = decision.guards[slot];
       if (guard.kind == Guard::none || !guard.at_zero || guard.leading >= 0)
         since_[slot] = none;
       else if (changed || !(since_[slot] <= t) || kinds_[slot] != guard.kind)
@@ -52,13 +52,13 @@ class ZeroSince {
   }
 
   /// Time for which the guards triggered at t had been zero, one entry per contact; empty: none had.
-  [[nodiscard]] std::vector<double> before(double t, const std::vector<Fired>& fired) const {
+  [[nodiscard]] std::vector<double> before(double t, const std::vector<decide::TriggeredGuard>& fired) const {
     std::vector<double> result;
-    for (const Fired& f : fired)
-      for (std::size_t slot = guards_per_contact * f.contact; slot < guards_per_contact * (f.contact + 1);
-           ++slot) {
+    for (const decide::TriggeredGuard& f : fired)
+      for (std::size_t slot = contact::guards_per_contact * f.contact;
+           slot < contact::guards_per_contact * (f.contact + 1); ++slot) {
         if (!f.unseen || slot >= since_.size() || kinds_[slot] != f.guard || !(since_[slot] < t)) continue;
-        result.resize(since_.size() / guards_per_contact, 0.0);
+        result.resize(since_.size() / contact::guards_per_contact, 0.0);
         result[f.contact] = t - since_[slot];
       }
     return result;
@@ -81,13 +81,13 @@ class Landings {
   explicit Landings(const Model& model)
       : model_(model), ended_(model.contacts.size()), now_(model.contacts.size()) {}
 
-  void begin(double t, const Mode& mode);
+  void begin(double t, const contact::ContactStates& mode);
   /// Adds the integrals of -N since the last call.
-  void add(const Works& works);
+  void add(const motion::WorkIntegrals& works);
   void observe(std::size_t contact, double N);
-  void instant(double t, const Decision& decision, const Mode& old_mode);
+  void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_mode);
   /// Ends the landings that last at t. One list per contact.
-  [[nodiscard]] std::vector<std::vector<Landing>> finish(double t, const Mode& mode) const;
+  [[nodiscard]] std::vector<std::vector<Landing>> finish(double t, const contact::ContactStates& mode) const;
 
  private:
   const Model& model_;
@@ -96,4 +96,4 @@ class Landings {
   std::vector<bool> lasts_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::run

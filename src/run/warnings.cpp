@@ -13,33 +13,33 @@
 #include "model/machine_units.hpp"
 #include "run/engines.hpp"
 
-namespace signorini {
+namespace signorini::run {
 namespace {
 
 // rad of a load's oscillation in a step: the impulse of a half wave is off by the square divided by 12, a twelfth.
 constexpr double most_turned = 1.0;
-constexpr double much_energy = 1e-3;   // fraction of the exchanged energy: a larger error is reported
-constexpr double least_energy = 1e-9;  // of the scene's scales, or of the stored energy: at rest only
-                                       // rounding is exchanged
-constexpr int most_of_a_kind = 5;      // limit for the warnings of one kind in a run
+constexpr double much_energy = 1e-3;        // fraction of the exchanged energy: a larger error is reported
+constexpr double least_energy = 1e-9;       // of the scene's scales, or of the stored energy: at rest only
+                                            // rounding is exchanged
+constexpr int most_warnings_of_a_kind = 5;  // limit for the warnings of one kind in a run
 
 }  // namespace
 
-std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
+std::vector<std::string> cut_shears(const Model& model, const decide::Decision& start) {
   std::vector<std::string> sentences;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     const double asked = c.initial_shear, found = start.after[k].T;
     // The limit fs |N|, N = kn g, has the rounding of the terms of g: a start with friction ends at it.
-    const double limit = c.normal_spring() ? static_friction(c) * c.normal_stiffness *
+    const double limit = c.normal_spring() ? contact::static_friction(c) * c.normal_stiffness *
                                                  (std::abs(c.gap) + c.normal.magnitude(model.u0))
                                            : std::abs(asked);
     const bool cut = std::abs(asked) - std::abs(found) > rounding::of_many * std::max(std::abs(asked), limit);
     if (!start.visited[k] || !start.jumped[k] || !cut) continue;
     sentences.push_back(fmt::format(
         "contact '{}': initial_shear = {:.6g} {} is above the friction limit at t = 0; T starts at {:.6g} {}",
-        model.contacts[k].name, said(model, asked, unit::force), model.units.force,
-        said(model, found, unit::force), model.units.force));
+        model.contacts[k].name, model::in_scene_units(model, asked, unit::force), model.units.force,
+        model::in_scene_units(model, found, unit::force), model.units.force));
   }
   return sentences;
 }
@@ -55,14 +55,14 @@ std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& 
       const Piece& piece = load.history.pieces()[i];
       const double from = i == 0 ? 0.0 : std::max(0.0, starts[i - 1]),
                    to = i == starts.size() ? run.t_end : std::min(run.t_end, starts[i]);
-      if (piece.amplitude != 0.0 && to - from >= short_of_steps * *run.dt)
+      if (piece.amplitude != 0.0 && to - from >= newmark::short_of_steps * *run.dt)
         omega = std::max(omega, std::abs(piece.omega));
     }
     if (omega * *run.dt > most_turned)
       sentences.push_back(fmt::format(
           "'{}' turns by {:.3g} rad in a step of run.dt = {:.6g}, which does not resolve it; use a "
           "smaller dt",
-          load.name, omega * *run.dt, said_time(model, *run.dt)));
+          load.name, omega * *run.dt, model::time_in_scene_units(model, *run.dt)));
   }
   return sentences;
 }
@@ -78,26 +78,29 @@ std::string impact_gain(double t, double gain) {
       t, gain);
 }
 
-std::optional<std::string> shared_motion(const Model& model, const Decision& decision, double t) {
+std::optional<std::string> shared_motion(const Model& model, const decide::Decision& decision, double t) {
   std::vector<std::string> names;
   if (decision.system)
-    for (const SharedForces& shared : decision.system->factorised().shared)
+    for (const linear::SharedForces& shared : decision.system->factorised().shared)
       for (std::size_t i = 0; i < shared.rows.size(); ++i)
         if (const std::string& name = model.contacts[model.layout.contact_of(shared.rows[i])].name;
-            has_share(shared.null, static_cast<Eigen::Index>(i)) && (names.empty() || names.back() != name))
+            linear::has_share(shared.null, static_cast<Eigen::Index>(i)) &&
+            (names.empty() || names.back() != name))
           names.push_back(name);
   // Slip at the limit without a guard of the slip rate: other contacts hold the contact.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     bool asleep = slip_sign(decision.mode[c].state) != 0 && model.contacts[c].sticks_rigidly();
-    for (std::size_t i = 0; i < guards_per_contact; ++i)
-      asleep = asleep && decision.guards[guard_slot(c, i)].kind != Guard::sliding;
+    for (std::size_t i = 0; i < contact::guards_per_contact; ++i)
+      asleep = asleep && decision.guards[contact::guard_slot(c, i)].kind != Guard::sliding;
     if (asleep) names.push_back(model.contacts[c].name);
   }
   if (names.empty()) return std::nullopt;
   return fmt::format(
       "from t = {1:.6g} on {0} prevent the same motion: the motion is unique, but the friction forces are "
       "not; those with the least sum of squares within the friction limits are taken",
-      names.size() > 1 ? "contacts " + listed(names, 5) : "contact " + listed(names, 5) + " and others", t);
+      names.size() > 1 ? "contacts " + base::listed(names, 5)
+                       : "contact " + base::listed(names, 5) + " and others",
+      t);
 }
 
 std::string left_at_once(const Model& model, std::size_t c, double t) {
@@ -108,32 +111,32 @@ std::string left_at_once(const Model& model, std::size_t c, double t) {
       model.contacts[c].name, t);
 }
 
-std::string rest_at_limit(const Model& model, const AtLimit& found, double t) {
+std::string rest_at_limit(const Model& model, const decide::AtLimit& found, double t) {
   const Contact& c = model.contacts[found.contact];
   return fmt::format(
       "contact '{}' sticks at its limit of friction from t = {:.9g} on: the force that it needs is {:.2g} {} "
       "{} the limit, and rounding may hide {:.2g} {}, so that no double tells whether it slips{}; it counts "
       "as sticking",
-      c.name, t, said(model, std::abs(found.below), unit::force), model.units.force,
-      found.below < 0.0 ? "above" : "below", said(model, found.noise, unit::force), model.units.force,
-      c.friction.drops() ? ", and there friction drops to the kinetic one" : "");
+      c.name, t, model::in_scene_units(model, std::abs(found.below), unit::force), model.units.force,
+      found.below < 0.0 ? "above" : "below", model::in_scene_units(model, found.noise, unit::force),
+      model.units.force, c.friction.drops() ? ", and there friction drops to the kinetic one" : "");
 }
 
 }  // namespace
 
-void DecisionWarnings::add(double t, const Decision& decision, std::vector<std::string>& warnings) {
-  const double at = said_time(model_, t);
+void DecisionWarnings::add(double t, const decide::Decision& decision, std::vector<std::string>& warnings) {
+  const double at = model::time_in_scene_units(model_, t);
   for (const std::size_t c : decision.released)
-    if (++releases_ <= most_of_a_kind) warnings.push_back(left_at_once(model_, c, at));
+    if (++releases_ <= most_warnings_of_a_kind) warnings.push_back(left_at_once(model_, c, at));
   if (!shares_)
     if (auto sentence = shared_motion(model_, decision, at)) {
       warnings.push_back(std::move(*sentence));
       shares_ = true;
     }
-  for (const AtLimit& found : decision.at_limit)
-    if (++at_limit_ <= most_of_a_kind) warnings.push_back(rest_at_limit(model_, found, at));
-  if (decision.impact_gains && ++gains_ <= most_of_a_kind)
-    warnings.push_back(impact_gain(at, said(model_, -decision.impact_loss, unit::energy)));
+  for (const decide::AtLimit& found : decision.at_limit)
+    if (++at_limit_ <= most_warnings_of_a_kind) warnings.push_back(rest_at_limit(model_, found, at));
+  if (decision.impact_gains && ++gains_ <= most_warnings_of_a_kind)
+    warnings.push_back(impact_gain(at, model::in_scene_units(model_, -decision.impact_loss, unit::energy)));
 }
 
 std::optional<std::string> energy_lost(const Audit& audit, const Method& method, double rounding,
@@ -146,13 +149,13 @@ std::optional<std::string> energy_lost(const Audit& audit, const Method& method,
       off > audit.energy_scale
           ? fmt::format("{:.2g}, more than was exchanged ({:.2g})", off, audit.energy_scale)
           : fmt::format("{:.2g} of what was exchanged", off / audit.energy_scale);
-  const std::string told =
+  const std::string warning =
       fmt::format("the energy balance has an error of {} (at t = {:.6g}); ", much, audit.energy.t);
   if (name_of(method.engine).accuracy == Accuracy::rounding)
-    return told + "signorini verify compares this run with two other engines";
+    return warning + "signorini verify compares this run with two other engines";
   const bool steps = name_of(method.engine).accuracy == Accuracy::step;
-  return told + (steps ? "use a smaller run.dt" : "use a smaller rtol, or an atol that fits the motion") +
+  return warning + (steps ? "use a smaller run.dt" : "use a smaller rtol, or an atol that fits the motion") +
          (other ? fmt::format(", or engine \"{}\"", to_string(engine_for(EngineRole::closed_form))) : "");
 }
 
-}  // namespace signorini
+}  // namespace signorini::run

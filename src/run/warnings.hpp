@@ -6,10 +6,10 @@
 #include "decide/decision.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::run {
 
 /// Warnings about an initial_shear beyond the friction limit, with the value that remains. `start`: the first decision.
-[[nodiscard]] std::vector<std::string> cut_shears(const Model& model, const Decision& start);
+[[nodiscard]] std::vector<std::string> cut_shears(const Model& model, const decide::Decision& start);
 
 /// Warnings about loads that oscillate by more than a radian in a step of given length. Short pulses have steps of
 /// their own.
@@ -22,7 +22,7 @@ class DecisionWarnings {
   /// The model must outlive this.
   explicit DecisionWarnings(const Model& model) : model_(model) {}
   /// Adds warnings. t: in the units of the model.
-  void add(double t, const Decision& decision, std::vector<std::string>& warnings);
+  void add(double t, const decide::Decision& decision, std::vector<std::string>& warnings);
 
  private:
   const Model& model_;
@@ -35,4 +35,4 @@ class DecisionWarnings {
 [[nodiscard]] std::optional<std::string> energy_lost(const Audit& audit, const Method& method,
                                                      double rounding, bool other);
 
-}  // namespace signorini
+}  // namespace signorini::run

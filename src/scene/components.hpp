@@ -16,7 +16,7 @@
 #include "scene/readers.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 struct PlaneComponent {
   const char* displacement;
@@ -93,4 +93,4 @@ struct NamedMotion {
                                                                        const Space& space,
                                                                        const std::string& node);
 
-}  // namespace signorini
+}  // namespace signorini::scene

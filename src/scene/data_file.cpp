@@ -11,7 +11,7 @@
 #include "base/files.hpp"
 #include "base/text.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -94,14 +94,15 @@ class TableReader {
     while (next()) {
       if (!layout_.peer && words_[0][0] == '#') continue;
       last_ = number_;
-      const bool heading = heading_allowed_ && !parse_number(words_[0]);
+      const bool heading = heading_allowed_ && !base::parse_number(words_[0]);
       heading_allowed_ = false;
       if (heading && values_only && names_times())
         fail(fmt::format(
             "found \"{}\", a heading of times and values, expected values only, since time_step is given",
-            excerpt(line_)));
+            base::excerpt(line_)));
       if (heading) continue;
-      if (has_empty_cell(line_)) fail(fmt::format("found \"{}\", expected no empty cell", excerpt(line_)));
+      if (has_empty_cell(line_))
+        fail(fmt::format("found \"{}\", expected no empty cell", base::excerpt(line_)));
       if (values_only)
         for (const std::string& word : words_) add(time_of_next(), number(word, "a value"));
       else
@@ -111,10 +112,10 @@ class TableReader {
     if (in_.bad()) fail("cannot be read");
     if (table_.times.size() < 2)
       fail(fmt::format("found {}, expected two or more",
-                       count_of(table_.times.size(), values_only ? "value" : "row")));
+                       base::count_of(table_.times.size(), values_only ? "value" : "row")));
     if (layout_.peer && table_.times.size() != points_)
-      fail(
-          fmt::format("found {}, expected {} as NPTS says", count_of(table_.times.size(), "value"), points_));
+      fail(fmt::format("found {}, expected {} as NPTS says", base::count_of(table_.times.size(), "value"),
+                       points_));
     return std::move(table_);
   }
 
@@ -143,8 +144,9 @@ class TableReader {
   }
 
   double number(const std::string& word, const char* what) const {
-    const auto value = parse_number(word);
-    if (!value || !std::isfinite(*value)) fail(fmt::format("found \"{}\", expected {}", excerpt(word), what));
+    const auto value = base::parse_number(word);
+    if (!value || !std::isfinite(*value))
+      fail(fmt::format("found \"{}\", expected {}", base::excerpt(word), what));
     return *value;
   }
 
@@ -157,13 +159,13 @@ class TableReader {
             fmt::format("found \"{}\", expected a record of acceleration with its unit in the first three "
                         "lines, such as \"ACCELERATION IN UNITS OF G\" (G, CM/S/S, M/S/S, MM/S/S or GAL); "
                         "records of velocity or displacement are not read",
-                        excerpt(line_)));
+                        base::excerpt(line_)));
     }
     std::vector<double> numbers;
     for (char& c : line_)
       if (c == '=' || c == ',') c = ' ';
     for (const std::string& word : words_of(line_))
-      if (const auto value = parse_number(word)) numbers.push_back(*value);
+      if (const auto value = base::parse_number(word)) numbers.push_back(*value);
     const bool whole = numbers.size() >= 2 && numbers[0] >= 2.0 &&
                        numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
     if (!says(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
@@ -180,7 +182,7 @@ class TableReader {
     table_.in_g = unit == "G";
     if (!table_.unit)
       fail(fmt::format("found \"{}\", expected an acceleration in units of G, CM/S/S or M/S/S",
-                       excerpt(line_)));
+                       base::excerpt(line_)));
   }
 
   [[nodiscard]] double time_of_next() const {
@@ -190,22 +192,22 @@ class TableReader {
   void read_row() {
     const auto column = static_cast<std::size_t>(layout_.column == 0 ? 2 : layout_.column);
     const bool fits = layout_.column == 0 ? words_.size() == 2 : words_.size() >= column;
-    const auto t = parse_number(words_[0]);
-    const auto value = fits ? parse_number(words_[column - 1]) : std::nullopt;
+    const auto t = base::parse_number(words_[0]);
+    const auto value = fits ? base::parse_number(words_[column - 1]) : std::nullopt;
     if (!t || !value || !std::isfinite(*t) || !std::isfinite(*value)) {
       while (!line_.empty() && line_.back() == '\r') line_.pop_back();
       fail(layout_.column == 0
-               ? fmt::format("found \"{}\", expected two numbers, time and value", excerpt(line_))
-               : fmt::format("found \"{}\", expected a time first and a value in column {}", excerpt(line_),
-                             column));
+               ? fmt::format("found \"{}\", expected two numbers, time and value", base::excerpt(line_))
+               : fmt::format("found \"{}\", expected a time first and a value in column {}",
+                             base::excerpt(line_), column));
     }
     const std::size_t n = table_.times.size();
     if (n > 0 && *t < table_.times[n - 1]) {
-      fail(fmt::format("found time {} after {}, expected ascending times", shortest(*t),
-                       shortest(table_.times[n - 1])));
+      fail(fmt::format("found time {} after {}, expected ascending times", base::shortest(*t),
+                       base::shortest(table_.times[n - 1])));
     }
     if (n > 1 && *t == table_.times[n - 2]) {
-      fail(fmt::format("found time {} three times, expected at most twice (a jump)", shortest(*t)));
+      fail(fmt::format("found time {} three times, expected at most twice (a jump)", base::shortest(*t)));
     }
     add(*t, *value);
   }
@@ -251,7 +253,7 @@ void refuse_file(const Table& table, std::string_view key, const fs::path& path,
 }
 
 std::ifstream open_data_file(const Table& table, std::string_view key, const fs::path& path) {
-  if (const std::string why = why_no_input_file(path); !why.empty())
+  if (const std::string why = base::why_no_input_file(path); !why.empty())
     refuse_file(table, key, path, why + ", expected a file");
   errno = 0;
   std::ifstream in(path);
@@ -264,4 +266,4 @@ TimeTable read_time_table(std::istream& in, const std::string& file, const std::
   return TableReader(in, file, key, layout).read();
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

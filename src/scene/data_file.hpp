@@ -22,7 +22,7 @@
 
 #include "scene/table.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 /// Longest allowed line of numbers.
 inline constexpr std::size_t longest_line = 200;
@@ -60,4 +60,4 @@ struct TableLayout {
 [[nodiscard]] TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key,
                                         const TableLayout& layout = {});
 
-}  // namespace signorini
+}  // namespace signorini::scene

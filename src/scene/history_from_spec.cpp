@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 Piece polynomial(double origin, std::vector<double> coefficients) {
@@ -153,4 +153,4 @@ History make_integral(const HistorySpec& spec, const std::string& key) {
   return f.integrated();
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

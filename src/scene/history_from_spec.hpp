@@ -24,11 +24,11 @@
 #include "signorini/history.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 /// Errors: SceneError at the spec's place under `key` ("loads.1.history").
 [[nodiscard]] History make_history(const HistorySpec& spec, const std::string& key);
 /// The integral of the history from 0.
 [[nodiscard]] History make_integral(const HistorySpec& spec, const std::string& key);
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -9,7 +9,7 @@
 #include "contact/law/data_laws.hpp"
 #include "signorini/engine.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -577,4 +577,4 @@ std::string describe_type(const Key& key) {
   return "the name of a Matrix Market file, or rows of numbers";
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace signorini {
+namespace signorini::scene {
 
 /// Type of a value. Numbers are finite; integers count as numbers.
 enum class KeyType {
@@ -71,4 +71,4 @@ struct Key {
 /// The allowed words of a choice.
 [[nodiscard]] std::vector<std::string> choices_of(const Key& key);
 
-}  // namespace signorini
+}  // namespace signorini::scene

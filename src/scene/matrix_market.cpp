@@ -13,7 +13,7 @@
 #include "base/text.hpp"
 #include "scene/data_file.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -29,8 +29,8 @@ class Reader {
     read_size();
     coordinate_ ? read_coordinates() : read_array();
     if (next())
-      fail(
-          fmt::format("found \"{}\" after the last of {} entries, expected the end", excerpt(line_), count_));
+      fail(fmt::format("found \"{}\" after the last of {} entries, expected the end", base::excerpt(line_),
+                       count_));
     tidy(matrix_);
     return std::move(matrix_);
   }
@@ -82,24 +82,25 @@ class Reader {
     };
     if (words_.size() != 5 || words_[0] != "%%matrixmarket" || words_[1] != "matrix" ||
         !is(2, "coordinate", "array") || !is(3, "real", "integer") || !is(4, "general", "symmetric")) {
-      fail(fmt::format("found \"{}\", {}", excerpt(line_), expected));
+      fail(fmt::format("found \"{}\", {}", base::excerpt(line_), expected));
     }
     coordinate_ = words_[2] == "coordinate";
     symmetric_ = words_[4] == "symmetric";
   }
 
   long long index(std::size_t word, long long least, long long most, const char* what) const {
-    const auto value = parse_integer(words_[word]);
+    const auto value = base::parse_integer(words_[word]);
     if (!value || *value < least || *value > most) {
-      fail(fmt::format("found \"{}\", expected {} from {} to {}", excerpt(words_[word]), what, least, most));
+      fail(fmt::format("found \"{}\", expected {} from {} to {}", base::excerpt(words_[word]), what, least,
+                       most));
     }
     return *value;
   }
 
   double entry(std::size_t word) const {
-    const auto value = parse_number(words_[word]);
+    const auto value = base::parse_number(words_[word]);
     if (!value || !std::isfinite(*value))
-      fail(fmt::format("found \"{}\", expected a number", excerpt(words_[word])));
+      fail(fmt::format("found \"{}\", expected a number", base::excerpt(words_[word])));
     return *value;
   }
 
@@ -107,7 +108,7 @@ class Reader {
     const std::size_t expected = coordinate_ ? 3 : 2;
     if (!next()) fail("the file ends, expected the size of the matrix");
     if (words_.size() != expected) {
-      fail(fmt::format("found \"{}\", expected {}", excerpt(line_),
+      fail(fmt::format("found \"{}\", expected {}", base::excerpt(line_),
                        coordinate_ ? "rows, columns and number of entries" : "rows and columns"));
     }
     const long long rows = index(0, 1, most_dofs, "a number of rows");
@@ -133,7 +134,7 @@ class Reader {
 
   void expect(long long i, std::size_t words, const char* what) {
     if (!next()) fail(fmt::format("the file ends after {} of {} entries", i, count_));
-    if (words_.size() != words) fail(fmt::format("found \"{}\", expected {}", excerpt(line_), what));
+    if (words_.size() != words) fail(fmt::format("found \"{}\", expected {}", base::excerpt(line_), what));
   }
 
   void read_coordinates() {
@@ -144,7 +145,7 @@ class Reader {
       if (symmetric_ && column > row) {
         fail(
             fmt::format("found \"{}\" above the diagonal, expected only the lower half of a symmetric matrix",
-                        excerpt(line_)));
+                        base::excerpt(line_)));
       }
       add(row - 1, column - 1, entry(2));
     }
@@ -199,4 +200,4 @@ MatrixSpec read_matrix_market(std::istream& in, const std::string& file, const s
   return Reader(in, file, key).read();
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

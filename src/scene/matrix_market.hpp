@@ -14,7 +14,7 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 inline constexpr int most_dofs = 1'000'000;
 
@@ -28,4 +28,4 @@ void tidy(MatrixSpec& matrix);
 [[nodiscard]] std::vector<double> read_market_vector(std::istream& in, const std::string& file,
                                                      const std::string& key);
 
-}  // namespace signorini
+}  // namespace signorini::scene

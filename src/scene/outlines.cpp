@@ -7,11 +7,11 @@
 
 #include "mesh/mesh_quality.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 std::vector<std::array<int, 2>> mesh_lines(const Scene& scene) {
-  SharedEdges edges;
-  for (const BodySpec& body : scene.bodies) add_edges(body.mesh.elements, edges);
+  mesh::SharedEdges edges;
+  for (const BodySpec& body : scene.bodies) mesh::add_edges(body.mesh.elements, edges);
   std::vector<std::array<int, 2>> lines;
   for (const auto& [ends, edge] : edges) {
     if (edges.size() > most_mesh_edges && edge.elements > 1) continue;
@@ -70,4 +70,4 @@ std::vector<std::pair<std::string, std::string>> outline_of(const Scene& scene, 
   return lines;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -10,7 +10,7 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 // Lines for drawings of bodies: edges of their elements, each once; for a large mesh only its boundary.
 
@@ -26,4 +26,4 @@ inline constexpr std::size_t most_mesh_edges = 6000;
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> outline_of(const Scene& scene,
                                                                           const RigidBody& body);
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -12,7 +12,7 @@
 #include "scene/keys.hpp"
 #include "scene/toml_node.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 constexpr std::size_t most_parts = 16;  // much deeper than any key of a scene
@@ -39,7 +39,7 @@ std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& 
     }
     if (which == "*") chosen.push_back(i);
   }
-  const auto number = parse_integer(which);
+  const auto number = base::parse_integer(which);
   const bool in_range = number && *number >= 1 && static_cast<std::size_t>(*number) <= array.size();
   if (chosen.empty() && in_range) chosen.push_back(static_cast<std::size_t>(*number - 1));
   return chosen;
@@ -66,8 +66,8 @@ std::size_t tables_in(const toml::table& root, const std::string& kind) {
 class Change {
  public:
   Change(const Override& change, const Override& given) : change_(change), given_(given) {
-    if (const std::string text = text_of(given_); !is_plain_text(text))
-      throw UsageError(excerpt(text) + ": found bytes that are no plain UTF-8 text");
+    if (const std::string text = text_of(given_); !base::is_plain_text(text))
+      throw UsageError(base::excerpt(text) + ": found bytes that are no plain UTF-8 text");
     std::string segment;
     for (const char c : change.path + ".") {
       if (c != '.') {
@@ -83,7 +83,7 @@ class Change {
 
   void apply(toml::table& root) {
     // A misspelt first name would otherwise make a new table.
-    if (!find_key("", segments_[0])) fail("unknown key" + suggestion(segments_[0], key_names("")));
+    if (!find_key("", segments_[0])) fail("unknown key" + base::suggestion(segments_[0], key_names("")));
     ready_ = parsed();
     place_ = ready_->begin()->first.source();
     into_table(root, segments_);
@@ -163,8 +163,9 @@ class Change {
   static toml::node& split_friction(toml::table& table) {
     const double value = *table.get("friction")->value<double>();
     const toml::source_path_ptr& file = table.get("friction")->source().path;
-    toml::table both = toml::parse(fmt::format("value = {{ static = {0}, kinetic = {0} }}", shortest(value)),
-                                   file ? std::string_view(*file) : std::string_view());
+    toml::table both =
+        toml::parse(fmt::format("value = {{ static = {0}, kinetic = {0} }}", base::shortest(value)),
+                    file ? std::string_view(*file) : std::string_view());
     return table.insert_or_assign("friction", std::move(*both.get("value"))).first->second;
   }
 
@@ -191,7 +192,7 @@ class Change {
     std::vector<std::string> names;
     const std::vector<std::size_t> chosen = chosen_by(which, array, names);
     if (chosen.empty()) {
-      const std::string hint = suggestion(which, names);
+      const std::string hint = base::suggestion(which, names);
       fail(fmt::format(
           "{} has {}, none of them \"{}\"{}", done,
           array.size() == 1 ? "1 entry" : std::to_string(array.size()) + " entries", which,
@@ -249,7 +250,7 @@ std::vector<std::string> places_of_one(const toml::table& root, const std::strin
 }  // namespace
 
 std::string text_of(const Override& change) {
-  return change.told.empty() ? "--set " + change.path + "=" + change.value : change.told;
+  return change.shown_as.empty() ? "--set " + change.path + "=" + change.value : change.shown_as;
 }
 
 std::vector<std::string> paths_meant(const toml::table& root, const std::string& path) {
@@ -331,4 +332,4 @@ KeyRange range_of(const Key& key) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

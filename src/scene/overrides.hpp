@@ -15,7 +15,7 @@
 #include "scene/keys.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 
@@ -60,4 +60,4 @@ struct KeyRange {
 /// Range by the key's type alone; restrictions by other keys are not included.
 [[nodiscard]] KeyRange range_of(const Key& key);
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -4,7 +4,7 @@
 #include "scene/components.hpp"
 #include "scene/saved_state.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 using Visit = std::function<void(double&, const Unit&)>;
@@ -44,10 +44,10 @@ void visit_run(RunSpec& run, const Visit& visit) {
   visit_optional(run.dt, time, visit);
 }
 
-void visit_frozen(FrozenForces& forces, const Visit& visit) {
-  for (FrozenForces::Element& e : forces.elements)
+void visit_frozen(Prestress& forces, const Visit& visit) {
+  for (Prestress::Element& e : forces.elements)
     for (double* n : {&e.at_from, &e.at_to}) visit(*n, force);
-  for (FrozenForces::Body& body : forces.bodies) visit(body.stiffness, energy);
+  for (Prestress::Body& body : forces.bodies) visit(body.stiffness, energy);
 }
 
 void visit_initial(InitialSpec& initial, const Visit& visit) {
@@ -233,4 +233,4 @@ RunSpec rescaled(RunSpec run, const Factors& factors) {
   return run;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

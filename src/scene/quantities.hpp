@@ -12,7 +12,7 @@
 #include "base/unit.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 /// What a quantity of this unit is multiplied by.
 [[nodiscard]] double factor_of(const Unit& unit, const Factors& factors);
@@ -31,4 +31,4 @@ void visit_numbers(History& history, const Unit& of, const std::function<void(do
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);
 [[nodiscard]] RunSpec rescaled(RunSpec run, const Factors& factors);
 
-}  // namespace signorini
+}  // namespace signorini::scene

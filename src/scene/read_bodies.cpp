@@ -12,15 +12,15 @@
 #include "scene/data_file.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
 constexpr int most_cells = 1'000'000;
 constexpr double rad_of_degree = std::numbers::pi / 180.0;
 
-GridSpec read_grid(Table& table) {
-  GridSpec grid;
+mesh::GridSpec read_grid(Table& table) {
+  mesh::GridSpec grid;
   const std::string shape = table.choice("shape");
   grid.shape = shape == "t3"   ? PlaneShape::t3
                : shape == "t6" ? PlaneShape::t6
@@ -40,25 +40,25 @@ GridSpec read_grid(Table& table) {
 
 PlaneMesh read_rectangle(Table& table) {
   Table keys = table.child("rectangle");
-  RectangleSpec rectangle;
+  mesh::RectangleSpec rectangle;
   rectangle.from = keys.vector("from");
   rectangle.size = keys.vector("size");
   if (!(rectangle.size[0] > 0.0 && rectangle.size[1] > 0.0)) keys.wrong("size", "two numbers > 0");
   rectangle.angle = rad_of_degree * keys.number("degrees");
   keys.finish();
   table.record("rectangle", keys.record().inline_table());
-  return rectangle_mesh(rectangle, read_grid(table));
+  return mesh::rectangle_mesh(rectangle, read_grid(table));
 }
 
 PlaneMesh read_ring(Table& table) {
   Table keys = table.child("ring");
-  RingSpec ring;
+  mesh::RingSpec ring;
   ring.centre = keys.vector("centre");
   ring.inner = keys.number("inner");
   ring.outer = keys.number("outer");
   if (!(ring.outer > ring.inner))
     keys.fail("outer", fmt::format("found the number {}, expected more than the inner radius, {}",
-                                   shortest(ring.outer), shortest(ring.inner)));
+                                   base::shortest(ring.outer), base::shortest(ring.inner)));
   const auto [start, end] = keys.vector("degrees");
   if (!(end > start && end - start <= 360.0))
     keys.wrong("degrees", "[start, end], end at most 360 beyond start");
@@ -66,11 +66,11 @@ PlaneMesh read_ring(Table& table) {
   ring.end = end - start == 360.0 ? ring.start + 2.0 * std::numbers::pi : rad_of_degree * end;
   keys.finish();
   table.record("ring", keys.record().inline_table());
-  const GridSpec grid = read_grid(table);
+  const mesh::GridSpec grid = read_grid(table);
   const double widest = (end - start) / grid.elements[1];
   if (!(widest < 180.0))
     table.fail("elements", fmt::format("found elements of {:.4g} degrees, expected less than 180", widest));
-  return ring_mesh(ring, grid);
+  return mesh::ring_mesh(ring, grid);
 }
 
 PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
@@ -79,14 +79,14 @@ PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
   const std::filesystem::path path = directory_of(scene) / name->value_or(std::string());
   std::ifstream in = open_data_file(table, "mesh", path);
   const std::vector<std::string> surfaces = table.texts("surfaces");
-  PlaneMesh mesh = read_gmsh(in, path.string(), table.path("mesh"), surfaces);
+  PlaneMesh mesh = mesh::read_gmsh(in, path.string(), table.path("mesh"), surfaces);
   table.record("mesh", toml_string(std::filesystem::absolute(path).lexically_normal().string()));
   for (const std::string& wanted : table.texts("groups")) {
     std::vector<std::string> there;
     for (const PlaneMesh::Group& group : mesh.groups) there.push_back(group.name);
     if (std::find(there.begin(), there.end(), wanted) != there.end()) continue;
     table.fail("groups", fmt::format("{} has no physical curve or point \"{}\" on this body; known: {}",
-                                     path.string(), wanted, there.empty() ? "none" : listed(there, 8)));
+                                     path.string(), wanted, there.empty() ? "none" : base::listed(there, 8)));
   }
   return mesh;
 }
@@ -104,7 +104,7 @@ PlaneMesh read_mesh(Table& table, const Scene& scene) {
   PlaneMesh mesh = table.has("rectangle") ? read_rectangle(table) : read_ring(table);
   for (PlaneMesh::Node& node : mesh.nodes) node.place = table.place();
   for (PlaneMesh::Element& element : mesh.elements) element.place = table.place();
-  check_elements(mesh, table.path());
+  mesh::check_elements(mesh, table.path());
   return mesh;
 }
 
@@ -205,7 +205,7 @@ BoundaryRef find_boundary(const Table& table, std::string_view key, const std::s
       if (there.back() == name) return {b, &group};
     }
   table.fail(key, fmt::format("no boundary is named \"{}\"; known: {}", name,
-                              there.empty() ? "none" : listed(there, 8)));
+                              there.empty() ? "none" : base::listed(there, 8)));
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

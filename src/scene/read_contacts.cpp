@@ -13,7 +13,7 @@
 #include "scene/history_from_spec.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 /// Friction between two coefficients: its required keys; keys of other laws are refused.
@@ -59,7 +59,7 @@ void read_rising_friction(Table& table, Friction& friction) {
   rising.read(table, friction);
   if (friction.kinetic < friction.static_)
     table.fail("fast", fmt::format("found the number {}, expected at least the slow coefficient {}",
-                                   shortest(friction.kinetic), shortest(friction.static_)));
+                                   base::shortest(friction.kinetic), base::shortest(friction.static_)));
 }
 
 void read_falling_friction(Table& table, Friction& friction) {
@@ -69,7 +69,7 @@ void read_falling_friction(Table& table, Friction& friction) {
   friction.stribeck_velocity = table.optional_number("stribeck_velocity");
   if (friction.kinetic > friction.static_) {
     table.fail("kinetic", fmt::format("found the number {}, expected at most the static coefficient {}",
-                                      shortest(friction.kinetic), shortest(friction.static_)));
+                                      base::shortest(friction.kinetic), base::shortest(friction.static_)));
   }
 }
 
@@ -105,9 +105,9 @@ Friction read_friction(Table& contact) {
 
 void check_pressing(const Table& table, const HistorySpec& spec, double t_end) {
   const History history = make_history(spec, table.path("normal_force"));
-  const double t = negative_at(history, t_end);
+  const double t = history::negative_at(history, t_end);
   if (t < 0.0) return;
-  const std::string found = history.is_constant() ? shortest(history.value(t))
+  const std::string found = history.is_constant() ? base::shortest(history.value(t))
                                                   : fmt::format("{:.6g} at time {:.6g}", history.value(t), t);
   table.fail("normal_force", fmt::format("found {}, expected a compression >= 0", found));
 }
@@ -190,7 +190,7 @@ void read_data_law(Table& table, ContactSpec& contact, const Space& space, const
   for (const DataLawConstant& constant : law.constants) constants.push_back(table.number(constant.key));
   if (const auto objection = law.objection(contact.normal_stiffness, constants))
     table.fail(objection->first, objection->second);
-  contact.own = std::make_shared<const OwnLaw>(law.make(contact.normal_stiffness, constants));
+  contact.own = std::make_shared<const UserContactLaw>(law.make(contact.normal_stiffness, constants));
 }
 
 /// Counterpart of the contact's node: another node or a segment instead of the ground.
@@ -416,7 +416,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
     contact.law = Law::slider;
     contact.normal.reset();
     if (history.is_constant()) return carried;
-    contact.bowl = Bowl{radius, carried};
+    contact.bowl = CurvedSurface{radius, carried};
     return carried;
   }
   if (given && !history.is_constant())
@@ -428,7 +428,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   contact.normal_force = constant_history(0.0);
   if (contact.friction.any())
     table.require("tangential_stiffness", " (required for normal_stiffness with friction)");
-  contact.bowl = Bowl{radius, carried};
+  contact.bowl = CurvedSurface{radius, carried};
   return carried;
 }
 
@@ -484,4 +484,4 @@ void read_pendulums(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -41,7 +41,7 @@ void read_ratios(Table& table, DampingSpec& damping) {
     const double r = std::max(f1, f2) / std::min(f1, f2);
     table.fail("ratios", fmt::format("these ratios give alpha = {0:.6g} and beta = {1:.6g}, expected both >= "
                                      "0; choose a ratio between {3:.6g} and {4:.6g} at the frequency {2}",
-                                     damping.alpha, damping.beta, shortest(f2), z1 / r, z1 * r));
+                                     damping.alpha, damping.beta, base::shortest(f2), z1 / r, z1 * r));
   }
 }
 
@@ -214,4 +214,4 @@ void read_damping(Table& top, Scene& scene, RecordedScene& record) {
   record.add("damping", "[damping]", table.record());
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -11,7 +11,7 @@
 #include "scene/readers.hpp"
 #include "scene/saved_state.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -26,7 +26,7 @@ void read_list(Table& table, std::string_view key, const Space& space, std::vect
   const std::size_t size = space.names.size();
   if (given->size() != size) {
     table.fail(key, fmt::format("found {}, expected one for each of the {} degrees of freedom",
-                                count_of(given->size(), "number"), size));
+                                base::count_of(given->size(), "number"), size));
   }
   values = *given;
 }
@@ -85,26 +85,26 @@ void read_stages(Table& run, InitialSpec& initial) {
 }
 
 /// From the summary of a run; none where it has none, as that of a run that was killed. Errors: FileError.
-Json model_of_run(const std::filesystem::path& directory) {
+base::Json model_of_run(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
   std::ifstream in(path);
   if (!in) return {};
   try {
-    return parse_json(in).value("model", Json{});
-  } catch (const Json::exception& error) {
+    return base::parse_json(in).value("model", base::Json{});
+  } catch (const base::Json::exception& error) {
     throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());
   }
 }
 
-std::optional<double> alpha_of_run(const Json& model) {
+std::optional<double> alpha_of_run(const base::Json& model) {
   const auto alpha = model.find("alpha");
   if (alpha == model.end() || !alpha->is_number()) return std::nullopt;
   return alpha->get<double>();
 }
 
-std::optional<std::array<double, 5>> scales_of_run(const Json& model) {
+std::optional<std::array<double, 5>> scales_of_run(const base::Json& model) {
   try {
-    const Json& scales = model.at("scales");
+    const base::Json& scales = model.at("scales");
     std::array<double, 5> found{};
     std::size_t i = 0;
     for (const char* name : {"displacement", "rotation", "velocity", "angular_velocity", "force"})
@@ -112,13 +112,13 @@ std::optional<std::array<double, 5>> scales_of_run(const Json& model) {
     for (const double scale : found)
       if (!(std::isfinite(scale) && scale > 0.0)) return std::nullopt;
     return found;
-  } catch (const Json::exception&) {
+  } catch (const base::Json::exception&) {
     return std::nullopt;
   }
 }
 
 /// Carried loads of pendulums in that run, by name: part of its K, and thus of damping and stored energy.
-std::vector<std::pair<std::string, double>> carried_in_run(const Json& model) {
+std::vector<std::pair<std::string, double>> carried_in_run(const base::Json& model) {
   std::vector<std::pair<std::string, double>> found;
   const auto pendulums = model.find("pendulums");
   if (pendulums == model.end() || !pendulums->is_object()) return found;
@@ -134,9 +134,9 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   if (name.empty()) table.wrong("run", "the directory of a run");
   if (std::error_code ignored; !std::filesystem::is_directory(directory, ignored))
     refuse_file(table, "run", directory, "not a directory; give the directory of a run");
-  Json model;
+  base::Json model;
   try {
-    check_run_files(directory, {"states.csv", "contacts.csv", frozen_file, "summary.json", "run.toml"});
+    base::check_run_files(directory, {"states.csv", "contacts.csv", frozen_file, "summary.json", "run.toml"});
     model = model_of_run(directory);
   } catch (const FileError& error) {
     refuse_file(table, "run", error);
@@ -147,12 +147,13 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   SavedStates found = read_saved_states(in, path.string(), table.path("run"), t);
   if (!found.wanted && !t) table.fail("run", fmt::format("found no state in {}", path.string()));
   if (!found.wanted)
-    table.fail("t", fmt::format("found the number {}, expected one of the times in {}: {}", shortest(*t),
-                                path.string(), found.times.empty() ? "none" : listed_plainly(found.times)));
+    table.fail("t",
+               fmt::format("found the number {}, expected one of the times in {}: {}", base::shortest(*t),
+                           path.string(), found.times.empty() ? "none" : base::listed_plainly(found.times)));
   initial.saved = std::move(*found.wanted);
   initial.saved->run = directory.string();
   initial.saved->left = read_left_contacts(directory / "contacts.csv", initial.saved->t);
-  initial.saved->frozen = read_frozen_forces(directory / frozen_file, table.path("run"));
+  initial.saved->frozen = read_prestress(directory / frozen_file, table.path("run"));
   initial.saved->scales = scales_of_run(model);
   initial.saved->carried = carried_in_run(model);
   if (const auto alpha = alpha_of_run(model)) initial.saved->motions.emplace_back(saved_alpha, *alpha);
@@ -183,8 +184,8 @@ void read_initial(Table& run, Scene& scene) {
     initial.is_static = kind == "static";
     initial.is_frictional = kind == "frictional";
     if (!initial.is_static && !initial.is_frictional)
-      run.wrong("initial",
-                describe_type(*find_key("run", "initial")) + did_you_mean(kind, {"static", "frictional"}));
+      run.wrong("initial", describe_type(*find_key("run", "initial")) +
+                               base::did_you_mean(kind, {"static", "frictional"}));
     run.record("initial", toml_string(kind));
   }
   read_stages(run, initial);
@@ -212,4 +213,4 @@ void read_initial(Table& run, Scene& scene) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

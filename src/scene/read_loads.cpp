@@ -9,7 +9,7 @@
 #include "scene/data_file.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 void read_force(Table& table, LoadSpec& load, const Space& space) {
@@ -195,7 +195,7 @@ void read_span(Table& table, HistorySpec& spec) {
     spec.end = *end;
     if (spec.end <= spec.start) {
       table.fail("end", fmt::format("found the number {}, expected a time after the start at {}",
-                                    shortest(spec.end), shortest(spec.start)));
+                                    base::shortest(spec.end), base::shortest(spec.start)));
     }
   }
 }
@@ -295,18 +295,18 @@ void read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
   spec.values = *table.numbers("values");
   if (spec.times.empty()) table.wrong("times", "at least one time");
   if (spec.values.size() != spec.times.size()) {
-    table.fail("values",
-               fmt::format("found {}, expected one for each of the {}", count_of(spec.values.size(), "value"),
-                           count_of(spec.times.size(), "time")));
+    table.fail("values", fmt::format("found {}, expected one for each of the {}",
+                                     base::count_of(spec.values.size(), "value"),
+                                     base::count_of(spec.times.size(), "time")));
   }
   for (std::size_t i = 1; i < spec.times.size(); ++i) {
     if (spec.times[i] < spec.times[i - 1]) {
-      table.fail("times", fmt::format("found {} after {}, expected ascending times", shortest(spec.times[i]),
-                                      shortest(spec.times[i - 1])));
+      table.fail("times", fmt::format("found {} after {}, expected ascending times",
+                                      base::shortest(spec.times[i]), base::shortest(spec.times[i - 1])));
     }
     if (i > 1 && spec.times[i] == spec.times[i - 2]) {
       table.fail("times", fmt::format("found {} three times, expected at most twice (a jump)",
-                                      shortest(spec.times[i])));
+                                      base::shortest(spec.times[i])));
     }
   }
 }
@@ -322,14 +322,14 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   const double length = (tabulated ? spec.times.back() : std::isinf(spec.end) ? start : spec.end) - start;
   if (*period < length * (1.0 - rounding::of_few))
     table.fail("period", fmt::format("found the number {}, expected at least {}, the duration of the shape",
-                                     shortest(*period), shortest(length)));
+                                     base::shortest(*period), base::shortest(length)));
   constexpr double most_pieces = 1e5;
   const double first = start + spec.shift;
   const double rounds = std::max(1.0, std::ceil((t_end - first) / *period));
   const double each = tabulated ? static_cast<double>(spec.times.size()) : 3.0;
   if (!(rounds * each <= most_pieces))
     table.fail("period", fmt::format("found the number {}, expected at most {:.0e} pieces up to t_end = {}",
-                                     shortest(*period), most_pieces, shortest(t_end)));
+                                     base::shortest(*period), most_pieces, base::shortest(t_end)));
   spec.period = *period;
   spec.rounds = static_cast<int>(rounds);
 }
@@ -410,4 +410,4 @@ HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& s
   return read_standing_history(table, key, scene);
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -10,7 +10,7 @@
 #include "scene/matrix_market.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -88,7 +88,7 @@ void check_symmetric(const Table& table, std::string_view key, const MatrixSpec&
       const std::string& a = dofs[static_cast<std::size_t>(e.row)];
       const std::string& b = dofs[static_cast<std::size_t>(e.column)];
       table.fail(key, fmt::format("found {} in ({}, {}) and {} in ({}, {}), expected a symmetric matrix",
-                                  shortest(e.value), a, b, shortest(mirrored), b, a));
+                                  base::shortest(e.value), a, b, base::shortest(mirrored), b, a));
     }
   }
 }
@@ -102,7 +102,7 @@ void check_mass(const Table& table, const MatrixSpec& mass, const std::vector<st
     const auto row = static_cast<std::size_t>(e.row);
     if (diagonal[row] < 0.0 || (diagonal[row] == 0.0 && e.row != e.column)) {
       table.fail("mass", fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
-                                     shortest(diagonal[row]), dofs[row],
+                                     base::shortest(diagonal[row]), dofs[row],
                                      diagonal[row] < 0.0 ? "" : ", and > 0 where it is coupled"));
     }
   }
@@ -119,7 +119,7 @@ std::vector<std::string> read_dofs(Table& table, int size) {
     }
     if (dofs.size() != static_cast<std::size_t>(size)) {
       table.fail("dofs", fmt::format("found {}, expected one for each of the {} rows of the mass matrix",
-                                     count_of(dofs.size(), "name"), size));
+                                     base::count_of(dofs.size(), "name"), size));
     }
     return dofs;
   }
@@ -157,9 +157,9 @@ void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
       {"mass", &matrices.mass}, {"damping", &matrices.damping}, {"stiffness", &matrices.stiffness}};
   for (const auto& [key, matrix] : all) {
     if (matrix->size != matrices.mass.size) {
-      table.fail(key,
-                 fmt::format("found {}, expected {} as in the mass matrix",
-                             count_of(static_cast<std::size_t>(matrix->size), "row"), matrices.mass.size));
+      table.fail(key, fmt::format("found {}, expected {} as in the mass matrix",
+                                  base::count_of(static_cast<std::size_t>(matrix->size), "row"),
+                                  matrices.mass.size));
     }
     check_symmetric(table, key, *matrix, matrices.dofs);
   }
@@ -168,4 +168,4 @@ void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
   record.add("matrices", "[matrices]", table.record());
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

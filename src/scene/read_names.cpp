@@ -8,7 +8,7 @@
 #include "scene/matrix_market.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 Space space_of(const Scene& scene) {
   Space space;
@@ -51,7 +51,7 @@ namespace {
 /// Letters and number of "P12"; -1 if the name has no number at its end.
 std::pair<std::string, long long> numbered(const std::string& name) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
-  const auto number = parse_integer(name.substr(digits));
+  const auto number = base::parse_integer(name.substr(digits));
   return {name.substr(0, digits), number && name.size() - digits < 9 ? *number : -1};
 }
 
@@ -62,7 +62,7 @@ void add_range(const std::string& text, const Table& table, std::string_view key
   const auto [first, from] = numbered(text.substr(0, dots));
   const auto [last, to] = numbered(text.substr(dots + 2, colon - dots - 2));
   const auto step =
-      colon == std::string::npos ? std::optional<long long>(1) : parse_integer(text.substr(colon + 1));
+      colon == std::string::npos ? std::optional<long long>(1) : base::parse_integer(text.substr(colon + 1));
   if (first != last || from < 0 || to < from || !step || *step < 1)
     table.fail(key, fmt::format("found \"{}\", expected a row of nodes with one name and ascending numbers, "
                                 "such as \"P0..P9\" or \"P0..P9:3\"",
@@ -110,7 +110,7 @@ std::vector<double> read_vector_file(Table& table, std::string_view key, const S
   std::vector<double> values = read_market_vector(in, path.string(), table.path(key));
   if (values.size() != size)
     table.fail(key, fmt::format("found a file of {}, expected one for each of the {} degrees of freedom",
-                                count_of(values.size(), "row"), size));
+                                base::count_of(values.size(), "row"), size));
   return values;
 }
 
@@ -151,4 +151,4 @@ Direction read_direction(Table& table, std::string_view key, const Space& space)
   return direction;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -9,7 +9,7 @@
 #include "scene/units.hpp"
 #include "signorini/output.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -110,7 +110,7 @@ OutputTerm read_term(Table& terms, const Entry& entry, const Scene& scene) {
 }
 
 /// "'M' [kN m]", with its factor where that has a unit.
-std::string told(const OutputTerm& term, const Scene& scene) {
+std::string described(const OutputTerm& term, const Scene& scene) {
   return fmt::format("'{}' [{}]{}", term.name, unit_text(unit_of_term(term, scene.outputs), scene.units),
                      same_unit(term.unit, unit::plain) ? "" : " with its factor");
 }
@@ -132,7 +132,7 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
     if (!same_unit(unit_of_term(first, scene.outputs), unit_of_term(term, scene.outputs)))
       terms.fail(entry.name, fmt::format("terms {} and {} have different units; give the factor a unit: {{ "
                                          "factor = ..., unit = \"...\" }}",
-                                         told(term, scene), told(first, scene)));
+                                         described(term, scene), described(first, scene)));
   }
   if (output.terms.empty()) table.fail("terms", "found none, expected { name = factor }");
   table.record("terms", terms.record().inline_table());
@@ -247,4 +247,4 @@ void read_outputs(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

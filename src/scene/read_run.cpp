@@ -10,7 +10,7 @@
 #include "scene/readers.hpp"
 #include "signorini/engine.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 constexpr double most_output_rows = 1e8;
@@ -18,12 +18,12 @@ constexpr double most_output_rows = 1e8;
 void check_times(const Table& table, std::string_view key, const std::vector<double>& times, double t_end) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] < 0.0 || times[i] > t_end) {
-      table.fail(key, fmt::format("found {}, expected times from 0 to t_end = {}", shortest(times[i]),
-                                  shortest(t_end)));
+      table.fail(key, fmt::format("found {}, expected times from 0 to t_end = {}", base::shortest(times[i]),
+                                  base::shortest(t_end)));
     }
     if (i > 0 && times[i] <= times[i - 1]) {
-      table.fail(key, fmt::format("found {} after {}, expected strictly ascending times", shortest(times[i]),
-                                  shortest(times[i - 1])));
+      table.fail(key, fmt::format("found {} after {}, expected strictly ascending times",
+                                  base::shortest(times[i]), base::shortest(times[i - 1])));
     }
   }
 }
@@ -40,7 +40,7 @@ void read_output(Table& table, RunSpec& run) {
   }
   if (run.output_dt && !(run.t_end / *run.output_dt <= most_output_rows)) {
     table.fail("output_dt", fmt::format("found the number {}, expected at most 1e8 rows up to t_end = {}",
-                                        shortest(*run.output_dt), shortest(run.t_end)));
+                                        base::shortest(*run.output_dt), base::shortest(run.t_end)));
   }
   if (run.output_times) check_times(table, "output_times", *run.output_times, run.t_end);
 }
@@ -108,7 +108,7 @@ void read_steps(Table& table, RunSpec& run) {
   run.relaxation = table.number("relaxation");
   if (run.relaxation > 1.0)
     table.fail("relaxation",
-               fmt::format("found the number {}, expected at most 1", shortest(run.relaxation)));
+               fmt::format("found the number {}, expected at most 1", base::shortest(run.relaxation)));
   run.max_iterations = table.integer("max_iterations");
 }
 
@@ -141,6 +141,10 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   record.add("run", "[run]", table.record());
 }
 
+}  // namespace signorini::scene
+
+namespace signorini {
+
 std::vector<double> RunSpec::grid() const {
   std::vector<double> times;
   if (output_times) {
@@ -149,7 +153,7 @@ std::vector<double> RunSpec::grid() const {
     return times;
   }
   const double dt_out = output_dt.value_or(t_end / 1000.0);
-  if (!(t_end / dt_out <= most_output_rows))
+  if (!(t_end / dt_out <= scene::most_output_rows))
     throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
   // Multiples, not sums: row k has the time k dt, correctly rounded. A multiple that equals t_end up to rounding is
   // t_end.
@@ -160,6 +164,10 @@ std::vector<double> RunSpec::grid() const {
   times.push_back(t_end);
   return times;
 }
+
+}  // namespace signorini
+
+namespace signorini::scene {
 
 // [reduction]: the cutoff, in cycles or in radians per time, or the tolerance from which it is found.
 
@@ -224,6 +232,10 @@ void read_units(Table& top, Scene& scene, RecordedScene& record) {
   table.finish();
   record.top.set("units", table.record().inline_table());
 }
+
+}  // namespace signorini::scene
+
+namespace signorini {
 
 std::string_view to_string(Engine engine) {
   return engine == Engine::automatic ? "auto" : name_of(engine).name;

@@ -12,7 +12,7 @@
 #include "scene/saved_state.hpp"
 #include "scene/toml_node.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -186,23 +186,31 @@ bool can_be_read(const std::string& text, const std::string& file) {
 
 }  // namespace
 
+}  // namespace signorini::scene
+
+namespace signorini {
+
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
   std::string message;
   try {
-    return build(text, file, overrides);
+    return scene::build(text, file, overrides);
   } catch (const SceneError& error) {
     // An override may have made another key invalid (kinetic above static).
-    if (overrides.empty() || !can_be_read(text, file)) throw;
+    if (overrides.empty() || !scene::can_be_read(text, file)) throw;
     message = error.what();
   }
   std::string all;
-  for (const Override& change : overrides) all += (all.empty() ? "" : " ") + text_of(change);
+  for (const Override& change : overrides) all += (all.empty() ? "" : " ") + scene::text_of(change);
   throw UsageError(all + ": " + message);
 }
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
-  return parse_scene(scene_text(path), path, overrides);
+  return parse_scene(scene::scene_text(path), path, overrides);
 }
+
+}  // namespace signorini
+
+namespace signorini::scene {
 
 std::vector<std::string> places_in(const std::string& scene, const std::string& path) {
   return places_of(parse_text(scene_text(scene), scene), path);
@@ -216,4 +224,4 @@ std::string tables_met_in(const std::string& scene, const std::vector<Override>&
   return tables_met(root, path);
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -10,7 +10,7 @@
 #include "mesh/mortar.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 // [[surfaces]]: boundaries of a structure given by [matrices], for seams.
 
@@ -42,7 +42,7 @@ std::vector<SurfaceNode> read_surface_nodes(Table& table, const Names& dofs) {
   for (const auto& [key, count] : counts)
     if (count != x->size())
       table.fail(key, fmt::format("found {}, expected one for each of the {} places of x",
-                                  count_of(count, "entry"), x->size()));
+                                  base::count_of(count, "entry"), x->size()));
   std::vector<SurfaceNode> nodes;
   for (std::size_t i = 0; i < x->size(); ++i) {
     for (const auto& [key, name] : {std::pair{"ux", &ux[i]}, std::pair{"uy", &uy[i]}})
@@ -59,8 +59,9 @@ std::vector<PlaneMesh::Edge> edges_of(Table& table, std::vector<int> nodes) {
   if (closed) nodes.push_back(nodes.front());
   const std::size_t step = quadratic ? 2 : 1;
   if (nodes.size() < step + 1 || (nodes.size() - 1) % step != 0)
-    table.fail("x", fmt::format("found {}, expected {}", count_of(nodes.size() - (closed ? 1 : 0), "place"),
-                                quadratic ? "an end, a middle, an end and so on" : "two or more"));
+    table.fail("x",
+               fmt::format("found {}, expected {}", base::count_of(nodes.size() - (closed ? 1 : 0), "place"),
+                           quadratic ? "an end, a middle, an end and so on" : "two or more"));
   std::vector<PlaneMesh::Edge> edges;
   for (std::size_t i = 0; i + step < nodes.size(); i += step) {
     edges.push_back({{nodes[i], nodes[i + step]}});
@@ -194,21 +195,21 @@ Boundary find_side(const Table& table, std::string_view key, const std::string& 
     there.push_back(surface.name);
   }
   table.fail(key, fmt::format("no surface is named \"{}\"; known: {}", name,
-                              there.empty() ? "none" : listed(there, 8)));
+                              there.empty() ? "none" : base::listed(there, 8)));
 }
 
 /// All edges of the slave's body, or of its surface.
 std::vector<PlaneMesh::Edge> outline_of(const Boundary& side, const Scene& scene) {
   if (!side.body) return *side.edges;
-  SharedEdges all;
-  add_edges(scene.bodies[*side.body].mesh.elements, all);
+  mesh::SharedEdges all;
+  mesh::add_edges(scene.bodies[*side.body].mesh.elements, all);
   std::vector<PlaneMesh::Edge> outline;
   for (auto& [ends, edge] : all)
     if (edge.elements == 1) outline.push_back({std::move(edge.nodes)});
   return outline;
 }
 
-PlanePoint place_in(const Scene& scene, int n) {
+mesh::PlanePoint place_in(const Scene& scene, int n) {
   const auto i = static_cast<std::size_t>(n);
   if (scene.matrices) return {scene.surface_nodes[i].x, scene.surface_nodes[i].y};
   return {scene.nodes[i].x, scene.nodes[i].y};
@@ -227,12 +228,12 @@ std::vector<std::string> mesh_names(const std::vector<int>& nodes, const Scene& 
 }
 
 /// A node shared by both boundaries (the tip of a crack) never opens and is not a contact.
-void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) {
+void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& seam) {
   std::set<int> master;
-  for (const MortarNode& k : seam.nodes)
+  for (const mesh::MortarNode& k : seam.nodes)
     for (const auto& [node, weight] : k.master) master.insert(node);
   const std::string first = mesh_name(seam.nodes.front().node, scene);
-  std::erase_if(seam.nodes, [&](const MortarNode& k) { return master.contains(k.node); });
+  std::erase_if(seam.nodes, [&](const mesh::MortarNode& k) { return master.contains(k.node); });
   if (seam.nodes.empty())
     table.fail("master",
                fmt::format("node {} and all others belong to both boundaries: expected meshes that share no "
@@ -241,44 +242,44 @@ void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) 
 }
 
 /// Reads and checks the mortar of a table.
-MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
-  const PlaceOf place = [&](int n) { return place_in(scene, n); };
+mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
+  const mesh::PlaceOf place = [&](int n) { return place_in(scene, n); };
   if (table.has("master") == table.has("line"))
     table.fail("master", table.has("line") ? "cannot be combined with line; give only one of them"
                                            : "missing, expected master or line");
-  MortarSeam seam;
+  mesh::MortarSeam seam;
   if (table.has("line")) {
     Table line = table.child("line");
     const auto point = line.vector("point");
-    seam = mortar_on_line(*slave.edges, point, read_unit_vector(line, "normal"), place);
+    seam = mesh::mortar_on_line(*slave.edges, point, read_unit_vector(line, "normal"), place);
     line.finish();
     table.record("line", line.record().inline_table());
   } else if (const std::string master = table.text("master"); master == "ground") {
-    seam = mortar_on_ground(*slave.edges, place);
+    seam = mesh::mortar_on_ground(*slave.edges, place);
   } else {
     const Boundary other = find_side(table, "master", master, scene);
     if (other.edges == slave.edges)
       table.fail("master", "found the slave boundary itself, expected another one");
-    seam = mortar_between(*slave.edges, *other.edges, place, outline_of(slave, scene));
+    seam = mesh::mortar_between(*slave.edges, *other.edges, place, outline_of(slave, scene));
   }
   if (!seam.negative.empty())
     table.fail(
         "slave",
         fmt::format("node {} lies at the end of a quadratic edge of which the master covers a part, and "
                     "would have no length: end the master at a node of the slave, or exchange the two",
-                    listed(mesh_names(seam.negative, scene), 3)));
+                    base::listed(mesh_names(seam.negative, scene), 3)));
   if (!seam.corners.empty())
     table.fail("slave",
                fmt::format("the boundary has a corner of more than 45 degrees at node {}: give each side a "
                            "seam of its own",
-                           listed(mesh_names(seam.corners, scene), 3)));
+                           base::listed(mesh_names(seam.corners, scene), 3)));
   if (seam.nodes.empty()) table.fail("master", "it faces no part of the slave boundary");
   leave_out_shared(table, scene, seam);
   return seam;
 }
 
 /// For [matrices]: the form n . (u_k - sum_l w_kl u_l) on degrees of freedom by name.
-Direction surface_form(const MortarNode& k, const std::array<double, 2>& n, const Scene& scene) {
+Direction surface_form(const mesh::MortarNode& k, const std::array<double, 2>& n, const Scene& scene) {
   Direction form;
   const auto add = [&](int node, double factor) {
     const SurfaceNode& at = scene.surface_nodes[static_cast<std::size_t>(node)];
@@ -290,7 +291,7 @@ Direction surface_form(const MortarNode& k, const std::array<double, 2>& n, cons
   return form;
 }
 
-void set_forms(const MortarNode& k, const Scene& scene, ContactSpec& contact) {
+void set_forms(const mesh::MortarNode& k, const Scene& scene, ContactSpec& contact) {
   Direction normal;
   if (scene.matrices) {
     normal = surface_form(k, k.normal, scene);
@@ -307,7 +308,7 @@ void set_forms(const MortarNode& k, const Scene& scene, ContactSpec& contact) {
   contact.normal = std::move(normal);
 }
 
-ContactSpec contact_of(const MortarNode& k, const SeamLaw& law, double thickness, const Scene& scene) {
+ContactSpec contact_of(const mesh::MortarNode& k, const SeamLaw& law, double thickness, const Scene& scene) {
   ContactSpec contact = law.contact;
   const double area = k.length * thickness;
   set_forms(k, scene, contact);
@@ -327,8 +328,8 @@ void read_tied(Table& table, const std::string& name, Scene& scene) {
   if (table.has("line") || is_word(table, "master", "ground"))
     table.fail("law",
                "found \"tied\" to what rests: expected a boundary as master, or [[supports]] on the slave");
-  const MortarSeam mortar = read_mortar(table, slave, scene);
-  for (const MortarNode& k : mortar.nodes) {
+  const mesh::MortarSeam mortar = read_mortar(table, slave, scene);
+  for (const mesh::MortarNode& k : mortar.nodes) {
     TieSpec tie{name, k.node, k.master, table.place()};
     for (const TieSpec& other : scene.ties)
       if (other.node == k.node)
@@ -356,11 +357,11 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
       continue;
     }
     const Boundary slave = find_side(table, "slave", table.text("slave"), scene);
-    const MortarSeam mortar = read_mortar(table, slave, scene);
+    const mesh::MortarSeam mortar = read_mortar(table, slave, scene);
     const SeamLaw law = read_seam_law(table, scene);
     seam.thickness = slave.thickness;
     seam.first_contact = scene.contacts.size();
-    for (const MortarNode& k : mortar.nodes) {
+    for (const mesh::MortarNode& k : mortar.nodes) {
       ContactSpec contact = contact_of(k, law, slave.thickness, scene);
       contact.name = fmt::format("{}.{}", seam.name, seam.nodes.size() + 1);
       add_contact(table, std::move(contact), names, scene);
@@ -372,7 +373,7 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
                    "found \"none\", which is not allowed with [matrices]: the mass of the nodes is given, "
                    "and may be zero");
       std::vector<int>& massless = scene.bodies[*slave.body].massless;
-      for (const MortarNode& k : mortar.nodes) massless.push_back(k.node);
+      for (const mesh::MortarNode& k : mortar.nodes) massless.push_back(k.node);
     }
     table.finish(fmt::format("is not allowed with law = \"{}\"; remove it",
                              law.contact.law == Law::rigid ? "rigid" : "compliant"));
@@ -381,4 +382,4 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

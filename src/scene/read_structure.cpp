@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "scene/readers.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 constexpr int most_elements = 1'000'000;
@@ -42,7 +42,7 @@ std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
     const toml::array& array = *node->as_array();
     if (array.size() != pieces) {
       table.fail("elements", fmt::format("found {}, expected one number, or one for each of the {}",
-                                         describe(*node), count_of(pieces, "piece")));
+                                         describe(*node), base::count_of(pieces, "piece")));
     }
     for (std::size_t i = 0; i < pieces; ++i) elements[i] = count(array[i]);
   } else if (node) {
@@ -147,7 +147,7 @@ Bend read_bend(Table& table, const Member& member, const Section& section, const
     if (!(std::abs(radius) >= half * (1.0 - rounding::of_many)))
       keys.fail("radius",
                 fmt::format("found {}, expected at least half the distance of \"{}\" and \"{}\", {:.9g}",
-                            shortest(radius), a.name, b.name, half));
+                            base::shortest(radius), a.name, b.name, half));
   }
   Bend bend = section.pipe_wall > 0.0 ? factors_of_pipe(section, radius) : Bend{radius};
   bend.flexibility = keys.optional_number("flexibility").value_or(bend.flexibility);
@@ -226,8 +226,8 @@ double ring(double thickness, double inner_diameter) {
 double wall_within(Table& table, const char* key, double width, const char* of) {
   const double wall = table.number(key);
   if (!(2.0 * wall < width))
-    table.fail(
-        key, fmt::format("found {}, expected less than half the {} {}", shortest(wall), of, shortest(width)));
+    table.fail(key, fmt::format("found {}, expected less than half the {} {}", base::shortest(wall), of,
+                                base::shortest(width)));
   return wall;
 }
 
@@ -267,7 +267,8 @@ Shape read_i(Table& table) {
   const double b = table.number("width"), h = table.number("height");
   const double t = wall_within(table, "flange", h, "height"), s = table.number("web"), between = h - 2.0 * t;
   if (!(s <= b))
-    table.fail("web", fmt::format("found {}, expected at most the width {}", shortest(s), shortest(b)));
+    table.fail("web",
+               fmt::format("found {}, expected at most the width {}", base::shortest(s), base::shortest(b)));
   const double area = 2.0 * b * t + between * s;
   if (table.choice("axis") == "weak")
     return {area, (2.0 * t * b * b * b + between * s * s * s) / 12.0, 0.5 * b};
@@ -400,4 +401,4 @@ void read_rigid(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -14,7 +14,7 @@
 #include "scene/table.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 /// Names that can be referred to: nodes, or degrees of freedom of [matrices].
 struct Space {
@@ -111,4 +111,4 @@ void check_pressing(const Table& table, const HistorySpec& spec, double t_end);
 /// Adds the contact; refuses a name that another contact has.
 void add_contact(Table& table, ContactSpec contact, Names& names, Scene& scene);
 
-}  // namespace signorini
+}  // namespace signorini::scene

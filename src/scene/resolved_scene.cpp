@@ -10,10 +10,10 @@
 #include "base/text.hpp"
 #include "scene/toml_node.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 std::string toml_number(double value) {
-  std::string text = shortest(value);
+  std::string text = base::shortest(value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }
@@ -116,10 +116,10 @@ bool names_file(const std::string& text) {
 std::string content_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(file, "cannot be read");
-  return "file " + fingerprint_of({std::istreambuf_iterator<char>(in), {}});
+  return "file " + base::fingerprint_of({std::istreambuf_iterator<char>(in), {}});
 }
 
-void add(const Json& value, const std::string& path, ResolvedKeys& keys) {
+void add(const base::Json& value, const std::string& path, ResolvedKeys& keys) {
   const auto inner = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
   const bool tables = value.is_array() && !value.empty() && value.front().is_object();
   if (value.is_object()) {
@@ -133,7 +133,7 @@ void add(const Json& value, const std::string& path, ResolvedKeys& keys) {
     keys[path] = content_of(value.get<std::string>());
   } else {
     const std::string text = value.dump();
-    keys[path] = text.size() <= longest_value ? text : "values " + fingerprint_of(text);
+    keys[path] = text.size() <= longest_value ? text : "values " + base::fingerprint_of(text);
   }
 }
 
@@ -204,4 +204,4 @@ std::vector<std::string> differing_structure(const toml::table& a, const toml::t
   return tables;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

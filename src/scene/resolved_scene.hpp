@@ -14,7 +14,7 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 /// TOML text of a value. Numbers always read back as floating-point numbers.
 [[nodiscard]] std::string toml_number(double value);
@@ -83,4 +83,4 @@ using ResolvedKeys = std::map<std::string, std::string>;
 /// The tables with different content, in the order above.
 [[nodiscard]] std::vector<std::string> differing_structure(const toml::table& a, const toml::table& b);
 
-}  // namespace signorini
+}  // namespace signorini::scene

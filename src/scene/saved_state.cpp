@@ -11,7 +11,7 @@
 #include "signorini/error.hpp"
 #include "signorini/form.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 constexpr std::string_view of_shear = ".T", of_state = ".state", of_own = ".own", of_memory = ".memory";
@@ -59,10 +59,10 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
   int number = 1;
   const auto fail = [&](const std::string& message) { throw SceneError({file, number, 0}, key, message); };
   std::vector<std::string> names, cells;
-  if (!read_csv_row(in, names)) fail("found no line, expected states of a run");
+  if (!base::read_csv_row(in, names)) fail("found no line, expected states of a run");
   if (names[0] != "t" || names.size() < 3) fail("found no heading \"t,...\", expected states of a run");
   SavedStates found;
-  while (read_csv_row(in, cells)) {
+  while (base::read_csv_row(in, cells)) {
     ++number;
     if (cells.size() != names.size())
       fail(fmt::format("found {} cells, expected {}", cells.size(), names.size()));
@@ -73,9 +73,9 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
         state.slips.emplace_back(contact_in(names[i], of_state), *slip);
         continue;
       }
-      const auto value = parse_number(cells[i]);
+      const auto value = base::parse_number(cells[i]);
       if (!value || !std::isfinite(*value))
-        fail(fmt::format("found \"{}\", expected a number", excerpt(cells[i])));
+        fail(fmt::format("found \"{}\", expected a number", base::excerpt(cells[i])));
       if (i == 0)
         time = *value;
       else if (names[i].ends_with(of_shear))
@@ -84,7 +84,7 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
         state.motions.emplace_back(names[i], *value);
     }
     state.t = time;
-    found.times.push_back(shortest(time));
+    found.times.push_back(base::shortest(time));
     // The file has the run's digits; the scene may have fewer.
     if (!t || std::abs(time - *t) <= 1e-9 * std::abs(*t)) found.wanted = std::move(state);
   }
@@ -100,10 +100,10 @@ std::optional<SavedState::Left> row_of(const std::vector<std::string>& cells) {
   SavedState::Left left;
   left.contact = cells[1];
   left.state = cells[2];
-  if (!cells[3].empty() && !(left.gap = parse_number(cells[3]))) return std::nullopt;
+  if (!cells[3].empty() && !(left.gap = base::parse_number(cells[3]))) return std::nullopt;
   double* const numbers[] = {&left.ut, &left.vt, &left.slip, &left.N, &left.T};
   for (std::size_t i = 0; i < std::size(numbers); ++i) {
-    const std::optional<double> value = parse_number(cells[4 + i]);
+    const std::optional<double> value = base::parse_number(cells[4 + i]);
     if (!value) return std::nullopt;
     *numbers[i] = *value;
   }
@@ -116,11 +116,11 @@ std::vector<SavedState::Left> read_left_contacts(const std::filesystem::path& pa
   std::ifstream in(path, std::ios::binary);
   std::vector<std::string> cells;
   std::vector<SavedState::Left> rows;
-  if (!in || !read_csv_row(in, cells)) return {};
+  if (!in || !base::read_csv_row(in, cells)) return {};
   if (cells.size() < heading.size() || !std::equal(heading.begin(), heading.end(), cells.begin())) return {};
   const std::size_t width = cells.size();
-  while (read_csv_row(in, cells)) {
-    const std::optional<double> time = parse_number(cells[0]);
+  while (base::read_csv_row(in, cells)) {
+    const std::optional<double> time = base::parse_number(cells[0]);
     if (cells.size() != width || !time || std::abs(*time - t) > rounding::of_few * std::abs(t)) continue;
     std::optional<SavedState::Left> row = row_of(cells);
     if (!row) return {};
@@ -134,7 +134,7 @@ const std::vector<std::string>& frozen_heading() {
   return heading;
 }
 
-std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path, const std::string& key) {
+std::optional<Prestress> read_prestress(const std::filesystem::path& path, const std::string& key) {
   std::ifstream in(path, std::ios::binary);
   if (!in) return std::nullopt;
   int line = 1;
@@ -142,16 +142,17 @@ std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path
     throw SceneError({path.string(), line, 0}, key, message);
   };
   std::vector<std::string> cells;
-  if (!read_csv_row(in, cells) || cells != frozen_heading())
+  if (!base::read_csv_row(in, cells) || cells != frozen_heading())
     fail(fmt::format("found no heading \"{}\", expected the frozen forces of a run",
                      fmt::join(frozen_heading(), ",")));
   const auto number = [&](const std::string& cell) {
-    const auto value = parse_number(cell);
-    if (!value || !std::isfinite(*value)) fail(fmt::format("found \"{}\", expected a number", excerpt(cell)));
+    const auto value = base::parse_number(cell);
+    if (!value || !std::isfinite(*value))
+      fail(fmt::format("found \"{}\", expected a number", base::excerpt(cell)));
     return *value;
   };
-  FrozenForces forces;
-  while (read_csv_row(in, cells)) {
+  Prestress forces;
+  while (base::read_csv_row(in, cells)) {
     ++line;
     if (cells.size() != frozen_heading().size())
       fail(fmt::format("found {} cells, expected {}", cells.size(), frozen_heading().size()));
@@ -160,11 +161,11 @@ std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path
     else if (cells[0] == "rigid")
       forces.bodies.push_back({cells[1], number(cells[5])});
     else
-      fail(fmt::format("found \"{}\", expected member or rigid", excerpt(cells[0])));
+      fail(fmt::format("found \"{}\", expected member or rigid", base::excerpt(cells[0])));
   }
   ++line;
   if (!cells.empty()) fail("found no line break, expected the end of a row");
   return forces;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

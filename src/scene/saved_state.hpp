@@ -16,7 +16,7 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 /// Name in SavedState::motions of the mass-proportional Rayleigh factor in use, 1/time. With alpha_over_omega1, omega1
 /// refers to the contacts that were closed at the start of the first run.
@@ -55,7 +55,7 @@ inline constexpr const char* frozen_file = "geometric.csv";
 [[nodiscard]] const std::vector<std::string>& frozen_heading();
 
 /// nullopt: the file does not exist. Errors: SceneError at the line of the file; `key` begins the message.
-[[nodiscard]] std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path,
-                                                             const std::string& key);
+[[nodiscard]] std::optional<Prestress> read_prestress(const std::filesystem::path& path,
+                                                      const std::string& key);
 
-}  // namespace signorini
+}  // namespace signorini::scene

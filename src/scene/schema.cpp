@@ -6,11 +6,11 @@
 #include "scene/keys.hpp"
 #include "scene/toml_node.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
-Json default_json(const Key& key) {
+base::Json default_json(const Key& key) {
   const toml::table parsed = toml::parse("value = " + std::string(key.fallback));
   return json_of(*parsed.get("value"));
 }
@@ -25,21 +25,23 @@ std::string definition_name(std::string_view table) {
   return name;
 }
 
-Json reference(std::string_view table) { return {{"$ref", "#/definitions/" + definition_name(table)}}; }
+base::Json reference(std::string_view table) { return {{"$ref", "#/definitions/" + definition_name(table)}}; }
 
-Json any_of(Json first, Json second) {
-  Json list = Json::array();
+base::Json any_of(base::Json first, base::Json second) {
+  base::Json list = base::Json::array();
   list.push_back(std::move(first));
   list.push_back(std::move(second));
   return {{"anyOf", std::move(list)}};
 }
 
-Json array_of(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
+base::Json array_of(base::Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
 
-Json one_of_words(const std::vector<std::string>& words) { return {{"type", "string"}, {"enum", words}}; }
+base::Json one_of_words(const std::vector<std::string>& words) {
+  return {{"type", "string"}, {"enum", words}};
+}
 
-Json number_type(KeyType type) {
-  Json json = {{"type", type == KeyType::count || type == KeyType::integer ? "integer" : "number"}};
+base::Json number_type(KeyType type) {
+  base::Json json = {{"type", type == KeyType::count || type == KeyType::integer ? "integer" : "number"}};
   if (type == KeyType::positive) json["exclusiveMinimum"] = 0;
   if (type == KeyType::non_negative || type == KeyType::fraction) json["minimum"] = 0;
   if (type == KeyType::fraction) json["maximum"] = 1;
@@ -52,16 +54,16 @@ Json number_type(KeyType type) {
 }
 
 /// An array [x, y].
-Json plane_vector() {
-  Json json = array_of(number_type(KeyType::number));
+base::Json plane_vector() {
+  base::Json json = array_of(number_type(KeyType::number));
   json["minItems"] = 2;
   json["maxItems"] = 2;
   return json;
 }
 
-Json direction_type() {
-  const Json by_dof = {{"type", "object"}, {"additionalProperties", number_type(KeyType::number)}};
-  Json json = any_of(plane_vector(), by_dof);
+base::Json direction_type() {
+  const base::Json by_dof = {{"type", "object"}, {"additionalProperties", number_type(KeyType::number)}};
+  base::Json json = any_of(plane_vector(), by_dof);
   json["anyOf"].push_back({{"type", "string"}});
   return json;
 }
@@ -72,13 +74,13 @@ std::string below(const Key& key) {
 }
 
 /// The table of friction for either law.
-Json friction_table(const std::string& path) {
-  const Json falls = {{"required", Json::array({"static"})}};
-  const Json rises = {{"required", Json::array({"slow", "fast", "velocity"})}};
-  return {{"allOf", Json::array({reference(path), any_of(falls, rises)})}};
+base::Json friction_table(const std::string& path) {
+  const base::Json falls = {{"required", base::Json::array({"static"})}};
+  const base::Json rises = {{"required", base::Json::array({"slow", "fast", "velocity"})}};
+  return {{"allOf", base::Json::array({reference(path), any_of(falls, rises)})}};
 }
 
-Json table_type(const Key& key) {
+base::Json table_type(const Key& key) {
   switch (key.type) {
     case KeyType::tables:
       return array_of(reference(below(key) + "[]"));
@@ -99,8 +101,8 @@ Json table_type(const Key& key) {
   }
 }
 
-Json value_type(const Key& key) {
-  const Json text = {{"type", "string"}};
+base::Json value_type(const Key& key) {
+  const base::Json text = {{"type", "string"}};
   switch (key.type) {
     case KeyType::text:
     case KeyType::name:
@@ -112,7 +114,7 @@ Json value_type(const Key& key) {
     case KeyType::automatic_flag:
       return any_of({{"type", "boolean"}}, one_of_words({"auto"}));
     case KeyType::tolerance_order: {
-      Json order = number_type(KeyType::count);
+      base::Json order = number_type(KeyType::count);
       order["maximum"] = 5;
       return any_of(one_of_words({"auto"}), order);
     }
@@ -129,7 +131,7 @@ Json value_type(const Key& key) {
     case KeyType::place:
       return any_of(text, plane_vector());
     case KeyType::against: {
-      Json two = array_of(text);
+      base::Json two = array_of(text);
       two["minItems"] = 2;
       two["maxItems"] = 2;
       return any_of(text, two);
@@ -152,20 +154,20 @@ Json value_type(const Key& key) {
   }
 }
 
-Json key_schema(const Key& key) {
-  Json json = value_type(key);
+base::Json key_schema(const Key& key) {
+  base::Json json = value_type(key);
   if (key.table.empty() && key.name == "schema") json = {{"const", 1}};
   // Draft 7 ignores all keywords beside a $ref.
-  if (json.contains("$ref")) json = {{"allOf", Json::array({json})}};
+  if (json.contains("$ref")) json = {{"allOf", base::Json::array({json})}};
   json["description"] =
       std::string(key.meaning) + (key.unit.empty() ? "" : " Unit: " + std::string(key.unit) + ".");
   if (!key.fallback.empty() && key.fallback != "required") json["default"] = default_json(key);
   return json;
 }
 
-Json table_schema(std::string_view table) {
+base::Json table_schema(std::string_view table) {
   const Key* any = find_key(table, "*");
-  Json properties = Json::object(), required = Json::array();
+  base::Json properties = base::Json::object(), required = base::Json::array();
   for (const std::string& name : key_names(table)) {
     const Key& key = *find_key(table, name);
     properties[name] = key_schema(key);
@@ -173,7 +175,7 @@ Json table_schema(std::string_view table) {
     if (any) properties[name] = any_of(properties[name], value_type(*any));
     if (key.fallback == "required") required.push_back(name);
   }
-  Json json = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  base::Json json = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (any) json["additionalProperties"] = key_schema(*any);
   if (!required.empty()) json["required"] = required;
   return json;
@@ -182,16 +184,16 @@ Json table_schema(std::string_view table) {
 }  // namespace
 
 std::string scene_schema() {
-  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
-                 {"title", "Signorini scene"},
-                 {"description", "Structures on unilateral frictional contacts, event by event."}};
+  base::Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                       {"title", "Signorini scene"},
+                       {"description", "Structures on unilateral frictional contacts, event by event."}};
   schema.update(table_schema(""));
-  Json definitions = Json::object();
+  base::Json definitions = base::Json::object();
   for (const Key& key : all_keys())
     if (const std::string name = definition_name(key.table); !name.empty() && !definitions.contains(name))
       definitions[name] = table_schema(key.table);
   schema["definitions"] = std::move(definitions);
-  return json_text(schema);
+  return base::json_text(schema);
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

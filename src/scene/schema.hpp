@@ -9,8 +9,8 @@
 
 #include <string>
 
-namespace signorini {
+namespace signorini::scene {
 
 [[nodiscard]] std::string scene_schema();
 
-}  // namespace signorini
+}  // namespace signorini::scene

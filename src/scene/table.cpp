@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 namespace {
 
@@ -75,7 +75,7 @@ void check_name(const std::string& name, const SourcePlace& place, const std::st
   constexpr std::size_t longest = 255;
   if (name.empty()) refuse(place, path, "found an empty name");
   if (name.size() > longest)
-    refuse(place, excerpt(path),
+    refuse(place, base::excerpt(path),
            fmt::format("found a name of {} bytes, expected at most {}", name.size(), longest));
   if (std::any_of(name.begin(), name.end(), is_control)) {
     refuse(place, path, "found a name with a line break or another control character, expected a plain name");
@@ -111,7 +111,7 @@ std::optional<std::size_t> Names::index(const std::string& name) const {
 std::size_t check_known(const std::string& name, const Names& known, const std::string& what,
                         const SourcePlace& place, const std::string& path) {
   if (const auto index = known.index(name)) return *index;
-  refuse(place, path, fmt::format("unknown {} \"{}\"{}", what, name, suggestion(name, known.list())));
+  refuse(place, path, fmt::format("unknown {} \"{}\"{}", what, name, base::suggestion(name, known.list())));
 }
 
 Table::Table(const toml::table* node, std::string kind, std::string path, SourcePlace place)
@@ -125,7 +125,8 @@ Table::Table(const toml::table* node, std::string kind, std::string path, Source
   if (fits) return;
   for (const Entry& entry : entries_of(*node_)) {  // the message names the first one in the file
     if (!find_key(kind_, entry.name))
-      refuse(entry.place(), this->path(entry.name), "unknown key" + suggestion(entry.name, key_names(kind_)));
+      refuse(entry.place(), this->path(entry.name),
+             "unknown key" + base::suggestion(entry.name, key_names(kind_)));
   }
 }
 
@@ -215,7 +216,7 @@ std::string Table::choice(std::string_view name) {
   std::string result = text(name);
   const std::vector<std::string> choices = choices_of(key(name));
   if (std::find(choices.begin(), choices.end(), result) == choices.end()) {
-    wrong(name, describe_type(key(name)) + did_you_mean(result, choices));
+    wrong(name, describe_type(key(name)) + base::did_you_mean(result, choices));
   }
   return result;
 }
@@ -317,4 +318,4 @@ std::vector<Table> tables_of(Table& top, std::string_view key) {
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -20,7 +20,7 @@
 #include "scene/resolved_scene.hpp"
 #include "scene/toml_node.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 class Table {
  public:
@@ -118,4 +118,4 @@ class Names {
 std::size_t check_known(const std::string& name, const Names& known, const std::string& what,
                         const SourcePlace& place, const std::string& path);
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -13,7 +13,7 @@
 #include "scene/resolved_scene.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 bool is_override(const toml::source_region& region) {
@@ -60,7 +60,7 @@ std::string describe(const toml::node& node) {
   if (const auto* value = node.as_floating_point()) return "the number " + toml_number(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "the boolean true" : "the boolean false";
   if (const auto* array = node.as_array()) {
-    return "an array of " + count_of(array->size(), "value");
+    return "an array of " + base::count_of(array->size(), "value");
   }
   if (node.is_table()) return "a table";
   return "a date or time";
@@ -84,7 +84,7 @@ std::vector<Entry> entries_of(const toml::table& table) {
 
 std::string scene_text(const std::string& path) {
   constexpr std::size_t longest_file = 64u << 20;
-  if (const std::string why = why_no_input_file(path); !why.empty())
+  if (const std::string why = base::why_no_input_file(path); !why.empty())
     throw FileError(path, why + ", expected a scene file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
@@ -100,12 +100,12 @@ std::string scene_text(const std::string& path) {
   return text;
 }
 
-Json json_of(const toml::node& node) {
+base::Json json_of(const toml::node& node) {
   if (const auto* value = node.as_boolean()) return value->get();
   if (const auto* value = node.as_integer()) return value->get();
   if (const auto* value = node.as_floating_point()) return value->get();
   if (const auto* value = node.as_string()) return value->get();
-  Json json = node.is_array() ? Json::array() : Json::object();
+  base::Json json = node.is_array() ? base::Json::array() : base::Json::object();
   if (const toml::array* array = node.as_array())
     for (const toml::node& item : *array) json.push_back(json_of(item));
   if (const toml::table* table = node.as_table())
@@ -113,4 +113,4 @@ Json json_of(const toml::node& node) {
   return json;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -11,7 +11,7 @@
 #include "base/json.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 /// Source mark of values from an Override, which no file name begins with; the file name is the override's text.
 inline constexpr char override_mark = '\x1a';
@@ -47,6 +47,6 @@ struct Entry {
 // A TOML value as a JSON value of the same shape.
 
 /// Dates and times, which no scene has, become empty objects.
-[[nodiscard]] Json json_of(const toml::node& node);
+[[nodiscard]] base::Json json_of(const toml::node& node);
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -5,7 +5,7 @@
 
 #include "scene/quantities.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 namespace {
 
 constexpr Unit stress{1, -2, 0}, angular_acceleration{0, 0, -2};
@@ -124,4 +124,4 @@ std::optional<Unit> unit_of_text(std::string_view text, const Units& names) {
   return unit;
 }
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -9,7 +9,7 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::scene {
 
 [[nodiscard]] bool same_unit(const Unit& a, const Unit& b);
 [[nodiscard]] Unit product_of_units(const Unit& a, const Unit& b);
@@ -29,4 +29,4 @@ namespace signorini {
 /// nullopt: not a unit. mass = force time^2 / length; "1" and "rad" are plain numbers.
 [[nodiscard]] std::optional<Unit> unit_of_text(std::string_view text, const Units& names);
 
-}  // namespace signorini
+}  // namespace signorini::scene

@@ -7,7 +7,7 @@
 #include "contact/law.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 std::vector<Eigen::Index> contact_dofs(const Model& model, const std::vector<const ModelDerivative*>& rates) {
   std::set<Eigen::Index> dofs;
@@ -35,13 +35,14 @@ DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::si
     return sum;
   };
   for (std::size_t order = 0; order < 3; ++order) d.surface[order] = value(series.surface, order);
-  for (std::size_t order = 0; order < 2; ++order) d.pressing[order] = value(series.pressing, order);
+  for (std::size_t order = 0; order < 2; ++order)
+    d.applied_normal_force[order] = value(series.applied_normal_force, order);
   return d;
 }
 
-ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing, double t,
+ContactMotion motion_of(const Contact& contact, std::size_t k, const motion::Forcing& forcing, double t,
                         const SeriesPoint& point) {
-  return motion_of(contact, k, forcing, t, Point{point.u, point.v, point.forces, point.a});
+  return motion::motion_of(contact, k, forcing, t, motion::Point{point.u, point.v, point.forces, point.a});
 }
 
 ContactMotion time_rate(const ForceLayout& layout, std::size_t k, const ContactMotion& m,
@@ -53,7 +54,7 @@ ContactMotion time_rate(const ForceLayout& layout, std::size_t k, const ContactM
   rate.ut = m.vt;
   rate.vn = m.an;
   rate.vt = m.at;
-  rate.pressing = m.pressing_rate;
+  rate.applied_normal_force = m.applied_normal_force_rate;
   return rate;
 }
 
@@ -69,8 +70,8 @@ ContactMotion parameter_rate(const Contact& contact, const ContactRates& rates, 
   m.ut = contact.tangent.dot(w.u) + rates.tangent.dot(point.u) - driven.surface[0];
   m.vt = contact.tangent.dot(w.v) + rates.tangent.dot(point.v) - driven.surface[1];
   m.at = contact.tangent.dot(w.a) + rates.tangent.dot(point.a) - driven.surface[2];
-  m.pressing = driven.pressing[0];
-  m.pressing_rate = driven.pressing[1];
+  m.applied_normal_force = driven.applied_normal_force[0];
+  m.applied_normal_force_rate = driven.applied_normal_force[1];
   return m;
 }
 
@@ -78,7 +79,7 @@ ContactMotion sum(const ContactMotion& a, const ContactMotion& b, double factor)
   ContactMotion m;
   for (const auto field : {&ContactMotion::N, &ContactMotion::T, &ContactMotion::gap, &ContactMotion::ut,
                            &ContactMotion::vn, &ContactMotion::vt, &ContactMotion::an, &ContactMotion::at,
-                           &ContactMotion::pressing, &ContactMotion::pressing_rate})
+                           &ContactMotion::applied_normal_force, &ContactMotion::applied_normal_force_rate})
     m.*field = a.*field + factor * b.*field;
   return m;
 }
@@ -94,25 +95,27 @@ WatchedMotion watched(const Contact& contact, const ForceLayout& layout, std::si
           {force_bends[n], force_bends[t], contact.normal.dot(point.a), body.dot(point.a)}};
 }
 
-BodySlide slide_rate(const Contact& contact, const ContactRates& rates, const SeriesPoint& point,
-                     const SeriesPoint& w, const DrivenRates& driven) {
+motion::BodySlide slide_rate(const Contact& contact, const ContactRates& rates, const SeriesPoint& point,
+                             const SeriesPoint& w, const DrivenRates& driven) {
   const Combination& body = contact.body_tangent();
   return {body.dot(w.u) + rates.body_tangent.dot(point.u) - driven.surface[0],
           body.dot(w.v) + rates.body_tangent.dot(point.v) - driven.surface[1]};
 }
 
 LawRates law_rates(const Contact& contact, std::size_t c, const ContactState& state,
-                   const ContactRates& rates, const Forcing& forcing, double t, const TangentSource& source) {
+                   const ContactRates& rates, const motion::Forcing& forcing, double t,
+                   const TangentSource& source) {
   LawRates result;
-  const double pressing = forcing.pressing(c, t, 0);
-  result.law = force_law(contact, state, pressing);
-  const Rows row = rows(contact, state);
+  const double applied = forcing.applied_normal_force(c, t, 0);
+  result.law = modal::force_law(contact, state, applied);
+  const Rows row = contact::rows(contact, state);
   const Rows& by = rates.rows[index_of(state.state)];
   const std::size_t place = c * source.forcing.count;
-  ForceLaw& d = result.rates;
+  modal::ForceLaw& d = result.rates;
   d.N_gap = -by.normal.gap;
-  d.N_constant = -(by.normal.pressing * pressing + row.normal.pressing * source.forcing.pressing[place] +
-                   by.normal.constant);
+  d.N_constant =
+      -(by.normal.applied_normal_force * applied +
+        row.normal.applied_normal_force * source.forcing.applied_normal_force[place] + by.normal.constant);
   d.T_gap = -(by.tangent.N * result.law.N_gap + row.tangent.N * d.N_gap);
   d.T_ut = -by.tangent.ut;
   d.T_constant = -(by.tangent.N * result.law.N_constant + row.tangent.N * d.N_constant + by.tangent.constant);
@@ -137,7 +140,7 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
                        : c.curved_surface()         ? "a pendulum whose normal force varies"
                        : rises && c.sliding_point() ? "friction that rises with the slip rate beside a "
                                                       "tangential_stiffness"
-                       : c.friction.by_force()      ? named_friction(c)
+                       : c.friction.by_force()      ? contact::named_friction(c)
                        : c.compliance_split()       ? "a rigid contact on parts without mass"
                        : rises && c.takes_impulses()
                            ? "friction that rises with the slip rate at a rigid contact"
@@ -151,4 +154,4 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

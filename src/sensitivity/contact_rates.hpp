@@ -10,11 +10,11 @@
 #include "sensitivity/tangent_series.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 /// Derivatives of a surface motion and a normal force: orders 0, 1 and 2.
 struct DrivenRates {
-  double surface[3] = {0.0, 0.0, 0.0}, pressing[2] = {0.0, 0.0};
+  double surface[3] = {0.0, 0.0, 0.0}, applied_normal_force[2] = {0.0, 0.0};
 };
 /// Evaluated at x of series with this scale.
 [[nodiscard]] DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::size_t contact,
@@ -25,8 +25,8 @@ struct DrivenRates {
                                                      const std::vector<const ModelDerivative*>& rates);
 
 /// Motion of a contact.
-[[nodiscard]] ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing, double t,
-                                      const SeriesPoint& point);
+[[nodiscard]] ContactMotion motion_of(const Contact& contact, std::size_t k, const motion::Forcing& forcing,
+                                      double t, const SeriesPoint& point);
 /// Its derivative by time; those of g'' and ut'' are left at zero.
 [[nodiscard]] ContactMotion time_rate(const ForceLayout& layout, std::size_t k, const ContactMotion& motion,
                                       const SeriesPoint& point);
@@ -46,9 +46,9 @@ struct WatchedMotion {
                                     const Vector& u0, const SeriesPoint& point, const Vector& force_bends);
 
 /// The body's own ut and ut'; equal to those of the motion unless there is a shear element.
-[[nodiscard]] BodySlide slide_rate(const Contact& contact, const ContactRates& rates,
-                                   const SeriesPoint& point, const SeriesPoint& tangent,
-                                   const DrivenRates& driven);
+[[nodiscard]] motion::BodySlide slide_rate(const Contact& contact, const ContactRates& rates,
+                                           const SeriesPoint& point, const SeriesPoint& tangent,
+                                           const DrivenRates& driven);
 
 // Forces of a contact in its state, and their derivatives by a parameter.
 //
@@ -65,8 +65,8 @@ struct TangentSource {
 
 /// Derivatives for one contact and one parameter.
 struct LawRates {
-  ForceLaw law;
-  ForceLaw rates;                    ///< derivatives of the law's numbers
+  modal::ForceLaw law;
+  modal::ForceLaw rates;             ///< derivatives of the law's numbers
   double gap = 0.0, gap_rate = 0.0;  ///< g0 and g0_p
   double surface = 0.0, surface_rate = 0.0;
 
@@ -84,7 +84,7 @@ struct LawRates {
 };
 
 [[nodiscard]] LawRates law_rates(const Contact& contact, std::size_t c, const ContactState& state,
-                                 const ContactRates& rates, const Forcing& forcing, double t,
+                                 const ContactRates& rates, const motion::Forcing& forcing, double t,
                                  const TangentSource& source);
 
 // Contact laws for which tangents are implemented.
@@ -92,4 +92,4 @@ struct LawRates {
 /// Errors: SceneError at a law without tangents.
 void check_tangent_laws(const Scene& scene, const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -6,7 +6,7 @@
 #include "contact/friction.hpp"
 #include "sensitivity/tangent_event.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 constexpr std::size_t few_terms = 3;  // terms of the forcing's series: value, first and second derivative
@@ -14,13 +14,15 @@ constexpr std::size_t few_terms = 3;  // terms of the forcing's series: value, f
 std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.refine != Refine::root) return "events are interpolated, not roots of their guards";
   if (run.step == StepControl::doubling) return "the lengths of steps follow their errors";
-  if (has_massless(model)) return "parts without mass have no discrete derivative";
+  if (linear::has_massless(model)) return "parts without mass have no discrete derivative";
   for (const Contact& c : model.contacts)
-    if (friction_varies(c)) return std::string("there is ") + named_friction(c);
+    if (contact::friction_varies(c)) return std::string("there is ") + contact::named_friction(c);
   return {};
 }
 
-SeriesPoint point_of(const Point& p) { return {p.u, p.v, p.a, p.forces, Vector::Zero(p.forces.size())}; }
+SeriesPoint point_of(const motion::Point& p) {
+  return {p.u, p.v, p.a, p.forces, Vector::Zero(p.forces.size())};
+}
 
 }  // namespace
 
@@ -53,7 +55,7 @@ void DiscreteRun::stop(const std::string& reason, double t) {
     }
 }
 
-void DiscreteRun::begin(const RunInstant& start) {
+void DiscreteRun::begin(const run::RunInstant& start) {
   for (TangentState& state : states_) {
     const ModelDerivative& d = state.derivative;
     Moved& moved = moved_.emplace_back();
@@ -79,20 +81,21 @@ void DiscreteRun::begin(const RunInstant& start) {
 
 ForcingRatesSeries DiscreteRun::forcing_at(std::size_t p, double t) const {
   ForcingRatesSeries series;
-  ForcingRates(model_, states_[p].derivative, node_.t, Side::after).expand(t, 1.0, few_terms, series);
+  ForcingRates(model_, states_[p].derivative, node_.t, motion::Side::after).expand(t, 1.0, few_terms, series);
   return series;
 }
 
 void DiscreteRun::factorise(double h) {
   if (factored_ == h) return;
-  const Weights weights{1.0, 0.5 * h, 0.25 * h * h};
-  const bool done = matrix_.set(rows_of(model_, mode_),
-                                std::vector<Weights>(static_cast<std::size_t>(model_.size()), weights), true);
+  const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
+  const bool done =
+      matrix_.set(linear::rows_of(model_, mode_),
+                  std::vector<linear::Weights>(static_cast<std::size_t>(model_.size()), weights), true);
   factored_ = done ? h : -1.0;
   if (!done) stop("the matrix of a step is singular", node_.t);
 }
 
-DiscreteRun::Node DiscreteRun::redone(const Forcing& forcing, double t) {
+DiscreteRun::Node DiscreteRun::redone(const motion::Forcing& forcing, double t) {
   if (t == node_.t) return node_;
   Node end{t, {}};
   if (!step_.take(forcing, node_.point, t, t - node_.t, false, end.point))
@@ -101,7 +104,7 @@ DiscreteRun::Node DiscreteRun::redone(const Forcing& forcing, double t) {
 }
 
 /// Derivative of a contact's motion at a node, along the moving node.
-ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const Forcing& forcing, const Node& at,
+ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const motion::Forcing& forcing, const Node& at,
                                  const Moved& moved, const ForcingRatesSeries& series) const {
   const Contact& contact = model_.contacts[c];
   const DrivenRates driven = driven_rates(series, 1.0, c, 0.0);
@@ -110,23 +113,24 @@ ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const Forcing& fo
   m.ut -= moved.t * forcing.surface(c, at.t, 1);
   m.vt -= moved.t * forcing.surface(c, at.t, 2);
   m.at -= moved.t * forcing.surface(c, at.t, 3);
-  m.pressing += moved.t * forcing.pressing(c, at.t, 1);
-  m.pressing_rate += moved.t * forcing.pressing(c, at.t, 2);
+  m.applied_normal_force += moved.t * forcing.applied_normal_force(c, at.t, 1);
+  m.applied_normal_force_rate += moved.t * forcing.applied_normal_force(c, at.t, 2);
   return m;
 }
 
 /// The contacts' right-hand sides; `known`: without contributions of the new accelerations and forces.
-void DiscreteRun::add_rows(std::size_t p, const Forcing& forcing, const Ends& ends, const Moved& known) {
+void DiscreteRun::add_rows(std::size_t p, const motion::Forcing& forcing, const Ends& ends,
+                           const Moved& known) {
   const ModelDerivative& d = states_[p].derivative;
-  const Point& end = ends.to.point;
+  const motion::Point& end = ends.to.point;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactRates& rates = d.contacts[c];
     rates.normal.add_to(x_, -end.N(model_.layout, c));
     rates.tangent.add_to(x_, -end.T(model_.layout, c));
-    const ContactMotion m = motion_of(contact, c, forcing, ends.to.t, end);
+    const ContactMotion m = motion::motion_of(contact, c, forcing, ends.to.t, end);
     const ContactMotion D = along(p, c, forcing, ends.to, known, ends.forcing);
-    const Rows row = rows(contact, mode_[c]);
+    const Rows row = contact::rows(contact, mode_[c]);
     const Rows& by = rates.rows[index_of(mode_[c].state)];
     double r = row.normal.rate(D) + by.normal.value(m), q = row.tangent.rate(D) + by.tangent.value(m);
     if (mode_[c].state == State::stick && contact.tangential_stiffness)
@@ -138,10 +142,11 @@ void DiscreteRun::add_rows(std::size_t p, const Forcing& forcing, const Ends& en
   }
 }
 
-DiscreteRun::Moved DiscreteRun::advance(std::size_t p, const Forcing& forcing, const Ends& ends, double Dt) {
+DiscreteRun::Moved DiscreteRun::advance(std::size_t p, const motion::Forcing& forcing, const Ends& ends,
+                                        double Dt) {
   const ModelDerivative& d = states_[p].derivative;
   const double h = ends.to.t - ends.from.t, Dh = Dt - ends.moved.t;
-  const Point &a = ends.from.point, &b = ends.to.point;
+  const motion::Point &a = ends.from.point, &b = ends.to.point;
   const Moved& from = ends.moved;
   factorise(h);
   Moved known{Dt, {}, {}, Vector::Zero(model_.size()), Vector::Zero(from.forces.size()), from.anchors};
@@ -166,20 +171,20 @@ DiscreteRun::Moved DiscreteRun::advance(std::size_t p, const Forcing& forcing, c
 }
 
 /// How the end of a step moves.
-double DiscreteRun::end_of(std::size_t p, const RunStep& step, const Ends& ends) {
-  if (step.step.kind != Step::Kind::event) {
+double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& ends) {
+  if (step.step.kind != engine::Step::Kind::event) {
     const auto jumps = breakpoints_at(model_, states_[p].derivative, ends.to.t, step.step.resolution);
     if (!jumps.empty()) return jumps.front().rate;
     return ends.to.t >= t_end_ ? 0.0 : ends.moved.t;
   }
-  const auto& first = step.step.fired.front();
+  const auto& first = step.step.triggered.front();
   const std::size_t c = first.contact;
   const ContactState& state = mode_[c];
-  const auto forms = guards(model_.contacts[c], state);
+  const auto forms = contact::guards(model_.contacts[c], state);
   std::size_t i = 0;
   while (i + 1 < forms.size() && forms[i].kind != first.guard) ++i;
   const Form& by = states_[p].derivative.contacts[c].guards[index_of(state.state)][i];
-  const ContactMotion m = motion_of(model_.contacts[c], c, step.forcing, ends.to.t, ends.to.point);
+  const ContactMotion m = motion::motion_of(model_.contacts[c], c, step.forcing, ends.to.t, ends.to.point);
   const auto guard = [&](double Dt) {
     const Moved moved = advance(p, step.forcing, ends, Dt);
     return forms[i].form.rate(along(p, c, step.forcing, ends.to, moved, ends.forcing)) + by.value(m);
@@ -190,7 +195,7 @@ double DiscreteRun::end_of(std::size_t p, const RunStep& step, const Ends& ends)
 }
 
 /// Row between nodes: the step redone to that time, which does not move.
-void DiscreteRun::row(const RunStep& step, double t) {
+void DiscreteRun::row(const run::RunStep& step, double t) {
   const Node at = redone(step.forcing, t);
   TangentSample sample{t, step.forcing, mode_, point_of(at.point), {}, {}, {}, {}};
   for (std::size_t p = 0; p < states_.size(); ++p) {
@@ -207,7 +212,7 @@ void DiscreteRun::row(const RunStep& step, double t) {
   listener_.sample(sample, true, false);
 }
 
-void DiscreteRun::step(const RunStep& step) {
+void DiscreteRun::step(const run::RunStep& step) {
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_) row(step, grid_[next_]);
   const Node end = redone(step.forcing, step.step.end);
   std::vector<Moved> next = moved_;
@@ -222,11 +227,12 @@ void DiscreteRun::step(const RunStep& step) {
 }
 
 /// Velocities after a hit.
-void DiscreteRun::hit(std::size_t p, const RunInstant& now) {
+void DiscreteRun::hit(std::size_t p, const run::RunInstant& now) {
   impulse_n_[p].clear();
   impulse_t_[p].clear();
   const auto& impulses = now.after.impulses;
-  if (std::none_of(impulses.begin(), impulses.end(), [](const Impulse& i) { return i.normal > 0.0; })) return;
+  if (std::none_of(impulses.begin(), impulses.end(), [](const decide::Impulse& i) { return i.normal > 0.0; }))
+    return;
   std::vector<double> surface;
   const ForcingRatesSeries series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
@@ -241,20 +247,20 @@ void DiscreteRun::hit(std::size_t p, const RunInstant& now) {
 }
 
 /// Updates anchors that are dropped, like TangentEvents::move_anchors.
-void DiscreteRun::hold(std::size_t p, const RunInstant& now) {
+void DiscreteRun::hold(std::size_t p, const run::RunInstant& now) {
   const ForcingRatesSeries series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactState &old = now.mode_before[c], &state = now.after.mode[c];
     if (!contact.tangential_stiffness || state.state != State::stick) continue;
     if (old.state == State::stick && old.anchor == state.anchor) continue;
-    const ContactMotion m = motion_of(contact, c, now.forcing_before, now.t, node_.point);
+    const ContactMotion m = motion::motion_of(contact, c, now.forcing_before, now.t, node_.point);
     const ContactMotion D = along(p, c, now.forcing_before, node_, moved_[p], series);
     moved_[p].anchors[c] = slip_by(contact, states_[p].derivative.contacts[c], m, D);
   }
 }
 
-void DiscreteRun::fill(std::size_t p, const RunInstant& now, const Node& before, const Moved& was) {
+void DiscreteRun::fill(std::size_t p, const run::RunInstant& now, const Node& before, const Moved& was) {
   TangentState& state = states_[p];
   const ForcingRatesSeries series = forcing_at(p, now.t);
   const Moved& is = moved_[p];
@@ -280,7 +286,7 @@ void DiscreteRun::fill(std::size_t p, const RunInstant& now, const Node& before,
   }
 }
 
-void DiscreteRun::pass(const RunInstant& now) {
+void DiscreteRun::pass(const run::RunInstant& now) {
   const Node before = node_;
   const std::vector<Moved> was = moved_;
   for (std::size_t p = 0; p < states_.size(); ++p) {
@@ -291,11 +297,11 @@ void DiscreteRun::pass(const RunInstant& now) {
   mode_ = now.after.mode;
   factored_ = -1.0;
   node_ = {now.t, {now.after.u, now.after.v, now.after.jet.forces.col(0), now.after.jet.a()}};
-  NewmarkStep::Key key;
-  for (const State s : states_of(mode_)) key.push_back(static_cast<int>(s));
-  step_.set(std::move(key), rows_of(model_, mode_));
+  newmark::NewmarkStep::Key key;
+  for (const State s : contact::states_of(mode_)) key.push_back(static_cast<int>(s));
+  step_.set(std::move(key), linear::rows_of(model_, mode_));
   const SeriesPoint from = point_of(before.point), to = point_of(node_.point);
-  const Series none;
+  const motion::Series none;
   InstantMotion motion{now, from, to, none, {}, {}, {}, {}};
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     motion.motion_before.push_back(motion_of(model_.contacts[c], c, now.forcing_before, now.t, from));
@@ -315,13 +321,13 @@ void DiscreteRun::pass(const RunInstant& now) {
   listener_.at_instant(motion, states_);
 }
 
-void DiscreteRun::instant(const RunInstant& instant) {
+void DiscreteRun::instant(const run::RunInstant& instant) {
   pass(instant);
   rows_at(instant);
 }
 
 /// An output row at the instant itself contains the values just after.
-void DiscreteRun::rows_at(const RunInstant& instant) {
+void DiscreteRun::rows_at(const run::RunInstant& instant) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{grid_[next_], instant.forcing_after, mode_, point_of(node_.point), {}, {}, {}, {}};
     for (std::size_t p = 0; p < states_.size(); ++p) {
@@ -339,4 +345,4 @@ void DiscreteRun::rows_at(const RunInstant& instant) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

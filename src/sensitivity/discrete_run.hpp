@@ -19,19 +19,19 @@
 #include "engine/newmark/newmark_step.hpp"
 #include "sensitivity/tangent_run.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
-class DiscreteRun final : public RunListener {
+class DiscreteRun final : public run::RunListener {
  public:
   /// Arguments as in TangentRun.
   DiscreteRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
               const std::vector<double>& sizes, TangentListener& listener);
 
   /// It needs no data from the engine.
-  [[nodiscard]] static ListenerNeeds needs() { return {}; }
-  void begin(const RunInstant& start) override;
-  void step(const RunStep& step) override;
-  void instant(const RunInstant& instant) override;
+  [[nodiscard]] static run::ListenerNeeds needs() { return {}; }
+  void begin(const run::RunInstant& start) override;
+  void step(const run::RunStep& step) override;
+  void instant(const run::RunInstant& instant) override;
 
   [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
 
@@ -39,7 +39,7 @@ class DiscreteRun final : public RunListener {
   /// A node of the time grid and its derivative.
   struct Node {
     double t = 0.0;
-    Point point;
+    motion::Point point;
   };
   struct Moved {
     double t = 0.0;
@@ -56,37 +56,38 @@ class DiscreteRun final : public RunListener {
 
   void stop(const std::string& reason, double t);
   void factorise(double h);
-  [[nodiscard]] Node redone(const Forcing& forcing, double t);
+  [[nodiscard]] Node redone(const motion::Forcing& forcing, double t);
   [[nodiscard]] ForcingRatesSeries forcing_at(std::size_t parameter, double t) const;
-  [[nodiscard]] Moved advance(std::size_t parameter, const Forcing& forcing, const Ends& ends, double Dt);
-  void add_rows(std::size_t parameter, const Forcing& forcing, const Ends& ends, const Moved& known);
-  [[nodiscard]] ContactMotion along(std::size_t parameter, std::size_t contact, const Forcing& forcing,
-                                    const Node& at, const Moved& moved,
+  [[nodiscard]] Moved advance(std::size_t parameter, const motion::Forcing& forcing, const Ends& ends,
+                              double Dt);
+  void add_rows(std::size_t parameter, const motion::Forcing& forcing, const Ends& ends, const Moved& known);
+  [[nodiscard]] ContactMotion along(std::size_t parameter, std::size_t contact,
+                                    const motion::Forcing& forcing, const Node& at, const Moved& moved,
                                     const ForcingRatesSeries& series) const;
-  [[nodiscard]] double end_of(std::size_t parameter, const RunStep& step, const Ends& ends);
-  void row(const RunStep& step, double t);
-  void hit(std::size_t parameter, const RunInstant& instant);
-  void hold(std::size_t parameter, const RunInstant& instant);
-  void pass(const RunInstant& instant);
-  void rows_at(const RunInstant& instant);
-  void fill(std::size_t parameter, const RunInstant& instant, const Node& before, const Moved& was);
+  [[nodiscard]] double end_of(std::size_t parameter, const run::RunStep& step, const Ends& ends);
+  void row(const run::RunStep& step, double t);
+  void hit(std::size_t parameter, const run::RunInstant& instant);
+  void hold(std::size_t parameter, const run::RunInstant& instant);
+  void pass(const run::RunInstant& instant);
+  void rows_at(const run::RunInstant& instant);
+  void fill(std::size_t parameter, const run::RunInstant& instant, const Node& before, const Moved& was);
 
   const Model& model_;
-  Structure structure_;
-  ModeSystems systems_;
+  linear::SystemMatrices structure_;
+  motion::StateSystems systems_;
   TangentListener& listener_;
   std::vector<TangentState> states_;
   std::vector<double> grid_;
   std::size_t next_ = 0;
   double t_end_;
-  NewmarkStep step_;
-  SystemMatrix matrix_;
+  newmark::NewmarkStep step_;
+  linear::SystemMatrix matrix_;
   double factored_ = -1.0;  // step length of matrix_; -1: not factored
-  Mode mode_;
+  contact::ContactStates mode_;
   Node node_;
   std::vector<Moved> moved_;  // derivatives of node_, one per parameter
   std::vector<std::vector<double>> impulse_n_, impulse_t_;
   Vector x_, work_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -53,10 +53,12 @@ std::vector<double> keys_of(const gsl_vector* x) {
   return keys;
 }
 int gsl_residuals(const gsl_vector* x, void* problem, gsl_vector* f) {
-  return static_cast<FitProblem*>(problem)->residuals(keys_of(x), *f) ? GSL_SUCCESS : GSL_EFAILED;
+  return static_cast<sensitivity::FitProblem*>(problem)->residuals(keys_of(x), *f) ? GSL_SUCCESS
+                                                                                   : GSL_EFAILED;
 }
 int gsl_derivatives(const gsl_vector* x, void* problem, gsl_matrix* J) {
-  return static_cast<FitProblem*>(problem)->derivatives(keys_of(x), *J) ? GSL_SUCCESS : GSL_EFAILED;
+  return static_cast<sensitivity::FitProblem*>(problem)->derivatives(keys_of(x), *J) ? GSL_SUCCESS
+                                                                                     : GSL_EFAILED;
 }
 
 using Workspace = std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)>;
@@ -68,7 +70,7 @@ struct FitPlace {
   int status = GSL_SUCCESS, iterations = 0;
 };
 
-FitPlace descend(FitProblem& problem, const std::vector<double>& from) {
+FitPlace descend(sensitivity::FitProblem& problem, const std::vector<double>& from) {
   gsl_multifit_nlinear_fdf fdf{};
   fdf.f = gsl_residuals;
   fdf.df = gsl_derivatives;
@@ -110,7 +112,7 @@ bool are_opposite(const std::vector<double>& a, const std::vector<double>& b) {
 
 class Fitter {
  public:
-  Fitter(FitProblem& problem, const Measurements& measured)
+  Fitter(sensitivity::FitProblem& problem, const Measurements& measured)
       : problem_(problem),
         measured_(measured),
         f_(gsl_vector_alloc(problem.rows())),
@@ -149,7 +151,7 @@ class Fitter {
   bool linear_at(const std::vector<double>& keys) {
     if (!problem_.residuals(keys, *f_)) return false;
     if (!problem_.derivatives(keys, *J_)) return false;
-    here_ = linear_fit(*f_, *J_, problem_.size(), problem_.measured_norm());
+    here_ = sensitivity::linear_fit(*f_, *J_, problem_.size(), problem_.measured_norm());
     return true;
   }
   [[nodiscard]] double factor() const {
@@ -163,7 +165,7 @@ class Fitter {
     for (std::size_t p = 0; p < keys.size(); ++p) {
       if (!here_.determined[p]) continue;
       const double sigma = std::sqrt(factor() * here_.covariance[p][p]);
-      const double near = std::max(FitProblem::beside * problem_.size()[p], of_sigma * sigma);
+      const double near = std::max(sensitivity::FitProblem::beside * problem_.size()[p], of_sigma * sigma);
       if (!(std::abs(keys[p] + here_.step[p] - place_.keys[p]) <= near)) return false;
     }
     return true;
@@ -178,7 +180,7 @@ class Fitter {
     for (std::size_t p = 0; p < problem_.keys(); ++p)
       for (const double side : {1.0, -1.0}) {
         std::vector<double> keys = place_.keys;
-        keys[p] += side * FitProblem::beside * problem_.size()[p];
+        keys[p] += side * sensitivity::FitProblem::beside * problem_.size()[p];
         if (!problem_.complete(keys)) {
           walls_.emplace_back(p, side);
           continue;
@@ -265,11 +267,11 @@ class Fitter {
           "what is left is {:.2g} of what was measured: the run does not explain it; {}", left, advice));
   }
 
-  FitProblem& problem_;
+  sensitivity::FitProblem& problem_;
   const Measurements& measured_;
-  GslVector f_;
-  GslMatrix J_;
-  LinearFit here_;
+  sensitivity::GslVector f_;
+  sensitivity::GslMatrix J_;
+  sensitivity::LinearFit here_;
   FitPlace place_;
   std::vector<std::vector<double>> slopes_;  // beside the result, in units of key sizes
   int iterations_ = 0;
@@ -293,10 +295,10 @@ Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Me
   const Scene scene = read({});
   std::vector<double> start;
   for (const std::string& path : paths) {
-    start.push_back(value_of(scene, path));
+    start.push_back(sensitivity::value_of(scene, path));
     result.keys.push_back({path, start.back(), start.back(), 0.0});
   }
-  FitProblem problem(read, paths, measured, go_on);
+  sensitivity::FitProblem problem(read, paths, measured, go_on);
   problem.start(start);
   if (problem.failure()) std::rethrow_exception(problem.failure());
   if (problem.size().empty()) {  // before the first run
@@ -320,7 +322,7 @@ namespace {
 
 class MeasuredTable {
  public:
-  explicit MeasuredTable(const std::string& path) : path_(path), reader_(path, LastLine::counts) {}
+  explicit MeasuredTable(const std::string& path) : path_(path), reader_(path, result::LastLine::counts) {}
 
   Measurements read() {
     event_ = place("event_index");
@@ -334,7 +336,7 @@ class MeasuredTable {
       fail(1, fmt::format(
                   "found the columns \"{}\", expected a column t beside event_index, or beside columns of "
                   "history.csv",
-                  excerpt(names)));
+                  base::excerpt(names)));
     Measurements result;
     result.has_sigma = sigma_ != none;
     result.file = path_;
@@ -356,7 +358,7 @@ class MeasuredTable {
   }
   [[noreturn]] void fail_at(std::size_t column, const std::string& message) const {
     throw Error(ExitCode::scene, fmt::format("{}:{}:{}: {}: {}", path_, line_, column + 1,
-                                             excerpt(reader_.header()[column]), message));
+                                             base::excerpt(reader_.header()[column]), message));
   }
   /// A repeated measurement would count twice.
   void refuse_twice(const std::vector<Measurement>& rows) const {
@@ -369,7 +371,7 @@ class MeasuredTable {
                ? fmt::format("event_index: found {} again, expected each event once; it stands in line {}",
                              m.event, first->second)
                : fmt::format("{}: found t = {} again, expected each time once; it stands in line {}",
-                             excerpt(m.column), shortest(m.t), first->second));
+                             base::excerpt(m.column), base::shortest(m.t), first->second));
     }
   }
   [[nodiscard]] std::size_t place(const std::string& name) const {
@@ -378,15 +380,16 @@ class MeasuredTable {
     return at == header.end() ? none : static_cast<std::size_t>(at - header.begin());
   }
   [[nodiscard]] double number_at(std::size_t column) const {
-    const std::optional<double> x = parse_number(reader_.cell(column));
+    const std::optional<double> x = base::parse_number(reader_.cell(column));
     if (!x || !std::isfinite(*x))
-      fail_at(column, fmt::format("found \"{}\", expected a finite number", excerpt(reader_.cell(column))));
+      fail_at(column,
+              fmt::format("found \"{}\", expected a finite number", base::excerpt(reader_.cell(column))));
     return *x;
   }
   [[nodiscard]] double time() const {
     const double t = number_at(t_);
     if (t < 0.0)
-      fail_at(t_, fmt::format("found {}, expected a time from 0, the start of the run", shortest(t)));
+      fail_at(t_, fmt::format("found {}, expected a time from 0, the start of the run", base::shortest(t)));
     return t;
   }
   [[nodiscard]] double sigma() const {
@@ -423,7 +426,7 @@ class MeasuredTable {
   }
 
   std::string path_;
-  CsvReader reader_;
+  result::CsvReader reader_;
   std::size_t event_ = none, t_ = none, sigma_ = none, contact_ = none, type_ = none;
   long line_ = 1;
 };

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "sensitivity/parameter.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 std::vector<double> times_of(const Measurements& measured) {
@@ -120,7 +120,8 @@ std::string FitProblem::not_there(std::size_t& row) const {
         return fmt::format("the run, which ends at t = {}, has no {} at {}", last_.report.outcome.t, m.column,
                            m.t);
     } else if (m.event > last_.events.size()) {
-      return fmt::format("the run has {}, and no event {}", count_of(last_.events.size(), "event"), m.event);
+      return fmt::format("the run has {}, and no event {}", base::count_of(last_.events.size(), "event"),
+                         m.event);
     } else if (!has(m)) {
       const std::string what = m.type.empty() ? "an event" : m.type;
       return fmt::format("event {} of the run is {}, but the data have {}{}", m.event,
@@ -196,7 +197,7 @@ Scene FitProblem::scene_at(const std::vector<double>& keys, const std::vector<Ov
   for (std::size_t p = 0; p < paths_.size(); ++p) all.push_back(set_to(paths_[p], keys[p]));
   if (!times_.empty()) {
     std::string list;
-    for (const double t : times_) list += (list.empty() ? "[" : ", ") + shortest(t);
+    for (const double t : times_) list += (list.empty() ? "[" : ", ") + base::shortest(t);
     all.push_back({"run.output_times", list + "]"});
   }
   all.insert(all.end(), changes.begin(), changes.end());
@@ -257,4 +258,4 @@ LinearFit linear_fit(const gsl_vector& f, const gsl_matrix& J, const std::vector
   return fit;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

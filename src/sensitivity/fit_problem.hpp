@@ -15,7 +15,7 @@
 
 #include "signorini/fit.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 class FitProblem {
  public:
@@ -106,4 +106,4 @@ struct LinearFit {
 [[nodiscard]] LinearFit linear_fit(const gsl_vector& f, const gsl_matrix& J, const std::vector<double>& size,
                                    double measured);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -6,79 +6,81 @@
 #include "engine/tolerance.hpp"
 #include "sensitivity/contact_rates.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 constexpr int most_corrections = 8;  // Newton iterations for an event time; three suffice unless a guard
                                      // nearly grazes
 
-bool same_states(const Mode& a, const Mode& b) {
+bool same_states(const contact::ContactStates& a, const contact::ContactStates& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const ContactState& x, const ContactState& y) { return x.state == y.state; });
 }
 
 }  // namespace
 
-FollowedMotion::FollowedMotion(const Model& model, const Structure& structure, ModeSystems& systems,
-                               const RunSpec& run)
+FollowedMotion::FollowedMotion(const Model& model, const linear::SystemMatrices& structure,
+                               motion::StateSystems& systems, const RunSpec& run)
     : model_(model),
       structure_(structure),
       systems_(systems),
       t_end_(run.t_end),
-      decider_(systems, run.max_events_at_once, tolerance_of(model, run).capture_velocity()),
+      decider_(systems, run.max_events_at_once, engine::tolerance_of(model, run).capture_velocity()),
       touches_(model.contacts.size()) {}
 
-void FollowedMotion::begin(const Decision& start) { now_ = start; }
+void FollowedMotion::begin(const decide::Decision& start) { now_ = start; }
 
-void FollowedMotion::start(const Forcing& forcing) {
+void FollowedMotion::start(const motion::Forcing& forcing) {
   stretch_ = now_;
-  for (GuardStart& guard : stretch_.guards) guard = {};
+  for (decide::GuardStart& guard : stretch_.guards) guard = {};
   forcing_.emplace(forcing);
 }
 
-ModalSystem* FollowedMotion::modes() {
-  if (!modal_) modal_ = std::make_unique<ModalEngine>(model_, structure_, systems_, t_end_);
+modal::ModalSystem* FollowedMotion::modes() {
+  if (!modal_) modal_ = std::make_unique<modal::ModalEngine>(model_, structure_, systems_, t_end_);
   return modal_->modes();
 }
 
-Stepper& FollowedMotion::engine(bool in_modes) {
+engine::Stepper& FollowedMotion::engine(bool in_modes) {
   if (in_modes) return *modal_;
-  if (!series_) series_ = std::make_unique<ExactEngine>(model_, structure_, systems_, t_end_);
+  if (!series_) series_ = std::make_unique<exact::ExactEngine>(model_, structure_, systems_, t_end_);
   return *series_;
 }
 
 SeriesPoint FollowedMotion::at(double t) {
   // A separate engine, because the main one may go beyond the extremes on the way.
-  if (!ahead_) ahead_ = std::make_unique<ExactEngine>(model_, structure_, systems_, t_end_);
-  Stepper& engine = *ahead_;
+  if (!ahead_) ahead_ = std::make_unique<exact::ExactEngine>(model_, structure_, systems_, t_end_);
+  engine::Stepper& engine = *ahead_;
   engine.start({t, &stretch_, &*forcing_});
   for (;;) {
-    const Step step = engine.advance();
-    const Expansion e = engine.dense_output().facts().expansion;
-    if (step.kind == Step::Kind::failed || step.end >= t)
+    const engine::Step step = engine.advance();
+    const engine::Expansion e = engine.dense_output().facts().expansion;
+    if (step.kind == engine::Step::Kind::failed || step.end >= t)
       return point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
   }
 }
 
-std::optional<double> FollowedMotion::time_of(const RunInstant& instant, const MotionAt& at) const {
+std::optional<double> FollowedMotion::time_of(const run::RunInstant& instant, const MotionAt& at) const {
   if (instant.breakpoint) return instant.t;
-  if (instant.fired.empty()) {  // the end of the run, or a change of states found by the engine at the end of
-                                // a step
+  if (instant.triggered
+          .empty()) {  // the end of the run, or a change of states found by the engine at the end of
+                       // a step
     if (same_states(instant.mode_before, instant.after.mode)) return instant.t;
     return std::nullopt;
   }
-  const Fired& fell = instant.fired.front();
-  const auto forms = guards(model_.contacts[fell.contact], now_.mode[fell.contact]);
+  const decide::TriggeredGuard& triggered = instant.triggered.front();
+  const auto forms = contact::guards(model_.contacts[triggered.contact], now_.mode[triggered.contact]);
   const auto guard =
-      std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) { return g.kind == fell.guard; });
+      std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) { return g.kind == triggered.guard; });
   if (guard == forms.end()) return std::nullopt;
-  const Crossing* crossing = instant.after.crossing(fell.contact);
+  const decide::Crossing* crossing = instant.after.crossing(triggered.contact);
   const double noise = crossing != nullptr ? crossing->noise : 0.0;
   double t = instant.t, last = instant.t - now_.jet.t;
   for (int i = 0; i < most_corrections; ++i) {
     const SeriesPoint point = at(t);
-    const ContactMotion m = motion_of(model_.contacts[fell.contact], fell.contact, *forcing_, t, point);
-    const double rate = guard->change(m, time_rate(model_.layout, fell.contact, m, point));
+    const ContactMotion m =
+        motion_of(model_.contacts[triggered.contact], triggered.contact, *forcing_, t, point);
+    const double rate = guard->change(m, time_rate(model_.layout, triggered.contact, m, point));
     if (!(rate < 0.0)) return std::nullopt;
     const double off = -guard->value(m) / rate;
     if (!(t + off > now_.jet.t)) return std::nullopt;
@@ -91,33 +93,33 @@ std::optional<double> FollowedMotion::time_of(const RunInstant& instant, const M
   return std::nullopt;
 }
 
-RunInstant FollowedMotion::take(const RunInstant& instant) {
+run::RunInstant FollowedMotion::take(const run::RunInstant& instant) {
   ++taken_;
   now_ = instant.after;
   touches_.instant(instant.t, instant.mode_before, instant.after);
   return instant;
 }
 
-RunInstant FollowedMotion::pass(const RunInstant& instant, double t, const SeriesPoint& before) {
-  Instant at;
+run::RunInstant FollowedMotion::pass(const run::RunInstant& instant, double t, const SeriesPoint& before) {
+  decide::Instant at;
   at.t = t;
   at.resolution = instant.resolution;
   at.u = before.u;
   at.v = before.v;
   at.mode = now_.mode;
-  at.fired = instant.fired;
-  at.rested = resting(now_);
+  at.triggered = instant.triggered;
+  at.rested = decide::resting(now_);
   at.touched = touches_.times();
   at.jump = instant.breakpoint;
-  Decision next = decider_.decide(std::move(at), instant.forcing_before, instant.forcing_after);
+  decide::Decision next = decider_.decide(std::move(at), instant.forcing_before, instant.forcing_after);
   if (!next.consistent || !same_states(next.mode, instant.after.mode)) return take(instant);
   mode_before_ = now_.mode;
   v_before_ = before.v;
   touches_.instant(t, mode_before_, next);
   now_ = std::move(next);
   correction_ = std::max(correction_, std::abs(t - instant.t));
-  return {t,    instant.resolution,     instant.fired,         instant.breakpoint, mode_before_,
+  return {t,    instant.resolution,     instant.triggered,     instant.breakpoint, mode_before_,
           now_, instant.forcing_before, instant.forcing_after, v_before_,          instant.load_jumps};
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

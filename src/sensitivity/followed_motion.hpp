@@ -19,7 +19,7 @@
 #include "run/touch_tracker.hpp"
 #include "sensitivity/tangent_series.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 class FollowedMotion {
  public:
@@ -27,28 +27,29 @@ class FollowedMotion {
   using MotionAt = std::function<SeriesPoint(double t)>;
 
   /// All arguments except run must outlive the object.
-  FollowedMotion(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run);
+  FollowedMotion(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
+                 const RunSpec& run);
 
-  void begin(const Decision& start);
+  void begin(const decide::Decision& start);
   /// Begins a stretch now, with the engine's forcing.
-  void start(const Forcing& forcing);
+  void start(const motion::Forcing& forcing);
   /// Decision of that stretch: without guards, since only the engine ends it.
-  [[nodiscard]] const Decision& stretch() const { return stretch_; }
-  [[nodiscard]] const Forcing& forcing() const { return *forcing_; }
+  [[nodiscard]] const decide::Decision& stretch() const { return stretch_; }
+  [[nodiscard]] const motion::Forcing& forcing() const { return *forcing_; }
   [[nodiscard]] double t() const { return now_.jet.t; }
   /// Modes of the model; null: modes cannot follow it.
-  [[nodiscard]] ModalSystem* modes();
-  [[nodiscard]] Stepper& engine(bool in_modes);
+  [[nodiscard]] modal::ModalSystem* modes();
+  [[nodiscard]] engine::Stepper& engine(bool in_modes);
   /// The motion at t, from a separate series.
   [[nodiscard]] SeriesPoint at(double t);
 
   /// Time of the instant; nullopt: its guard does not reach zero there.
-  [[nodiscard]] std::optional<double> time_of(const RunInstant& instant, const MotionAt& at) const;
+  [[nodiscard]] std::optional<double> time_of(const run::RunInstant& instant, const MotionAt& at) const;
   /// The instant at t, with the motion u and v; the engine's own instant if its state is taken. It lives as long as
   /// this object.
-  [[nodiscard]] RunInstant pass(const RunInstant& instant, double t, const SeriesPoint& before);
+  [[nodiscard]] run::RunInstant pass(const run::RunInstant& instant, double t, const SeriesPoint& before);
   /// The engine's own instant, and its state.
-  [[nodiscard]] RunInstant take(const RunInstant& instant);
+  [[nodiscard]] run::RunInstant take(const run::RunInstant& instant);
 
   [[nodiscard]] long taken() const { return taken_; }
   /// Largest |t_k - the engine's time|.
@@ -56,20 +57,20 @@ class FollowedMotion {
 
  private:
   const Model& model_;
-  const Structure& structure_;
-  ModeSystems& systems_;
+  const linear::SystemMatrices& structure_;
+  motion::StateSystems& systems_;
   double t_end_;
-  Decider decider_;
-  std::unique_ptr<ModalEngine> modal_;
-  std::unique_ptr<ExactEngine> series_;
-  std::unique_ptr<ExactEngine> ahead_;  // searches for the time of an event
-  LastTouch touches_;
-  Decision now_, stretch_;
-  Mode mode_before_;
+  decide::ContactStateSolver decider_;
+  std::unique_ptr<modal::ModalEngine> modal_;
+  std::unique_ptr<exact::ExactEngine> series_;
+  std::unique_ptr<exact::ExactEngine> ahead_;  // searches for the time of an event
+  run::TouchTracker touches_;
+  decide::Decision now_, stretch_;
+  contact::ContactStates mode_before_;
   Vector v_before_;
-  std::optional<Forcing> forcing_;
+  std::optional<motion::Forcing> forcing_;
   long taken_ = 0;
   double correction_ = 0.0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -6,7 +6,7 @@
 #include "base/rounding.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 void add_rate_series(const Piece& piece, const Piece& rates, double t, double scale, std::size_t count,
                      double factor, double* out) {
@@ -30,8 +30,8 @@ void add_rate_series(const Piece& piece, const Piece& rates, double t, double sc
 
 namespace {
 
-const Piece& piece_in_force(const History& history, double t, Side side) {
-  return side == Side::after ? history.piece(t) : history.piece_before(t);
+const Piece& piece_in_force(const History& history, double t, motion::Side side) {
+  return side == motion::Side::after ? history.piece(t) : history.piece_before(t);
 }
 
 const Piece* rates_of(const HistoryRates& rates, const History& history, const Piece& piece) {
@@ -41,7 +41,7 @@ const Piece* rates_of(const HistoryRates& rates, const History& history, const P
 
 }  // namespace
 
-ForcingRates::ForcingRates(const Model& model, const ModelDerivative& derivative, double t, Side side)
+ForcingRates::ForcingRates(const Model& model, const ModelDerivative& derivative, double t, motion::Side side)
     : model_(&model), derivative_(&derivative) {
   const auto part = [&](const History& history, const HistoryRates& rates) {
     const Piece& piece = piece_in_force(history, t, side);
@@ -50,7 +50,8 @@ ForcingRates::ForcingRates(const Model& model, const ModelDerivative& derivative
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     loads_.push_back(part(model.loads[i].history, derivative.loads[i].history));
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    pressing_.push_back(part(model.contacts[c].normal_force, derivative.contacts[c].normal_force));
+    applied_normal_force_.push_back(
+        part(model.contacts[c].normal_force, derivative.contacts[c].normal_force));
     surface_.push_back(part(model.contacts[c].surface_motion, derivative.contacts[c].surface_motion));
   }
 }
@@ -84,7 +85,7 @@ void ForcingRates::expand(double t, double scale, std::size_t count, ForcingRate
       if (parts[c].rates)
         add_rate_series(*parts[c].piece, *parts[c].rates, t, scale, count, 1.0, rows.data() + c * count);
   };
-  fill(pressing_, out.pressing);
+  fill(applied_normal_force_, out.applied_normal_force);
   fill(surface_, out.surface);
 }
 
@@ -130,7 +131,7 @@ Vector static_load_rate(const Model& model, const ModelDerivative& derivative) {
 
 std::optional<Vector> static_rate(const Model& model, const ModelDerivative& derivative) {
   Vector p = static_load_rate(model, derivative) - derivative.stiffness * model.u0;
-  std::vector<HeldRow> rows;
+  std::vector<statics::HeldRow> rows;
   std::vector<double> places;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -140,7 +141,7 @@ std::optional<Vector> static_rate(const Model& model, const ModelDerivative& der
     const double moved = rates.gap + rates.normal.dot(model.u0);
     rates.normal.add_to(p, -N);
     if (contact.takes_impulses()) {
-      rows.push_back({contact.normal, own_stiffness(model.stiffness, contact.normal), true});
+      rows.push_back({contact.normal, statics::own_stiffness(model.stiffness, contact.normal), true});
       places.push_back(-moved);
     } else {
       const double kn_rate = -rates.rows[index_of(State::closed)].normal.gap;
@@ -150,7 +151,7 @@ std::optional<Vector> static_rate(const Model& model, const ModelDerivative& der
     }
   }
   const auto solve = [&] {
-    const HeldRows held(model.stiffness, rows);
+    const statics::ConstraintRows held(model.stiffness, rows);
     std::optional<Vector> w;
     if (held.regular())
       w = held.solve(p, Eigen::Map<const Vector>(places.data(), static_cast<Eigen::Index>(places.size())))
@@ -163,11 +164,11 @@ std::optional<Vector> static_rate(const Model& model, const ModelDerivative& der
     if (tangent.terms.empty() ||
         std::abs(tangent.dot(model.u0)) > rounding::of_elimination * model.u0.cwiseAbs().maxCoeff())
       continue;
-    rows.push_back({tangent, own_stiffness(model.stiffness, tangent), true});
+    rows.push_back({tangent, statics::own_stiffness(model.stiffness, tangent), true});
     places.push_back(-derivative.contacts[c].tangent.dot(model.u0));
     w = solve();
   }
   return w;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

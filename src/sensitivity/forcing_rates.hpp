@@ -9,7 +9,7 @@
 #include "motion/forcing.hpp"
 #include "sensitivity/model_derivative.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 // Derivative of a history's piece by a parameter, as a series in time.
 //
@@ -25,13 +25,13 @@ struct ForcingRatesSeries {
   std::size_t count = 0;
   bool loaded = false;   ///< load is not zero
   Eigen::MatrixXd load;  ///< n x count
-  std::vector<double> pressing, surface;
+  std::vector<double> applied_normal_force, surface;
 };
 
 class ForcingRates {
  public:
   /// Uses the pieces in force on the given side of t. Both arguments must outlive the object.
-  ForcingRates(const Model& model, const ModelDerivative& derivative, double t, Side side);
+  ForcingRates(const Model& model, const ModelDerivative& derivative, double t, motion::Side side);
 
   void expand(double t, double scale, std::size_t count, ForcingRatesSeries& out) const;
 
@@ -42,7 +42,7 @@ class ForcingRates {
   };
   const Model* model_;
   const ModelDerivative* derivative_;
-  std::vector<Part> loads_, pressing_, surface_;
+  std::vector<Part> loads_, applied_normal_force_, surface_;
 };
 
 /// A breakpoint that depends on the parameter.
@@ -66,4 +66,4 @@ struct MovingBreakpoint {
 /// model: with a frictionless static start. nullopt if its matrix remains singular.
 [[nodiscard]] std::optional<Vector> static_rate(const Model& model, const ModelDerivative& derivative);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

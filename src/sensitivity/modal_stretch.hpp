@@ -9,7 +9,7 @@
 #include "sensitivity/modal_tangents.hpp"
 #include "sensitivity/state_rates.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 /// Limit of alpha t for one part, as in engine/exact/modal/oscillators.hpp.
 inline constexpr double longest_decay_of_part = 4.0;
@@ -26,9 +26,9 @@ template <class S>
 class ModalStretchOf final : public ModalStretch {
  public:
   ModalStretchOf(const Model& model, const std::vector<const ModelDerivative*>& derivatives,
-                 ModalStore& store, ModalSystem& modes, std::shared_ptr<const StateModes> state,
-                 const Decision& decision, const Forcing& forcing, std::vector<TangentSource> sources,
-                 const std::vector<Eigen::Index>& shown, double usual)
+                 ModalStore& store, modal::ModalSystem& modes, std::shared_ptr<const modal::StateModes> state,
+                 const decide::Decision& decision, const motion::Forcing& forcing,
+                 std::vector<TangentSource> sources, const std::vector<Eigen::Index>& shown, double usual)
       : model_(model),
         derivatives_(derivatives),
         store_(store),
@@ -44,7 +44,7 @@ class ModalStretchOf final : public ModalStretch {
         shown_(shown),
         usual_(usual),
         work_(store.work(S(0.0))) {
-    Amplitudes values = spectrum_.zero();
+    modal::Amplitudes values = spectrum_.zero();
     values.real = oscillators_.real();
     values.pair = oscillators_.pairs();
     list_modes(values, l_);
@@ -68,12 +68,12 @@ class ModalStretchOf final : public ModalStretch {
     while (t - t_ > longest) advance(longest);
     if (t > t_) advance(t - t_);
     t_ = t;
-    return told(whole);
+    return at_end(whole);
   }
 
   TangentsAt motion(double t) const override {
     const double longest = longest_decay_of_part / modes_.alpha();
-    ModalPoint at = now_, next;
+    modal::ModalPoint at = now_, next;
     double from = t_;
     while (t > from) {
       const double time = std::min(t - from, longest);
@@ -82,28 +82,29 @@ class ModalStretchOf final : public ModalStretch {
       from = time < longest ? t : from + time;
     }
     TangentsAt result;
-    const Amplitudes bend = oscillators_.second(at, force_);
+    const modal::Amplitudes bend = oscillators_.second(at, force_);
     show(at, &bend, result.motion);
-    tell_forces(result);
+    forces_at(result);
     return result;
   }
 
  private:
   struct Followed {
-    ModalPoint now, moved;
-    Amplitudes force;  // constant force
+    modal::ModalPoint now, moved;
+    modal::Amplitudes force;  // constant force
     const ParameterModes<S>* modes = nullptr;
   };
 
-  void put(const Vector& u, const Vector& v, ModalPoint& out) const {
+  void put(const Vector& u, const Vector& v, modal::ModalPoint& out) const {
     spectrum_.to_modes(modes_.basis().amplitudes(u), out.z);
     spectrum_.to_modes(modes_.basis().amplitudes(v), out.rate);
   }
   void set_forces() {
-    force_ = constant_forces(model_, *state_, mode_, forcing_, begin_);
+    force_ = modal::constant_forces(model_, *state_, mode_, forcing_, begin_);
     p_ = modes_of<S>(force_);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-      laws_.push_back(force_law(model_.contacts[c], mode_[c], forcing_.pressing(c, begin_, 0)));
+      laws_.push_back(
+          modal::force_law(model_.contacts[c], mode_[c], forcing_.applied_normal_force(c, begin_, 0)));
   }
 
   /// The constant part p/l of each mode, unless it is far larger than the motion.
@@ -112,17 +113,17 @@ class ModalStretchOf final : public ModalStretch {
     still_.assign(l_.size(), S(0.0));
     soft_.assign(l_.size(), S(0.0));
     for (std::size_t k = 0; k < l_.size(); ++k) {
-      const double size = size_of(p_[k]);
+      const double size = modal::size_of(p_[k]);
       if (size == 0.0) continue;
-      if (size <= most_still * size_of(l_[k]) * size_of(z[k]))
-        still_[k] = p_[k] * inverse(l_[k]);
+      if (size <= most_still * modal::size_of(l_[k]) * modal::size_of(z[k]))
+        still_[k] = p_[k] * modal::inverse(l_[k]);
       else
         soft_[k] = p_[k];
     }
   }
 
   [[nodiscard]] StateStore<S>& states() {
-    const std::vector<State> key = states_of(mode_);
+    const std::vector<State> key = contact::states_of(mode_);
     if (StateStore<S>* known = store_.find(key, S(0.0))) return *known;
     StateRatesOf<S> of({model_, modes_, *state_, mode_, forcing_, begin_}, l_);
     StateStore<S> made;
@@ -208,7 +209,7 @@ class ModalStretchOf final : public ModalStretch {
     };
     drive(z, r, work_.driven, work_.driven_rate);
     for (std::size_t l = 0; l < n; ++l) {
-      if (size_of(soft_[l]) == 0.0) continue;
+      if (modal::size_of(soft_[l]) == 0.0) continue;
       const std::vector<S>& h = pairs.H_column(l);
       for (std::size_t k = 0; k < rows_; ++k) {
         work_.driven[k * n + l] += h[k] * soft_[l];
@@ -219,8 +220,8 @@ class ModalStretchOf final : public ModalStretch {
   }
 
   /// Free motion from one point with constant forces only.
-  void turn(const ModalPoint& from, const Amplitudes& force, const OscillatorPairs<S>& pairs,
-            ModalPoint& to) const {
+  void turn(const modal::ModalPoint& from, const modal::Amplitudes& force, const OscillatorPairs<S>& pairs,
+            modal::ModalPoint& to) const {
     const std::size_t reals = from.z.real.size(), count = from.z.pair.size();
     const double alpha = modes_.alpha();
     to.z.real.resize(reals);
@@ -234,7 +235,7 @@ class ModalStretchOf final : public ModalStretch {
     };
     for (std::size_t k = 0; k < reals; ++k)
       one(from.z.real[k], from.rate.real[k], force.real[k], k, to.z.real[k], to.rate.real[k]);
-    if constexpr (std::is_same_v<S, Complex>)
+    if constexpr (std::is_same_v<S, modal::Complex>)
       for (std::size_t k = 0; k < count; ++k)
         one(from.z.pair[k], from.rate.pair[k], force.pair[k], reals + k, to.z.pair[k], to.rate.pair[k]);
   }
@@ -262,9 +263,9 @@ class ModalStretchOf final : public ModalStretch {
     }
   }
 
-  void physical(const ModalPoint& at, const Amplitudes* second, SeriesPoint& out) const {
+  void physical(const modal::ModalPoint& at, const modal::Amplitudes* second, SeriesPoint& out) const {
     Vector q, rate, change;
-    std::vector<const Amplitudes*> from{&at.z, &at.rate};
+    std::vector<const modal::Amplitudes*> from{&at.z, &at.rate};
     std::vector<Vector*> to{&q, &rate}, in{&out.u, &out.v};
     std::vector<const Vector*> modal{&q, &rate};
     if (second != nullptr) {
@@ -280,8 +281,8 @@ class ModalStretchOf final : public ModalStretch {
   }
 
   /// Values of the displayed degrees of freedom.
-  void show(const ModalPoint& at, const Amplitudes* second, SeriesPoint& out) const {
-    const auto one = [&](const Amplitudes& from, Vector& to) {
+  void show(const modal::ModalPoint& at, const modal::Amplitudes* second, SeriesPoint& out) const {
+    const auto one = [&](const modal::Amplitudes& from, Vector& to) {
       const Vector values = known_->shown * flat_modes(from);
       to = Vector::Zero(model_.size());
       for (std::size_t i = 0; i < shown_.size(); ++i) to[shown_[i]] = values[static_cast<Eigen::Index>(i)];
@@ -294,8 +295,8 @@ class ModalStretchOf final : public ModalStretch {
       out.a = Vector::Zero(model_.size());
   }
 
-  [[nodiscard]] Amplitudes second_of_tangent(const Followed& f) const {
-    Amplitudes a = oscillators_.second(f.now, f.force);
+  [[nodiscard]] modal::Amplitudes second_of_tangent(const Followed& f) const {
+    modal::Amplitudes a = oscillators_.second(f.now, f.force);
     std::vector<S> z = modes_of<S>(now_.z), drive(z.size(), S(0.0));
     for (std::size_t k = 0; k < z.size(); ++k) z[k] -= still_[k];
     add_product(f.modes->b, z, -1.0, drive);
@@ -304,27 +305,27 @@ class ModalStretchOf final : public ModalStretch {
     return a;
   }
 
-  [[nodiscard]] TangentsAt told(bool whole) const {
+  [[nodiscard]] TangentsAt at_end(bool whole) const {
     TangentsAt result;
-    const Amplitudes bend = oscillators_.second(now_, force_);
+    const modal::Amplitudes bend = oscillators_.second(now_, force_);
     whole ? physical(now_, &bend, result.motion) : show(now_, &bend, result.motion);
-    tell_forces(result);
+    forces_at(result);
     for (std::size_t p = 0; p < followed_.size(); ++p) {
       const Followed& f = followed_[p];
       SeriesPoint& w = result.tangents.emplace_back();
       if (f.modes == nullptr) continue;
       if (whole) {
-        const Amplitudes a = second_of_tangent(f);
+        const modal::Amplitudes a = second_of_tangent(f);
         physical(f.now, &a, w);
       } else {
         show(f.now, nullptr, w);
       }
-      tell_force_rates(p, result.motion, w);
+      force_rates_at(p, result.motion, w);
     }
     return result;
   }
 
-  void tell_forces(TangentsAt& at) const {
+  void forces_at(TangentsAt& at) const {
     SeriesPoint& m = at.motion;
     const auto rows = model_.force_count();
     m.forces.resize(rows);
@@ -332,7 +333,7 @@ class ModalStretchOf final : public ModalStretch {
     at.force_bends.resize(rows);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
-      const ForceLaw& law = laws_[c];
+      const modal::ForceLaw& law = laws_[c];
       const auto n = static_cast<Eigen::Index>(model_.layout.normal(c)),
                  t = static_cast<Eigen::Index>(model_.layout.tangent(c));
       const double ut = contact.tangent.dot(m.u) - forcing_.surface(c, begin_, 0);
@@ -346,7 +347,7 @@ class ModalStretchOf final : public ModalStretch {
     }
   }
 
-  void tell_force_rates(std::size_t p, const SeriesPoint& m, SeriesPoint& w) const {
+  void force_rates_at(std::size_t p, const SeriesPoint& m, SeriesPoint& w) const {
     w.forces.resize(m.forces.size());
     w.force_rates.resize(m.forces.size());
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -371,25 +372,25 @@ class ModalStretchOf final : public ModalStretch {
   const Model& model_;
   const std::vector<const ModelDerivative*>& derivatives_;
   ModalStore& store_;
-  ModalSystem& modes_;
-  std::shared_ptr<const StateModes> state_;
-  const Spectrum& spectrum_;
-  const Mode mode_;
-  const Forcing forcing_;
+  modal::ModalSystem& modes_;
+  std::shared_ptr<const modal::StateModes> state_;
+  const modal::Spectrum& spectrum_;
+  const contact::ContactStates mode_;
+  const motion::Forcing forcing_;
   double t_, begin_;
   std::vector<TangentSource> sources_;
-  Oscillators oscillators_;
+  modal::Oscillators oscillators_;
   std::vector<S> l_, p_, still_, soft_;
   std::size_t rows_;  // number of modes without conjugates, which follow from the others
-  std::vector<ForceLaw> laws_;
-  Amplitudes force_;
-  ModalPoint now_, moved_;
+  std::vector<modal::ForceLaw> laws_;
+  modal::Amplitudes force_;
+  modal::ModalPoint now_, moved_;
   std::vector<Followed> followed_;
   bool dragged_ = false;
   const std::vector<Eigen::Index>& shown_;
   double usual_;
   StateStore<S>* known_ = nullptr;
-  Workshop<S>& work_;
+  StepWorkspace<S>& work_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

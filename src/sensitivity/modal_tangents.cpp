@@ -6,7 +6,7 @@
 #include "sensitivity/contact_rates.hpp"
 #include "sensitivity/modal_stretch.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 constexpr double nothing_left = 1e-13;  // relative to C_p: rounding of C_p - alpha M_p
@@ -17,14 +17,14 @@ bool stands_still(const ForcingRatesSeries& f) {
       if (i % f.count != 0 && rows[i] != 0.0) return false;
     return true;
   };
-  return (!f.loaded || f.load.rightCols(f.load.cols() - 1).isZero(0.0)) && still(f.pressing) &&
+  return (!f.loaded || f.load.rightCols(f.load.cols() - 1).isZero(0.0)) && still(f.applied_normal_force) &&
          still(f.surface);
 }
 
 /// Degrees of freedom of columns and contacts; all of them in a reduced model.
 std::vector<Eigen::Index> shown_dofs(const Model& model, const std::vector<const ModelDerivative*>& rates) {
-  const std::vector<Eigen::Index> felt = contact_dofs(model, rates);
-  std::set<Eigen::Index> dofs(felt.begin(), felt.end());
+  const std::vector<Eigen::Index> affected = contact_dofs(model, rates);
+  std::set<Eigen::Index> dofs(affected.begin(), affected.end());
   if (model.is_physical())
     for (const Column& column : model.columns)
       if (column.dof >= 0) dofs.insert(column.dof);
@@ -40,13 +40,13 @@ ModalTangents::ModalTangents(const Model& model, const std::vector<const ModelDe
     : model_(model), derivatives_(derivatives), shown_(shown_dofs(model, derivatives)), usual_(usual) {}
 ModalTangents::~ModalTangents() = default;
 
-bool ModalTangents::start(ModalSystem& modes, const Decision& decision, const Forcing& forcing,
-                          std::vector<TangentSource> sources) {
+bool ModalTangents::start(modal::ModalSystem& modes, const decide::Decision& decision,
+                          const motion::Forcing& forcing, std::vector<TangentSource> sources) {
   stretch_.reset();
   if (!modes.basis().failure().empty() || forcing.varies()) return false;
   for (const TangentSource& source : sources)
     if (source.start != nullptr && !stands_still(source.forcing)) return false;
-  std::shared_ptr<const StateModes> state = modes.state(decision.mode);
+  std::shared_ptr<const modal::StateModes> state = modes.state(decision.mode);
   if (!state->spectrum.failure().empty()) return false;
   if (!store_) {
     store_ = std::make_unique<ModalStore>();
@@ -67,13 +67,13 @@ bool ModalTangents::start(ModalSystem& modes, const Decision& decision, const Fo
         std::make_unique<ModalStretchOf<double>>(model_, derivatives_, *store_, modes, std::move(state),
                                                  decision, forcing, std::move(sources), shown_, usual_);
   else
-    stretch_ =
-        std::make_unique<ModalStretchOf<Complex>>(model_, derivatives_, *store_, modes, std::move(state),
-                                                  decision, forcing, std::move(sources), shown_, usual_);
+    stretch_ = std::make_unique<ModalStretchOf<modal::Complex>>(model_, derivatives_, *store_, modes,
+                                                                std::move(state), decision, forcing,
+                                                                std::move(sources), shown_, usual_);
   return true;
 }
 
 TangentsAt ModalTangents::at(double t, bool whole) { return stretch_->at(t, whole); }
 TangentsAt ModalTangents::motion(double t) const { return stretch_->motion(t); }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

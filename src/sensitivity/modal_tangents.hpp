@@ -18,7 +18,7 @@
 #include "sensitivity/oscillator_pairs.hpp"
 #include "sensitivity/state_rates.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 /// With more degrees of freedom, n^2 operations per row cost more than the series; chosen value.
 inline constexpr Eigen::Index most_modal_tangents = 600;
@@ -44,8 +44,8 @@ class ModalTangents {
 
   /// Starts after a decision; modes, decision, forcing and the starts must live until the next one. False: modes cannot
   /// follow this stretch.
-  [[nodiscard]] bool start(ModalSystem& modes, const Decision& decision, const Forcing& forcing,
-                           std::vector<TangentSource> sources);
+  [[nodiscard]] bool start(modal::ModalSystem& modes, const decide::Decision& decision,
+                           const motion::Forcing& forcing, std::vector<TangentSource> sources);
   /// Values at t, not before the last t. whole: all degrees of freedom, with accelerations of tangents; otherwise only
   /// those of columns and contacts.
   [[nodiscard]] TangentsAt at(double t, bool whole);
@@ -71,13 +71,13 @@ inline constexpr std::size_t most_bytes_of_states = std::size_t{1} << 28;
 template <class S>
 struct StateStore {
   std::vector<ParameterModes<S>> parameters;
-  RowMatrix shown;           // displayed degrees of freedom by flat amplitudes
+  modal::RowMatrix shown;    // displayed degrees of freedom by flat amplitudes
   OscillatorPairs<S> usual;  // for the usual step; empty: not computed yet
 };
 
 /// Work arrays of one step.
 template <class S>
-struct Workshop {
+struct StepWorkspace {
   OscillatorPairs<S> pairs;
   Square<S> driven, driven_rate, dragging, dragging_rate;
 };
@@ -85,27 +85,27 @@ struct Workshop {
 struct ModalStore {
   std::vector<OpenRates> open;
   std::map<std::vector<State>, StateStore<double>> real;
-  std::map<std::vector<State>, StateStore<Complex>> pairs;
+  std::map<std::vector<State>, StateStore<modal::Complex>> pairs;
   std::size_t bytes = 0;
-  Workshop<double> real_work;
-  Workshop<Complex> pair_work;
-  Workshop<double>& work(double) { return real_work; }
-  Workshop<Complex>& work(Complex) { return pair_work; }
+  StepWorkspace<double> real_work;
+  StepWorkspace<modal::Complex> pair_work;
+  StepWorkspace<double>& work(double) { return real_work; }
+  StepWorkspace<modal::Complex>& work(modal::Complex) { return pair_work; }
 
   StateStore<double>* find(const std::vector<State>& states, double) {
     const auto at = real.find(states);
     return at == real.end() ? nullptr : &at->second;
   }
-  StateStore<Complex>* find(const std::vector<State>& states, Complex) {
+  StateStore<modal::Complex>* find(const std::vector<State>& states, modal::Complex) {
     const auto at = pairs.find(states);
     return at == pairs.end() ? nullptr : &at->second;
   }
   StateStore<double>& keep(const std::vector<State>& states, StateStore<double> made) {
     return real.insert_or_assign(states, std::move(made)).first->second;
   }
-  StateStore<Complex>& keep(const std::vector<State>& states, StateStore<Complex> made) {
+  StateStore<modal::Complex>& keep(const std::vector<State>& states, StateStore<modal::Complex> made) {
     return pairs.insert_or_assign(states, std::move(made)).first->second;
   }
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -13,7 +13,7 @@
 #include "sensitivity/forcing_rates.hpp"
 #include "sensitivity/parameter.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 const Stencil& two_points() {
   static const Stencil s{{1, -1}, {0.5, -0.5}, {0.5, -0.5}};
@@ -59,9 +59,9 @@ ContactRates numbers_of(const Contact& contact) {
   c.normal_force = numbers_of(contact.normal_force);
   c.surface_motion = numbers_of(contact.surface_motion);
   for (const State state : all_states) {
-    c.rows[index_of(state)] = rows(contact, {state, 0.0});
+    c.rows[index_of(state)] = contact::rows(contact, {state, 0.0});
     if (state == State::inside && !(contact.normal_stiffness > 0.0)) continue;
-    const auto forms = guards(contact, {state, 0.0});
+    const auto forms = contact::guards(contact, {state, 0.0});
     for (std::size_t i = 0; i < forms.size(); ++i) c.guards[index_of(state)][i] = forms[i].form;
   }
   return c;
@@ -210,7 +210,7 @@ class Differences {
       if (std::any_of(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; }))
         continue;
       const Scene scene = read_({set_to(path_, value_ + point * step_)});
-      Model model = rescaled(build_undoubted(scene), inverse(model_.machine));
+      Model model = model::rescaled(model::build_without_warnings(scene), scene::inverse(model_.machine));
       check_ties(model);
       take_weight(model_, model);
       if (shape_of(model) != shape_ || !same_coordinates(model))
@@ -392,4 +392,4 @@ ModelDerivative derivative(const SceneReader& read, const Model& model, const st
   throw UsageError(fmt::format("--parameter {}: {}", path, why));
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

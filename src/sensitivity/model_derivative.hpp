@@ -14,7 +14,7 @@
 #include "contact/law.hpp"
 #include "signorini/sensitivity.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 // Finite-difference stencils.
 //
@@ -42,9 +42,14 @@ struct HistoryRates {
   [[nodiscard]] bool none() const { return pieces.empty(); }
 };
 
-inline constexpr std::array all_states = {State::open,      State::inside,    State::closed,
-                                          State::stick,     State::slip_plus, State::slip_minus,
-                                          State::held_plus, State::held_minus};
+inline constexpr std::array all_states = {State::open,
+                                          State::inside,
+                                          State::closed,
+                                          State::stick,
+                                          State::slip_plus,
+                                          State::slip_minus,
+                                          State::static_limit_plus,
+                                          State::static_limit_minus};
 [[nodiscard]] constexpr std::size_t index_of(State state) { return static_cast<std::size_t>(state); }
 
 /// Derivatives of one contact's data, with anchors at zero.
@@ -54,7 +59,7 @@ struct ContactRates {
   Friction friction;  ///< derivatives of the contact's constants of friction
   HistoryRates normal_force, surface_motion;
   std::array<Rows, all_states.size()> rows;
-  std::array<std::array<Form, guards_per_contact>, all_states.size()> guards;
+  std::array<std::array<Form, contact::guards_per_contact>, all_states.size()> guards;
 };
 
 struct LoadRates {
@@ -89,8 +94,8 @@ void take_weight(const Model& from, Model& model);
 
 template <class Visit>
 void visit_form(Form& f, const Visit& visit) {
-  for (double* x :
-       {&f.N, &f.T, &f.gap, &f.ut, &f.vn, &f.vt, &f.an, &f.at, &f.pressing, &f.pressing_rate, &f.constant})
+  for (double* x : {&f.N, &f.T, &f.gap, &f.ut, &f.vn, &f.vt, &f.an, &f.at, &f.applied_normal_force,
+                    &f.applied_normal_force_rate, &f.constant})
     visit(*x);
 }
 
@@ -149,4 +154,4 @@ void align(const std::vector<ModelDerivative*>& all);
 /// Magnitudes to which the rounding of each number is relative: itself, in a form its largest factor.
 [[nodiscard]] std::vector<double> sizes_of(ModelDerivative data);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

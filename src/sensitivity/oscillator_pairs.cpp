@@ -4,7 +4,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 // Limit of m t^2 up to which a pair is a series in it, and limit from which a mode oscillates. If one of two modes does
@@ -17,20 +17,24 @@ constexpr double small_angle = 0.25;   // limit for the series of sin(x)/x with 
 
 double sine_of(double a) { return std::sin(a); }
 double cosine_of(double a) { return std::cos(a); }
-Complex sine_of(Complex a) { return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)}; }
-Complex cosine_of(Complex a) { return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)}; }
+modal::Complex sine_of(modal::Complex a) {
+  return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)};
+}
+modal::Complex cosine_of(modal::Complex a) {
+  return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)};
+}
 double square_root(double a) { return std::sqrt(a); }
-Complex square_root(Complex a) { return root_of(a); }
+modal::Complex square_root(modal::Complex a) { return modal::root_of(a); }
 
 double largest(double a) { return std::abs(a); }
-double largest(Complex a) { return std::max(std::abs(a.re), std::abs(a.im)); }
+double largest(modal::Complex a) { return std::max(std::abs(a.re), std::abs(a.im)); }
 
 bool turns(double m, double square) { return m * square > turning_square; }
-bool turns(Complex m, double square) { return size_of(m) * square > turning_square; }
+bool turns(modal::Complex m, double square) { return modal::size_of(m) * square > turning_square; }
 
 template <class S>
 S sine_over(S x, S sine) {
-  if (largest(x) > small_angle) return sine * inverse(x);
+  if (largest(x) > small_angle) return sine * modal::inverse(x);
   const S y = x * x;
   S sum(1.0);
   for (int j = 7; j >= 1; --j) sum = S(1.0) - y * sum * (1.0 / (2.0 * j * (2.0 * j + 1.0)));
@@ -43,7 +47,7 @@ template <class S>
 void OscillatorPairs<S>::fill_turning(std::size_t k) {
   const S w = square_root(m_[k]), half = w * (0.5 * t_);
   w_[k] = w;
-  inverse_w_[k] = inverse(w);
+  inverse_w_[k] = modal::inverse(w);
   half_sine_[k] = sine_of(half);
   half_cosine_[k] = cosine_of(half);
   sine_[k] = half_sine_[k] * half_cosine_[k] * 2.0;
@@ -80,7 +84,7 @@ typename OscillatorPairs<S>::Both OscillatorPairs<S>::near_zero(std::size_t k, s
 /// a, d = (w_k +- w_l) t/2
 template <class S>
 typename OscillatorPairs<S>::Both OscillatorPairs<S>::turning(std::size_t k, std::size_t l) const {
-  const S sum = inverse(w_[k] + w_[l]);
+  const S sum = modal::inverse(w_[k] + w_[l]);
   const S d = (m_[k] - m_[l]) * sum * (0.5 * t_);
   const S p = half_sine_[k] * half_cosine_[l], q = half_cosine_[k] * half_sine_[l];
   const S over = sine_over(d, p - q) * sum * t_;
@@ -92,7 +96,7 @@ typename OscillatorPairs<S>::Both OscillatorPairs<S>::turning(std::size_t k, std
 
 template <class S>
 typename OscillatorPairs<S>::Both OscillatorPairs<S>::apart(std::size_t k, std::size_t l) const {
-  const S over = inverse(m_[k] - m_[l]);
+  const S over = modal::inverse(m_[k] - m_[l]);
   return {(c_[k] - c_[l]) * over, (s_[k] - s_[l]) * over};
 }
 
@@ -114,7 +118,7 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
   for (std::size_t k = 0; k < n; ++k) {
     m_[k] = l[k] - S(0.25 * alpha * alpha);
     turns_[k] = turns(m_[k], square) ? 1 : 0;
-    slow_[k] = size_of(m_[k]) * square <= slow_square ? 1 : 0;
+    slow_[k] = modal::size_of(m_[k]) * square <= slow_square ? 1 : 0;
     if (turns_[k] != 0) {
       fill_turning(k);
       continue;
@@ -145,7 +149,7 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
 template <class S>
 S OscillatorPairs<S>::h_of(std::size_t k) const {
   const double square = t_ * t_;
-  if (size_of(l_[k]) * square > 1.0) return (S(1.0) - c_[k]) * inverse(l_[k]);
+  if (modal::size_of(l_[k]) * square > 1.0) return (S(1.0) - c_[k]) * modal::inverse(l_[k]);
   S a(0.0), b(0.0), sum(0.0), force(square);  // coefficients j and j + 1
   for (int j = 0; j < most_time_terms; ++j) {
     const S next =
@@ -164,7 +168,7 @@ template <class S>
 S OscillatorPairs<S>::h_pair(std::size_t k, std::size_t l) const {
   const double square = t_ * t_;
   if (largest(l_[k]) < largest(l_[l])) std::swap(k, l);
-  if (size_of(l_[k]) * square > 1.0) return -((C_row(k)[l] + h_[l]) * inverse(l_[k]));
+  if (modal::size_of(l_[k]) * square > 1.0) return -((C_row(k)[l] + h_[l]) * modal::inverse(l_[k]));
   S y0(0.0), y1(0.0), w0(0.0), w1(0.0), sum(0.0), force(square);  // coefficients j and j + 1
   for (int j = 0; j < most_time_terms; ++j) {
     const double pull = 1.0 / ((j + 1.0) * (j + 2.0)), drag = alpha_ * t_ / (j + 2.0);
@@ -191,6 +195,6 @@ const std::vector<S>& OscillatorPairs<S>::H_column(std::size_t l) {
 }
 
 template class OscillatorPairs<double>;
-template class OscillatorPairs<Complex>;
+template class OscillatorPairs<modal::Complex>;
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -16,7 +16,7 @@
 
 #include "engine/exact/modal/complex_lanes.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 template <class S>
 class OscillatorPairs {
@@ -53,6 +53,6 @@ class OscillatorPairs {
 };
 
 extern template class OscillatorPairs<double>;
-extern template class OscillatorPairs<Complex>;
+extern template class OscillatorPairs<modal::Complex>;
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -11,7 +11,7 @@
 #include "scene/overrides.hpp"
 #include "scene/quantities.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 [[noreturn]] void fail_at(const std::string& path, const std::string& message) {
@@ -21,7 +21,7 @@ namespace {
 /// True for run.initial.NODE.ux, which is zero if omitted.
 bool is_initial_value(const std::vector<std::string>& parts) {
   return parts.size() == 4 && parts[0] == "run" && parts[1] == "initial" &&
-         find_key("run.initial.*", parts[3]) != nullptr;
+         scene::find_key("run.initial.*", parts[3]) != nullptr;
 }
 
 void numbers_at(const toml::node& node, const std::vector<std::string>& rest, std::size_t next,
@@ -56,7 +56,7 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
                                 name));
     numbers_at(*inner, rest, next + 1, path, found);
   } else if (const auto* array = node.as_array()) {
-    const auto index = parse_integer(name);
+    const auto index = base::parse_integer(name);
     bool any = false;
     for (std::size_t i = 0; i < array->size(); ++i) {
       const auto* entry = (*array)[i].as_table();
@@ -86,7 +86,7 @@ std::vector<std::string> parts_of(const std::string& path) {
 
 }  // namespace
 
-Override set_to(const std::string& path, double x) { return {path, shortest(x)}; }
+Override set_to(const std::string& path, double x) { return {path, base::shortest(x)}; }
 
 double value_of(const Scene& scene, const std::string& path) {
   toml::table root;
@@ -96,11 +96,12 @@ double value_of(const Scene& scene, const std::string& path) {
     fail_at(path, std::string("the resolved scene cannot be read: ") + std::string(error.description()));
   }
   std::set<double> found;
-  for (const std::string& meant : paths_meant(root, path)) numbers_at(root, parts_of(meant), 0, path, found);
+  for (const std::string& meant : scene::paths_meant(root, path))
+    numbers_at(root, parts_of(meant), 0, path, found);
   if (found.size() != 1) {
-    const std::string met = tables_met(root, path);
+    const std::string met = scene::tables_met(root, path);
     fail_at(path, fmt::format("found {} numbers that differ, from {} to {}{}, expected one value to vary",
-                              found.size(), shortest(*found.begin()), shortest(*found.rbegin()),
+                              found.size(), base::shortest(*found.begin()), base::shortest(*found.rbegin()),
                               met.empty() ? "" : ", in " + met));
   }
   if (!std::isfinite(*found.begin())) fail_at(path, "expected a finite number");
@@ -112,7 +113,7 @@ double typical_size(const SceneReader& read, const Scene& scene, const Model& mo
   constexpr double probe = 1.0 / 1024.0;  // any nonzero number
   std::vector<double> before;
   Scene copy = scene;
-  visit_quantities(copy, [&](double& x, const Unit&) { before.push_back(x); });
+  scene::visit_quantities(copy, [&](double& x, const Unit&) { before.push_back(x); });
   const double time = model.scales.displacement / model.scales.velocity;
   const Factors typical{model.scales.force, model.scales.displacement, time};
   for (const double x : {probe, -probe}) {
@@ -120,8 +121,8 @@ double typical_size(const SceneReader& read, const Scene& scene, const Model& mo
       Scene moved = read({set_to(path, x)});
       std::size_t i = 0;
       double size = 1.0;
-      visit_quantities(moved, [&](double& y, const Unit& of) {
-        if (i < before.size() && y != before[i]) size = factor_of(of, typical);
+      scene::visit_quantities(moved, [&](double& y, const Unit& of) {
+        if (i < before.size() && y != before[i]) size = scene::factor_of(of, typical);
         ++i;
       });
       return size;
@@ -131,4 +132,4 @@ double typical_size(const SceneReader& read, const Scene& scene, const Model& mo
   return 1.0;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

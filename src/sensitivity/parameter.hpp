@@ -7,7 +7,7 @@
 
 #include "signorini/sensitivity.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 /// Errors: UsageError if the path leads to no number, or to several different ones.
 [[nodiscard]] double value_of(const Scene& scene, const std::string& path);
@@ -19,4 +19,4 @@ namespace signorini {
 /// The change that sets the key to x.
 [[nodiscard]] Override set_to(const std::string& path, double x);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

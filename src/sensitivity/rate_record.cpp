@@ -4,7 +4,7 @@
 
 #include "run/physical.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 constexpr double nothing = EventRates::none;
@@ -21,7 +21,7 @@ constexpr std::array contact_columns = {"N", "T", "ut", "slip", "gap"};
 EventRates in_scene(const EventRates& rates, const Factors& of) {
   EventRates r = rates;
   const auto scale = [&](const Unit& unit, std::initializer_list<double*> values) {
-    for (double* x : values) *x *= factor_of(unit, of);
+    for (double* x : values) *x *= scene::factor_of(unit, of);
   };
   scale(unit::time, {&r.t});
   scale(unit::length, {&r.gap});
@@ -35,7 +35,7 @@ EventRates in_scene(const EventRates& rates, const Factors& of) {
 
 RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives,
                        Recorder* recorder, Sensitivities& result, bool losses)
-    : ForwardingRecorder(recorder), model_(computed), derivatives_(derivatives), result_(result) {
+    : run::ForwardingRecorder(recorder), model_(computed), derivatives_(derivatives), result_(result) {
   for (const Column& column : model_.columns) result_.columns.push_back(column.name);
   for (const Contact& contact : model_.contacts) {
     result_.contacts.push_back(contact.name);
@@ -51,7 +51,7 @@ RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>
 }
 
 void RateRecord::event(const Event& event) {
-  ForwardingRecorder::event(event);
+  run::ForwardingRecorder::event(event);
   result_.events.push_back(event);
   std::vector<EventRates>& row = result_.event_rates.emplace_back();
   for (const TangentState& state : *states_) {
@@ -65,7 +65,7 @@ void RateRecord::event(const Event& event) {
 }
 
 void RateRecord::sample(const Sample& s) {
-  ForwardingRecorder::sample(s);
+  run::ForwardingRecorder::sample(s);
   result_.times.push_back(s.t);
   std::vector<double>& row = result_.values.emplace_back();
   for (const Column& column : model_.columns) row.push_back(column.of(*s.u, *s.v));
@@ -86,8 +86,8 @@ void RateRecord::add_row(const TangentSample& s) {
     std::vector<double>& row = result_.value_rates[p].emplace_back(result_.columns.size(), nothing);
     const SeriesPoint& w = s.tangents[p];
     if (w.u.size() == 0) continue;
-    const Vector u = physical(model_.physical(w.u), model_.physical_dofs(), 0, model_.unit);
-    const Vector v = physical(model_.physical(w.v), model_.physical_dofs(), 1, model_.unit);
+    const Vector u = run::physical(model_.physical(w.u), model_.physical_dofs(), 0, model_.unit);
+    const Vector v = run::physical(model_.physical(w.v), model_.physical_dofs(), 1, model_.unit);
     std::size_t at = 0;
     for (const Column& column : model_.columns) row[at++] = column.of(u, v);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -290,4 +290,4 @@ void RateRecord::finish() {
   add_landings();
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -10,9 +10,9 @@
 #include "run/physical.hpp"
 #include "sensitivity/tangent_run.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
-class RateRecord final : public TangentListener, public ForwardingRecorder {
+class RateRecord final : public TangentListener, public run::ForwardingRecorder {
  public:
   /// computed: in the machine's units. Both must outlive the object; recorder: may be null.
   RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,
@@ -49,7 +49,7 @@ class RateRecord final : public TangentListener, public ForwardingRecorder {
   void see(std::size_t contact, std::size_t which, double t, Seen seen);
   void see_turn(const TangentSample& sample, std::size_t contact);
   void see_instant(const InstantMotion& motion, const std::vector<TangentState>& states, std::size_t contact);
-  [[nodiscard]] double factor(const Unit& of) const { return factor_of(of, model_.unit); }
+  [[nodiscard]] double factor(const Unit& of) const { return scene::factor_of(of, model_.unit); }
 
   const Model& model_;
   const std::vector<ModelDerivative>& derivatives_;
@@ -60,4 +60,4 @@ class RateRecord final : public TangentListener, public ForwardingRecorder {
   std::optional<LandingRecord> landings_;  // only with losses
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -27,11 +27,11 @@ void check_path(const std::string& path) {
 
 void check_options(const RunSpec& run, const SensitivityOptions& options) {
   if (!options.discrete) return;
-  if (!engine_row(run.engine).can.discrete_derivatives)
+  if (!run::engine_row(run.engine).can.discrete_derivatives)
     throw UsageError(
         fmt::format("discrete derivatives are those of fixed steps: found engine {}, expected "
                     "run.engine = {}",
-                    to_string(run.engine), engines_that(&EngineAbilities::discrete_derivatives)));
+                    to_string(run.engine), run::engines_that(&run::EngineAbilities::discrete_derivatives)));
   if (options.losses) throw UsageError("discrete derivatives: losses are followed along the motion only");
 }
 
@@ -43,7 +43,7 @@ void make_room_for_weight(const SceneReader& read, const Scene& scene, const std
     for (const double g : {-1.0, 1.0}) {
       if (!path.starts_with("gravity.")) continue;
       try {
-        take_weight(build_undoubted(read({set_to(path, g)})), model);
+        sensitivity::take_weight(model::build_without_warnings(read({sensitivity::set_to(path, g)})), model);
       } catch (const Error&) {  // derivative() reports it
       }
     }
@@ -58,7 +58,7 @@ RunSpec without_companion(RunSpec run) {
 }  // namespace
 
 SceneReader reader_of(std::string path, std::vector<Override> always) {
-  std::string text = scene_text(path);
+  std::string text = scene::scene_text(path);
   return [text = std::move(text), path = std::move(path),
           always = std::move(always)](const std::vector<Override>& changes) {
     std::vector<Override> all = always;
@@ -75,47 +75,47 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
         "change");
   const Scene scene = read({});
   Model model = build_model(scene);
-  check_tangent_laws(scene, model);
+  sensitivity::check_tangent_laws(scene, model);
   make_room_for_weight(read, scene, paths, model);
   const RunSpec run = without_companion(scene.run);
   check_options(run, options);
   const Factors to_machine{1.0 / model.machine.force, 1.0 / model.machine.length, 1.0 / model.machine.time};
-  const Model computed = rescaled(model, to_machine);
+  const Model computed = model::rescaled(model, to_machine);
   Sensitivities result;
   result.units = model.units;
   result.title = model.title;
-  std::vector<ModelDerivative> derivatives;
+  std::vector<sensitivity::ModelDerivative> derivatives;
   std::vector<double> sizes;
   for (const std::string& path : paths) {
     check_path(path);
     Parameter parameter;
     parameter.path = path;
-    parameter.value = value_of(scene, path);
-    if (const Key* key = key_of(path))
-      parameter.may_be = [range = range_of(*key)](double value) { return range.has(value); };
-    const double size =
-        parameter.value != 0.0 ? std::abs(parameter.value) : typical_size(read, scene, model, path);
-    derivatives.push_back(derivative(read, computed, path, parameter.value, size));
+    parameter.value = sensitivity::value_of(scene, path);
+    if (const scene::Key* key = scene::key_of(path))
+      parameter.may_be = [range = scene::range_of(*key)](double value) { return range.has(value); };
+    const double size = parameter.value != 0.0 ? std::abs(parameter.value)
+                                               : sensitivity::typical_size(read, scene, model, path);
+    derivatives.push_back(sensitivity::derivative(read, computed, path, parameter.value, size));
     parameter.step = derivatives.back().step;
     sizes.push_back(size);
     result.parameters.push_back(std::move(parameter));
   }
-  RateRecord record(computed, derivatives, recorder, result, options.losses);
-  const RunSpec inside = rescaled(run, to_machine);
+  sensitivity::RateRecord record(computed, derivatives, recorder, result, options.losses);
+  const RunSpec inside = scene::rescaled(run, to_machine);
   const auto follow = [&](auto& tangents) {
-    result.report = simulate(model, run, record, tangents, tangents.needs());
+    result.report = run::simulate(model, run, record, tangents, tangents.needs());
     record.finish();
     for (std::size_t p = 0; p < paths.size(); ++p)
-      if (const TangentState& state = tangents.states()[p]; !state.alive) {
+      if (const sensitivity::TangentState& state = tangents.states()[p]; !state.alive) {
         result.parameters[p].until = state.until * computed.unit.time;
         result.parameters[p].reason = state.reason;
       }
   };
   if (options.discrete) {
-    DiscreteRun tangents(computed, inside, derivatives, sizes, record);
+    sensitivity::DiscreteRun tangents(computed, inside, derivatives, sizes, record);
     follow(tangents);
   } else {
-    TangentRun tangents(computed, inside, derivatives, sizes, record, options.losses);
+    sensitivity::TangentRun tangents(computed, inside, derivatives, sizes, record, options.losses);
     follow(tangents);
     result.stretches = tangents.stretches();
     result.stretches.correction *= computed.unit.time;

@@ -9,7 +9,7 @@
 #include "sensitivity/contact_rates.hpp"
 #include "sensitivity/state_rates.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 constexpr std::size_t most_bytes_of_modes = std::size_t{1}
@@ -24,40 +24,40 @@ struct ModalBundle {
 };
 
 /// Displacement and rate of each mode after some time, for a motion with these initial values in every mode.
-ModalPoint mode_response(const Oscillators& oscillators, const Amplitudes& zero, double z, double rate,
-                         double force, double time) {
+modal::ModalPoint mode_response(const modal::Oscillators& oscillators, const modal::Amplitudes& zero,
+                                double z, double rate, double force, double time) {
   const auto all = [&](double value) {
-    Amplitudes a = zero;
+    modal::Amplitudes a = zero;
     std::fill(a.real.begin(), a.real.end(), value);
-    std::fill(a.pair.begin(), a.pair.end(), Complex(value));
+    std::fill(a.pair.begin(), a.pair.end(), modal::Complex(value));
     return a;
   };
-  ModalPoint from{all(z), all(rate), {}, 0.0}, to;
+  modal::ModalPoint from{all(z), all(rate), {}, 0.0}, to;
   oscillators.advance(from, all(force), time, to);
   return to;
 }
 
 /// out += factor x, mode by mode.
-void add_modewise(const Amplitudes& factor, const Eigen::MatrixXd& x, Eigen::MatrixXd& out) {
+void add_modewise(const modal::Amplitudes& factor, const Eigen::MatrixXd& x, Eigen::MatrixXd& out) {
   const auto reals = static_cast<Eigen::Index>(factor.real.size());
   const auto pairs = static_cast<Eigen::Index>(factor.pair.size());
   const Eigen::Map<const Vector> real(factor.real.data(), reals);
   out.topRows(reals) += real.asDiagonal() * x.topRows(reals);
   for (Eigen::Index k = 0; k < pairs; ++k) {
-    const Complex f = factor.pair[static_cast<std::size_t>(k)];
+    const modal::Complex f = factor.pair[static_cast<std::size_t>(k)];
     const Eigen::Index re = reals + k, im = reals + pairs + k;
     out.row(re) += f.re * x.row(re) - f.im * x.row(im);
     out.row(im) += f.re * x.row(im) + f.im * x.row(re);
   }
 }
 
-ModalBundle moved_modes(const Oscillators& oscillators, const Amplitudes& zero, const ModalBundle& from,
-                        const Eigen::MatrixXd& force, double time) {
+ModalBundle moved_modes(const modal::Oscillators& oscillators, const modal::Amplitudes& zero,
+                        const ModalBundle& from, const Eigen::MatrixXd& force, double time) {
   ModalBundle to{Eigen::MatrixXd::Zero(from.z.rows(), from.z.cols()),
                  Eigen::MatrixXd::Zero(from.z.rows(), from.z.cols())};
-  const ModalPoint c = mode_response(oscillators, zero, 1.0, 0.0, 0.0, time),
-                   s = mode_response(oscillators, zero, 0.0, 1.0, 0.0, time),
-                   h = mode_response(oscillators, zero, 0.0, 0.0, 1.0, time);
+  const modal::ModalPoint c = mode_response(oscillators, zero, 1.0, 0.0, 0.0, time),
+                          s = mode_response(oscillators, zero, 0.0, 1.0, 0.0, time),
+                          h = mode_response(oscillators, zero, 0.0, 0.0, 1.0, time);
   for (const auto& [by, x] : {std::pair{&c, &from.z}, {&s, &from.rate}, {&h, &force}}) {
     add_modewise(by->z, *x, to.z);
     add_modewise(by->rate, *x, to.rate);
@@ -69,52 +69,53 @@ ModalBundle moved_modes(const Oscillators& oscillators, const Amplitudes& zero, 
 
 bool modes_uncouple(const Model& model) {
   const auto bows = [](const Contact& contact) { return !contact.has_constant_stiffness(); };
-  return coupling_refusal(model).empty() && std::none_of(model.contacts.begin(), model.contacts.end(), bows);
+  return modal::coupling_refusal(model).empty() &&
+         std::none_of(model.contacts.begin(), model.contacts.end(), bows);
 }
 
 StateFlow::StateFlow(const Model& model) : model_(model), basis_(model_) {
   if (basis_.failure().empty()) system_.emplace(model_, basis_);
-  felt_ = contact_dofs(model_, {});
+  affected_ = contact_dofs(model_, {});
 }
 
-bool StateFlow::fits(const Model& model) const { return same_contact_states(model, model_); }
+bool StateFlow::fits(const Model& model) const { return model::same_contact_states(model, model_); }
 
 void StateFlow::make(Modes& modes) const {
-  const Spectrum& spectrum = modes.state->spectrum;
+  const modal::Spectrum& spectrum = modes.state->spectrum;
   const Eigen::Index n = model_.size();
   const auto flat = static_cast<Eigen::Index>(spectrum.real().size() + 2 * spectrum.pairs().size());
   Eigen::MatrixXd in(flat, n), out(n, flat);
   for (Eigen::Index k = 0; k < n; ++k) {
-    Amplitudes a;
+    modal::Amplitudes a;
     spectrum.to_modes(Vector::Unit(n, k), a);
     in.col(k) = flat_modes(a);
   }
   const auto reals = static_cast<Eigen::Index>(spectrum.real().size());
   const auto pairs = static_cast<Eigen::Index>(spectrum.pairs().size());
   for (Eigen::Index k = 0; k < flat; ++k) {
-    Amplitudes unit = spectrum.zero();
+    modal::Amplitudes unit = spectrum.zero();
     if (k < reals)
       unit.real[static_cast<std::size_t>(k)] = 1.0;
     else if (k < reals + pairs)
-      unit.pair[static_cast<std::size_t>(k - reals)] = Complex(1.0);
+      unit.pair[static_cast<std::size_t>(k - reals)] = modal::Complex(1.0);
     else
-      unit.pair[static_cast<std::size_t>(k - reals - pairs)] = Complex(0.0, 1.0);
+      unit.pair[static_cast<std::size_t>(k - reals - pairs)] = modal::Complex(0.0, 1.0);
     Vector q;
     spectrum.from_modes({&unit}, {&q});
     out.col(k) = q;
   }
   modes.in = in * basis_.projection();
   modes.out = basis_.shapes() * out;
-  modes.seen.resize(static_cast<Eigen::Index>(felt_.size()), flat);
-  for (std::size_t i = 0; i < felt_.size(); ++i)
-    modes.seen.row(static_cast<Eigen::Index>(i)) = modes.out.row(felt_[i]);
+  modes.seen.resize(static_cast<Eigen::Index>(affected_.size()), flat);
+  for (std::size_t i = 0; i < affected_.size(); ++i)
+    modes.seen.row(static_cast<Eigen::Index>(i)) = modes.out.row(affected_[i]);
   modes.from_tangent.resize(flat, static_cast<Eigen::Index>(model_.contacts.size()));
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
     modes.from_tangent.col(static_cast<Eigen::Index>(c)) = flat_modes(modes.state->from_tangent[c]);
 }
 
-const StateFlow::Modes& StateFlow::modes_of(const Mode& mode) {
-  const std::vector<State> states = states_of(mode);
+const StateFlow::Modes& StateFlow::modes_of(const contact::ContactStates& mode) {
+  const std::vector<State> states = contact::states_of(mode);
   if (const auto found = known_.find(states); found != known_.end()) return found->second;
   Modes modes;
   if (system_) {
@@ -122,7 +123,7 @@ const StateFlow::Modes& StateFlow::modes_of(const Mode& mode) {
     modes.good = modes.state->spectrum.failure().empty();
   }
   if (modes.good) {
-    modes.oscillators = Oscillators(modes.state->spectrum, system_->alpha());
+    modes.oscillators = modal::Oscillators(modes.state->spectrum, system_->alpha());
     make(modes);
   }
   const auto bytes = static_cast<std::size_t>(modes.in.size() + modes.out.size()) * sizeof(double);
@@ -134,9 +135,9 @@ const StateFlow::Modes& StateFlow::modes_of(const Mode& mode) {
   return known_.insert_or_assign(states, std::move(modes)).first->second;
 }
 
-bool StateFlow::knows(const Mode& mode) { return modes_of(mode).good; }
+bool StateFlow::knows(const contact::ContactStates& mode) { return modes_of(mode).good; }
 
-void StateFlow::advance(const Mode& mode, double time, std::vector<TangentState>& states) {
+void StateFlow::advance(const contact::ContactStates& mode, double time, std::vector<TangentState>& states) {
   const Modes& modes = modes_of(mode);
   std::vector<const Tangent*> starts;
   for (const TangentState& state : states)
@@ -155,7 +156,7 @@ void StateFlow::advance(const Mode& mode, double time, std::vector<TangentState>
   }
   const Eigen::MatrixXd Z = modes.in * W, force = modes.from_tangent * held;
   ModalBundle now{Z.leftCols(columns), Z.rightCols(columns)};
-  const Amplitudes zero = modes.state->spectrum.zero();
+  const modal::Amplitudes zero = modes.state->spectrum.zero();
   const double alpha = system_->alpha();
   const double longest =
       alpha > 0.0 ? longest_decay_at_once / alpha : std::numeric_limits<double>::infinity();
@@ -165,19 +166,19 @@ void StateFlow::advance(const Mode& mode, double time, std::vector<TangentState>
     done = part < longest ? time : done + part;
   }
   Eigen::MatrixXd second = force - alpha * now.rate, pulled = Eigen::MatrixXd::Zero(force.rows(), columns);
-  Amplitudes square = zero;
+  modal::Amplitudes square = zero;
   square.real = modes.oscillators.real();
   square.pair = modes.oscillators.pairs();
   add_modewise(square, now.z, pulled);
   second -= pulled;
   Eigen::MatrixXd all(force.rows(), 2 * columns);
   all << now.z, now.rate;
-  tell(mode, modes.out * all, modes.seen * second, states);
+  evaluate(mode, modes.out * all, modes.seen * second, states);
 }
 
 /// Writes the contact quantities of the tangents.
-void StateFlow::tell(const Mode& mode, const Eigen::MatrixXd& moved, const Eigen::MatrixXd& seen,
-                     std::vector<TangentState>& states) const {
+void StateFlow::evaluate(const contact::ContactStates& mode, const Eigen::MatrixXd& moved,
+                         const Eigen::MatrixXd& seen, std::vector<TangentState>& states) const {
   const Eigen::Index columns = seen.cols();
   Eigen::Index j = 0;
   for (TangentState& state : states) {
@@ -186,11 +187,12 @@ void StateFlow::tell(const Mode& mode, const Eigen::MatrixXd& moved, const Eigen
     w.u = state.now.start.u = moved.col(j);
     w.v = state.now.start.v = moved.col(columns + j);
     w.a = Vector::Zero(model_.size());
-    for (std::size_t i = 0; i < felt_.size(); ++i) w.a[felt_[i]] = seen(static_cast<Eigen::Index>(i), j);
+    for (std::size_t i = 0; i < affected_.size(); ++i)
+      w.a[affected_[i]] = seen(static_cast<Eigen::Index>(i), j);
     w.forces = w.force_rates = Vector::Zero(model_.force_count());
     for (std::size_t c = 0; c < mode.size(); ++c) {
       const Contact& contact = model_.contacts[c];
-      const ForceLaw law = force_law(contact, mode[c], 0.0);
+      const modal::ForceLaw law = modal::force_law(contact, mode[c], 0.0);
       const auto slot = static_cast<Eigen::Index>(model_.layout.normal(c)),
                  t = static_cast<Eigen::Index>(model_.layout.tangent(c));
       w.forces[slot] = law.N_rate(contact.normal.dot(w.u));
@@ -204,4 +206,4 @@ void StateFlow::tell(const Mode& mode, const Eigen::MatrixXd& moved, const Eigen
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

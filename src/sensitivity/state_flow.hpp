@@ -14,7 +14,7 @@
 #include "engine/exact/modal/oscillators.hpp"
 #include "sensitivity/tangent_state.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 class StateFlow {
  public:
@@ -24,29 +24,29 @@ class StateFlow {
   /// True if all data that the flow depends on are equal: matrices, forms and stiffnesses of contacts.
   [[nodiscard]] bool fits(const Model& model) const;
   /// True if the modes of this contact state are accurate enough.
-  [[nodiscard]] bool knows(const Mode& mode);
+  [[nodiscard]] bool knows(const contact::ContactStates& mode);
   /// Advances all active tangents by `time`: displacements, velocities; accelerations of degrees of freedom with
   /// contacts; contact forces and their rates.
-  void advance(const Mode& mode, double time, std::vector<TangentState>& states);
+  void advance(const contact::ContactStates& mode, double time, std::vector<TangentState>& states);
 
  private:
   /// Rows are flat amplitudes: real modes, real and imaginary parts of pairs.
   struct Modes {
-    std::shared_ptr<const StateModes> state;
+    std::shared_ptr<const modal::StateModes> state;
     Eigen::MatrixXd in, out, seen, from_tangent;  ///< seen: rows of `out` at the degrees of freedom of
                                                   ///< contacts
-    Oscillators oscillators;
+    modal::Oscillators oscillators;
     bool good = false;
   };
-  [[nodiscard]] const Modes& modes_of(const Mode& mode);
+  [[nodiscard]] const Modes& modes_of(const contact::ContactStates& mode);
   void make(Modes& modes) const;
-  void tell(const Mode& mode, const Eigen::MatrixXd& moved, const Eigen::MatrixXd& seen,
-            std::vector<TangentState>& states) const;
+  void evaluate(const contact::ContactStates& mode, const Eigen::MatrixXd& moved, const Eigen::MatrixXd& seen,
+                std::vector<TangentState>& states) const;
 
   const Model model_;
-  OpenBasis basis_;
-  std::optional<ModalSystem> system_;
-  std::vector<Eigen::Index> felt_;  // degrees of freedom with contacts
+  modal::OpenBasis basis_;
+  std::optional<modal::ModalSystem> system_;
+  std::vector<Eigen::Index> affected_;  // degrees of freedom with contacts
   std::map<std::vector<State>, Modes> known_;
   std::size_t bytes_ = 0;
 };
@@ -54,4 +54,4 @@ class StateFlow {
 /// True if damping alpha M, alpha >= 0, leaves the modes of each contact state uncoupled (modal_system.hpp).
 [[nodiscard]] bool modes_uncouple(const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -15,14 +15,14 @@
 #include "sensitivity/contact_rates.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 // Lists all modes of a state, and square tables of them.
 //
 //   S double: real modes only;   S Complex: real modes, modes of pairs, and their conjugates
 
 /// Real amplitudes, then real and imaginary parts of pairs.
-inline Vector flat_modes(const Amplitudes& a) {
+inline Vector flat_modes(const modal::Amplitudes& a) {
   const auto n = static_cast<Eigen::Index>(a.real.size()), pairs = static_cast<Eigen::Index>(a.pair.size());
   Vector x(n + 2 * pairs);
   std::copy(a.real.begin(), a.real.end(), x.data());
@@ -33,7 +33,7 @@ inline Vector flat_modes(const Amplitudes& a) {
   return x;
 }
 
-inline Complex conjugate(Complex a) { return {a.re, -a.im}; }
+inline modal::Complex conjugate(modal::Complex a) { return {a.re, -a.im}; }
 
 /// Converts a number to the given type.
 template <class T>
@@ -41,7 +41,7 @@ T of_kind(double a) {
   return T(a);
 }
 template <class T>
-T of_kind(Complex a) {
+T of_kind(modal::Complex a) {
   if constexpr (std::is_same_v<T, double>)
     return a.re;
   else
@@ -49,22 +49,22 @@ T of_kind(Complex a) {
 }
 
 /// Lists all modes: real ones, pairs, and their conjugates.
-inline void list_modes(const Amplitudes& a, std::vector<double>& out) { out = a.real; }
-inline void list_modes(const Amplitudes& a, std::vector<Complex>& out) {
+inline void list_modes(const modal::Amplitudes& a, std::vector<double>& out) { out = a.real; }
+inline void list_modes(const modal::Amplitudes& a, std::vector<modal::Complex>& out) {
   out.assign(a.real.begin(), a.real.end());
   out.insert(out.end(), a.pair.begin(), a.pair.end());
-  for (const Complex z : a.pair) out.push_back(conjugate(z));
+  for (const modal::Complex z : a.pair) out.push_back(conjugate(z));
 }
 template <class S>
-std::vector<S> modes_of(const Amplitudes& a) {
+std::vector<S> modes_of(const modal::Amplitudes& a) {
   std::vector<S> out;
   list_modes(a, out);
   return out;
 }
-inline void add_modes(const std::vector<double>& x, Amplitudes& a) {
+inline void add_modes(const std::vector<double>& x, modal::Amplitudes& a) {
   for (std::size_t k = 0; k < a.real.size(); ++k) a.real[k] += x[k];
 }
-inline void add_modes(const std::vector<Complex>& x, Amplitudes& a) {
+inline void add_modes(const std::vector<modal::Complex>& x, modal::Amplitudes& a) {
   for (std::size_t k = 0; k < a.real.size(); ++k) a.real[k] += x[k].re;
   for (std::size_t k = 0; k < a.pair.size(); ++k) a.pair[k] += x[a.real.size() + k];
 }
@@ -113,10 +113,10 @@ struct ParameterModes {
 /// A state of the contacts and its modes, at the beginning of a stretch.
 struct StateAt {
   const Model& model;
-  const ModalSystem& modes;
-  const StateModes& state;
-  const Mode& mode;
-  const Forcing& forcing;
+  const modal::ModalSystem& modes;
+  const modal::StateModes& state;
+  const contact::ContactStates& mode;
+  const motion::Forcing& forcing;
   double begin;
 };
 
@@ -131,17 +131,18 @@ class StateRatesOf {
   StateRatesOf(const StateAt& at, const std::vector<S>& l) : at_(at), spectrum_(at.state.spectrum), l_(l) {}
 
   /// Rows: the given degrees of freedom; columns: flat modes (flat_modes).
-  [[nodiscard]] RowMatrix shown(const std::vector<Eigen::Index>& dofs) const {
+  [[nodiscard]] modal::RowMatrix shown(const std::vector<Eigen::Index>& dofs) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
-    RowMatrix out(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(reals + 2 * pairs));
+    modal::RowMatrix out(static_cast<Eigen::Index>(dofs.size()),
+                         static_cast<Eigen::Index>(reals + 2 * pairs));
     for (std::size_t k = 0; k < reals + 2 * pairs; ++k) {
-      Amplitudes unit = spectrum_.zero();
+      modal::Amplitudes unit = spectrum_.zero();
       if (k < reals)
         unit.real[k] = 1.0;
       else if (k < reals + pairs)
-        unit.pair[k - reals] = Complex(1.0);
+        unit.pair[k - reals] = modal::Complex(1.0);
       else
-        unit.pair[k - reals - pairs] = Complex(0.0, 1.0);
+        unit.pair[k - reals - pairs] = modal::Complex(0.0, 1.0);
       const Vector q = in_open_modes(unit);
       for (std::size_t i = 0; i < dofs.size(); ++i)
         out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
@@ -160,7 +161,7 @@ class StateRatesOf {
   }
 
  private:
-  [[nodiscard]] Vector in_open_modes(const Amplitudes& a) const {
+  [[nodiscard]] Vector in_open_modes(const modal::Amplitudes& a) const {
     Vector q;
     spectrum_.from_modes({&a}, {&q});
     return q;
@@ -169,20 +170,20 @@ class StateRatesOf {
   /// Column k of X as real part and, for pairs, imaginary part, of a mode or its conjugate.
   [[nodiscard]] std::vector<Vector> shape(std::size_t k) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
-    Amplitudes unit = spectrum_.zero();
+    modal::Amplitudes unit = spectrum_.zero();
     if (k < reals) {
       unit.real[k] = 1.0;
       return {in_open_modes(unit)};
     }
     const std::size_t j = k < reals + pairs ? k - reals : k - reals - pairs;
-    unit.pair[j] = Complex(0.5);
+    unit.pair[j] = modal::Complex(0.5);
     const Vector real = in_open_modes(unit);
-    unit.pair[j] = Complex(0.0, k < reals + pairs ? -0.5 : 0.5);
+    unit.pair[j] = modal::Complex(0.0, k < reals + pairs ? -0.5 : 0.5);
     return {real, in_open_modes(unit)};
   }
 
   void add_column(const std::vector<Vector>& q, std::size_t k, S factor, Square<S>& out) const {
-    Amplitudes part;
+    modal::Amplitudes part;
     for (std::size_t imaginary = 0; imaginary < q.size(); ++imaginary) {
       spectrum_.to_modes(q[imaginary], part);
       const std::vector<S> x = modes_of<S>(part);
@@ -191,7 +192,7 @@ class StateRatesOf {
     }
   }
   static double quarter_turn(double) { return 0.0; }  // real modes have one part
-  static Complex quarter_turn(Complex a) { return {-a.im, a.re}; }
+  static modal::Complex quarter_turn(modal::Complex a) { return {-a.im, a.re}; }
 
   void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {
     if (open.mass.size() + open.drag.size() + open.stiffness.size() == 0) return;
@@ -214,7 +215,7 @@ class StateRatesOf {
   };
   [[nodiscard]] Seen seen(const Combination& form) const {
     const Vector q = at_.modes.basis().amplitudes_of(form);
-    Amplitudes from, row;
+    modal::Amplitudes from, row;
     spectrum_.to_modes(q, from);
     spectrum_.of_form(q, row);
     return {modes_of<S>(from), modes_of<S>(row)};
@@ -222,7 +223,7 @@ class StateRatesOf {
 
   void add_contacts(const std::vector<ContactRates>& contacts, const TangentSource& source,
                     Square<S>& b) const {
-    const StateModes& state = at_.state;
+    const modal::StateModes& state = at_.state;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const ContactRates& rates = contacts[c];
       const LawRates at =
@@ -248,8 +249,8 @@ class StateRatesOf {
   }
 
   const StateAt at_;
-  const Spectrum& spectrum_;
+  const modal::Spectrum& spectrum_;
   const std::vector<S>& l_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

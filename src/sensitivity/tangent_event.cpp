@@ -8,23 +8,23 @@
 #include "decide/impact.hpp"
 #include "run/physical.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
-ImpactRates impact_rates(ModeSystems& systems, const ModelDerivative& derivative, Mode mode,
-                         const Decision& after, const Vector& v, const Vector& Dv,
-                         const std::vector<double>& surface) {
+ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& derivative,
+                         contact::ContactStates mode, const decide::Decision& after, const Vector& v,
+                         const Vector& Dv, const std::vector<double>& surface) {
   const Model& model = systems.model();
   ImpactRates result;
-  mode = mode_of_impact(model, std::move(mode), after.impulses);
-  const ModeSystemPtr system = systems.of(mode);
+  mode = decide::mode_of_impact(model, std::move(mode), after.impulses);
+  const motion::StateSystemPtr system = systems.of(mode);
   if (!system) return result;
-  const Unknowns& at = system->unknowns();
+  const linear::Unknowns& at = system->unknowns();
   std::vector<double> x(at.size(), 0.0), work(at.size());
   Eigen::Map<Vector> momentum(x.data(), model.size());
   const Vector jump = after.v - v;
   if (derivative.mass.nonZeros() > 0) momentum -= derivative.mass * jump;
   for (std::size_t c = 0; c < mode.size(); ++c) {
-    const Impulse& impulse = after.impulses[c];
+    const decide::Impulse& impulse = after.impulses[c];
     if (!(impulse.normal > 0.0)) continue;
     const Contact& contact = model.contacts[c];
     const ContactRates& rates = derivative.contacts[c];
@@ -44,7 +44,7 @@ ImpactRates impact_rates(ModeSystems& systems, const ModelDerivative& derivative
   result.known = true;
   result.v = Dv;
   for (std::size_t i = 0; i < at.dofs; ++i)
-    if (system->kinds()[i] == DofKind::massive) result.v[static_cast<Eigen::Index>(i)] += x[i];
+    if (system->kinds()[i] == linear::DofKind::massive) result.v[static_cast<Eigen::Index>(i)] += x[i];
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const bool takes = after.impulses[c].normal > 0.0;
     result.normal.push_back(takes ? -x[at.normal(c)] : 0.0);
@@ -85,13 +85,14 @@ double scale_of(const Form& form, const Scales& scales) {
 /// Motion with all components one.
 ContactMotion unit_motion() {
   ContactMotion m;
-  m.N = m.T = m.gap = m.ut = m.vn = m.vt = m.an = m.at = m.pressing = m.pressing_rate = 1.0;
+  m.N = m.T = m.gap = m.ut = m.vn = m.vt = m.an = m.at = m.applied_normal_force =
+      m.applied_normal_force_rate = 1.0;
   return m;
 }
 
-Vector massive(Vector x, const std::vector<DofKind>& kinds) {
+Vector massive(Vector x, const std::vector<linear::DofKind>& kinds) {
   for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (kinds[static_cast<std::size_t>(i)] != DofKind::massive) x[i] = 0.0;
+    if (kinds[static_cast<std::size_t>(i)] != linear::DofKind::massive) x[i] = 0.0;
   return x;
 }
 
@@ -113,12 +114,12 @@ struct TangentEvents::Course {
 
 /// dt/dp from the guard of a contact, if that guard itself reached zero.
 std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) const {
-  const RunInstant& now = course.m.instant;
+  const run::RunInstant& now = course.m.instant;
   const Contact& contact = model_.contacts[c];
   const ContactState& state = now.mode_before[c];
-  const auto forms = guards(contact, state);
-  Crossing crossing;
-  if (const Crossing* failed = now.after.crossing(c)) {
+  const auto forms = contact::guards(contact, state);
+  decide::Crossing crossing;
+  if (const decide::Crossing* failed = now.after.crossing(c)) {
     crossing = *failed;
   } else {
     if (now.after.impulses.empty() || !now.after.impulses[c].hit) return std::nullopt;
@@ -128,8 +129,8 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
     return g.kind != Guard::none && g == crossing.form;
   });
   if (guard == forms.end()) return std::nullopt;  // a guard of an intermediate state
-  const bool fired =
-      std::any_of(now.fired.begin(), now.fired.end(), [&](const Fired& f) { return f.contact == c; });
+  const bool fired = std::any_of(now.triggered.begin(), now.triggered.end(),
+                                 [&](const decide::TriggeredGuard& f) { return f.contact == c; });
   const double value = crossing.form.value(course.m.motion_before[c]);
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
   if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // pushed by another
@@ -137,9 +138,9 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
                             : crossing.form.change(course.m.motion_before[c], course.m.rate_before[c]);
   if (!(rate < 0.0) || rate * rate <= grazes * 2.0 * std::abs(crossing.derivatives[1]) * crossing.noise) {
     if (crosses_grazes_ && is_smooth(course) && !drops_anchor(course, c)) return std::nullopt;
-    course.stop(fmt::format("the {} of contact '{}' grazes: its rate is {:.3g}", to_string(guard->kind),
-                            contact.name,
-                            rate * factor_of(unit_of(crossing.form), model_.unit) / model_.unit.time));
+    course.stop(fmt::format(
+        "the {} of contact '{}' grazes: its rate is {:.3g}", contact::to_string(guard->kind), contact.name,
+        rate * scene::factor_of(contact::unit_of(crossing.form), model_.unit) / model_.unit.time));
     return std::nullopt;
   }
   const Form& form_rate =
@@ -151,7 +152,7 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
 
 /// True if velocities and accelerations of degrees of freedom with mass do not jump.
 bool TangentEvents::is_smooth(const Course& course) const {
-  const std::vector<DofKind>& kinds = course.m.instant.after.system->kinds();
+  const std::vector<linear::DofKind>& kinds = course.m.instant.after.system->kinds();
   const double rate = model_.scales.velocity / model_.scales.displacement;
   return !differ(massive(course.m.before.a, kinds), massive(course.m.after.a, kinds), model_, same_motion,
                  rate * rate) &&
@@ -169,9 +170,9 @@ bool TangentEvents::drops_anchor(const Course& course, std::size_t c) const {
 }
 
 void TangentEvents::find_times(Course& course) const {
-  const RunInstant& now = course.m.instant;
+  const run::RunInstant& now = course.m.instant;
   std::vector<double> times;
-  if (!now.fired.empty() || now.breakpoint)
+  if (!now.triggered.empty() || now.breakpoint)
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       course.own[c] = time_of(course, c);
       if (course.own[c]) times.push_back(*course.own[c]);
@@ -193,13 +194,13 @@ void TangentEvents::find_times(Course& course) const {
 /// Computes the tangent of the state just after.
 void TangentEvents::move_state(Course& course) const {
   const InstantMotion& m = course.m;
-  const RunInstant& now = m.instant;
+  const run::RunInstant& now = m.instant;
   const SeriesPoint& w = course.before.point;
   const double dt = course.after.dt;
   const Vector Du = w.u + dt * m.before.v;
   Vector Dv = w.v + dt * m.before.a;
   const bool hit = std::any_of(now.after.impulses.begin(), now.after.impulses.end(),
-                               [](const Impulse& i) { return i.normal > 0.0; });
+                               [](const decide::Impulse& i) { return i.normal > 0.0; });
   if (hit) {
     std::vector<double> surface;
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
@@ -241,8 +242,8 @@ void TangentEvents::move_anchors(Course& course) const {
     double T = before.T, DT = D.T;
     for (const int s : {1, -1}) {
       if (matches(T)) break;
-      T = -s * kinetic_friction(contact) * before.N;
-      DT = -s * (rates.friction.kinetic * before.N + kinetic_friction(contact) * D.N);
+      T = -s * contact::kinetic_friction(contact) * before.N;
+      DT = -s * (rates.friction.kinetic * before.N + contact::kinetic_friction(contact) * D.N);
     }
     if (!matches(T))
       return course.stop(
@@ -284,19 +285,19 @@ void TangentEvents::look_at_holds(Course& course) const {
 /// A guard that is zero afterwards, but not for other values of the parameter, is reached on one side only: a kink.
 void TangentEvents::look_for_kinks(Course& course) const {
   const InstantMotion& m = course.m;
-  const Decision& decision = m.instant.after;
+  const decide::Decision& decision = m.instant.after;
   const Vector &w = course.after.point.u, &wv = course.after.point.v;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
-    const GuardStart& guard = decision.guards[slot];
+    const decide::GuardStart& guard = decision.guards[slot];
     const Form& form = decision.form(slot);  // laws with products are refused (contact_rates.hpp)
     if (guard.kind == Guard::none || !guard.at_zero || form.an != 0.0) continue;
-    const std::size_t c = contact_of_guard(slot);
+    const std::size_t c = contact::contact_of_guard(slot);
     const Contact& contact = model_.contacts[c];
     const double dt = course.dt_of(c);
     const ContactMotion p = parameter_rate(contact, derivative_.contacts[c], model_.layout, c, m.after,
                                            course.after.point, course.after.driven[c]);
     const Form& form_rate =
-        derivative_.contacts[c].guards[index_of(decision.mode[c].state)][guard_within(slot)];
+        derivative_.contacts[c].guards[index_of(decision.mode[c].state)][contact::guard_within(slot)];
     const ContactMotion D = sum(p, m.rate_after[c], dt);
     const double value = form_rate.value(m.motion_after[c]) + form.rate(D);
     ContactMotion terms = p;
@@ -313,7 +314,7 @@ void TangentEvents::look_for_kinks(Course& course) const {
       continue;
     return course.stop(fmt::format(
         "the {} of contact '{}' is zero here for this value only: derivatives from both sides differ",
-        to_string(guard.kind), contact.name));
+        contact::to_string(guard.kind), contact.name));
   }
 }
 
@@ -362,9 +363,9 @@ TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefor
   if (course.after.reason.empty()) move_anchors(course);
   if (!course.after.reason.empty()) return std::move(course.after);
   const double t = motion.instant.t;
-  const ForcingRates forcing(model_, derivative_, t, Side::after);
+  const ForcingRates forcing(model_, derivative_, t, motion::Side::after);
   series.expand_to(*motion.instant.after.jet.system, motion.series_after, forcing, course.after.start,
-                   has_massless(model_) ? 2 : 0);
+                   linear::has_massless(model_) ? 2 : 0);
   course.after.point = series.at(0.0);
   for (std::size_t c = 0; c < count; ++c)
     course.after.driven.push_back(driven_rates(series.forcing(), series.scale(), c, 0.0));
@@ -374,4 +375,4 @@ TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefor
   return std::move(course.after);
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -21,7 +21,7 @@
 #include "sensitivity/contact_rates.hpp"
 #include "sensitivity/model_derivative.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 // Derivative of the velocities after an impact.
 //
@@ -38,15 +38,16 @@ struct ImpactRates {
 };
 
 /// v, Dv: just before. surface: Ds' of every contact. mode: before the impact.
-[[nodiscard]] ImpactRates impact_rates(ModeSystems& systems, const ModelDerivative& derivative, Mode mode,
-                                       const Decision& after, const Vector& v_before, const Vector& Dv_before,
+[[nodiscard]] ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& derivative,
+                                       contact::ContactStates mode, const decide::Decision& after,
+                                       const Vector& v_before, const Vector& Dv_before,
                                        const std::vector<double>& surface);
 
 /// The motion just before an instant, and just after it.
 struct InstantMotion {
-  const RunInstant& instant;
+  const run::RunInstant& instant;
   const SeriesPoint &before, &after;
-  const Series& series_after;  ///< around the instant, with scale 1
+  const motion::Series& series_after;  ///< around the instant, with scale 1
   std::vector<ContactMotion> motion_before, rate_before, motion_after, rate_after;  ///< one per contact
 };
 
@@ -71,8 +72,8 @@ struct TangentAfter {
 class TangentEvents {
  public:
   /// All arguments must outlive the object. size: size of the parameter, for zero tests.
-  TangentEvents(const Model& model, ModeSystems& systems, const ModelDerivative& derivative, double size,
-                double t_end)
+  TangentEvents(const Model& model, motion::StateSystems& systems, const ModelDerivative& derivative,
+                double size, double t_end)
       : model_(model),
         systems_(systems),
         derivative_(derivative),
@@ -98,11 +99,11 @@ class TangentEvents {
   void fill_rates(Course& course) const;
 
   const Model& model_;
-  ModeSystems& systems_;
+  motion::StateSystems& systems_;
   const ModelDerivative& derivative_;
   double size_;   // size of the parameter
   double least_;  // limit of rates of times that count as zero
   bool crosses_grazes_ = false;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -7,7 +7,7 @@
 #include "run/audit.hpp"
 #include "run/engines.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 constexpr Eigen::Index fewest_modal = 16;  // same reason as in run/choose_engine.hpp: below, the series is as
@@ -16,8 +16,8 @@ constexpr int most_turn_steps = 6;
 constexpr std::size_t forcing_terms = 6;  // for a constant, all but the first are zero
 
 /// Series around an instant, with scale 1, from derivatives.
-Series series_of(const Jet& jet, const Forcing& forcing) {
-  Series s;
+motion::Series series_of(const motion::Jet& jet, const motion::Forcing& forcing) {
+  motion::Series s;
   s.t = jet.t;
   s.levels = static_cast<int>(jet.forces.cols()) - 1;
   s.u = jet.u;
@@ -55,20 +55,20 @@ TangentRun::TangentRun(const Model& model, const RunSpec& run,
       losses_(losses),
       series_(model, systems_, data_, losses),
       followed_(model, structure_, systems_, run),
-      closed_flow_(engine_row(run.engine).can.closed_flow) {
+      closed_flow_(run::engine_row(run.engine).can.closed_flow) {
   states_.reserve(derivatives.size());
   for (std::size_t p = 0; p < derivatives.size(); ++p) {
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
     if (!losses) continue;
     states_.back().works.emplace(model, derivatives[p]);
-    states_.back().losses.emplace(model, derivatives[p], moves_at_once(model));
+    states_.back().losses.emplace(model, derivatives[p], run::moves_at_once(model));
   }
   if (!losses && model.size() >= fewest_modal && model.size() <= most_modal_tangents &&
-      proportional_refusal(model).empty())
+      modal::proportional_refusal(model).empty())
     modal_.emplace(model, data_, run.output_dt.value_or(0.0));
 }
 
-void TangentRun::begin(const RunInstant& start) {
+void TangentRun::begin(const run::RunInstant& start) {
   end_.u = model_.u0;
   end_.v = model_.v0;
   end_.a = Vector::Zero(model_.size());
@@ -76,7 +76,7 @@ void TangentRun::begin(const RunInstant& start) {
   for (TangentState& state : states_) {
     const ModelDerivative& d = state.derivative;
     ForcingRatesSeries series;
-    ForcingRates(model_, d, 0.0, Side::after).expand(0.0, 1.0, 3, series);
+    ForcingRates(model_, d, 0.0, motion::Side::after).expand(0.0, 1.0, 3, series);
     SeriesPoint& w = state.now.point;
     w.u = d.u0;
     w.v = d.v0;
@@ -102,11 +102,11 @@ void TangentRun::begin(const RunInstant& start) {
 }
 
 /// Starts the stretch that begins here in modes, if they can follow it.
-bool TangentRun::starts_in_modes(const RunStep& step) {
+bool TangentRun::starts_in_modes(const run::RunStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
-  ModalSystem* modes = share_->modes != nullptr ? share_->modes : followed_.modes();
+  modal::ModalSystem* modes = share_->modes != nullptr ? share_->modes : followed_.modes();
   if (modes == nullptr) return false;
-  const Decision& from = foreign_ ? followed_.stretch() : step.decision;
+  const decide::Decision& from = foreign_ ? followed_.stretch() : step.decision;
   std::vector<TangentSource> sources(states_.size());
   for (std::size_t p = 0; p < states_.size(); ++p) {
     if (!states_[p].alive) continue;
@@ -117,7 +117,7 @@ bool TangentRun::starts_in_modes(const RunStep& step) {
 }
 
 /// True if flow_ crosses the stretch in closed form: tangents by the state alone.
-bool TangentRun::crosses(const RunStep& step) {
+bool TangentRun::crosses(const run::RunStep& step) {
   if (flow_ == nullptr || !closed_flow_ || !flow_->knows(step.decision.mode)) return false;
   crossed_ = step.decision.mode;
   foreign_ = false;
@@ -132,7 +132,7 @@ void TangentRun::cross(double t) {
   begin_ = t;
 }
 
-TangentRun::Way TangentRun::way_of(const RunStep& step) {
+TangentRun::Way TangentRun::way_of(const run::RunStep& step) {
   if (crosses(step)) return Way::closed;
   const bool knew = !foreign_;
   foreign_ = share_->modes == nullptr && step.facts.expansion.series == nullptr;
@@ -149,7 +149,7 @@ TangentRun::Way TangentRun::way_of(const RunStep& step) {
   return modes ? Way::own_modes : Way::own_series;
 }
 
-void TangentRun::step(const RunStep& step) {
+void TangentRun::step(const run::RunStep& step) {
   if (way_ == Way::unknown) {
     way_ = way_of(step);
     const bool in_modes = way_ == Way::modes || way_ == Way::own_modes || way_ == Way::closed;
@@ -159,7 +159,7 @@ void TangentRun::step(const RunStep& step) {
   if (way_ == Way::series || way_ == Way::modes) observe(step);
 }
 
-void TangentRun::observe(const RunStep& step) {
+void TangentRun::observe(const run::RunStep& step) {
   if (way_ == Way::series || way_ == Way::own_series)
     observe_series(step);
   else
@@ -169,11 +169,11 @@ void TangentRun::observe(const RunStep& step) {
 /// Follows the stretch that has ended at t.
 void TangentRun::follow(double t) {
   if (!is_followed() || t <= followed_.t()) return;
-  Stepper& engine = followed_.engine(way_ == Way::own_modes);
+  engine::Stepper& engine = followed_.engine(way_ == Way::own_modes);
   engine.start({t, &followed_.stretch(), &followed_.forcing()});
   for (;;) {
-    const Step step = engine.advance();
-    if (step.kind == Step::Kind::failed) {
+    const engine::Step step = engine.advance();
+    if (step.kind == engine::Step::Kind::failed) {
       for (TangentState& state : states_)
         if (std::exchange(state.alive, false)) {
           state.until = step.begin;
@@ -181,7 +181,7 @@ void TangentRun::follow(double t) {
         }
       return;
     }
-    const StepFacts facts = engine.dense_output().facts();
+    const engine::StepFacts facts = engine.dense_output().facts();
     observe({step, facts, followed_.stretch(), followed_.forcing(), engine.dense_output()});
     if (step.end >= t) return;
   }
@@ -205,28 +205,29 @@ void TangentRun::arrive(double t) {
 }
 
 /// State just before an instant of an engine that was followed: its own u and v, with the forces of the contact state.
-SeriesPoint TangentRun::just_before(const RunInstant& instant) {
-  const ModeSystemPtr system = systems_.of(instant.mode_before);
+SeriesPoint TangentRun::just_before(const run::RunInstant& instant) {
+  const motion::StateSystemPtr system = systems_.of(instant.mode_before);
   if (!system) return end_;
-  Taylor taylor(systems_);
-  Series series;
+  motion::Taylor taylor(systems_);
+  motion::Series series;
   const int levels = taylor.massless() ? 4 : 2;
   taylor.expand(system, instant.forcing_before, instant.t, instant.after.u, instant.v_before, levels, 1.0,
                 series);
   return point_at(series.u, series.forces, 1.0, 2, 0.0);
 }
 
-std::vector<WantedPlace> TangentRun::wanted(const RunStep& step, std::span<const double> turns) {
-  std::vector<WantedPlace> list;
+std::vector<RequestedPlace> TangentRun::wanted(const run::RunStep& step, std::span<const double> turns) {
+  std::vector<RequestedPlace> list;
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_)
     list.push_back({grid_[next_], 0.0, true, false});
   for (const double t : turns) list.push_back({t, 0.0, false, true});
-  std::sort(list.begin(), list.end(), [](const WantedPlace& a, const WantedPlace& b) { return a.t < b.t; });
+  std::sort(list.begin(), list.end(),
+            [](const RequestedPlace& a, const RequestedPlace& b) { return a.t < b.t; });
   return list;
 }
 
 /// Newton's method on the rate, starting at the turning point found by the engine, which resolves slow modes only.
-double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const RunStep& step) const {
+double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const run::RunStep& step) const {
   double at = t;
   for (int i = 0; i < most_turn_steps; ++i) {
     const TangentsAt here = modal_->motion(at);
@@ -242,7 +243,7 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const R
 }
 
 /// Places at which a quantity turns beyond all its earlier values.
-std::vector<double> TangentRun::turns_in_modes(const RunStep& step) const {
+std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
   std::vector<double> turns;
   for (const double t : step.facts.turning_points) {
     if (t < step.step.begin || t > step.step.end) continue;
@@ -259,9 +260,9 @@ std::vector<double> TangentRun::turns_in_modes(const RunStep& step) const {
   return turns;
 }
 
-void TangentRun::observe_modes(const RunStep& step) {
+void TangentRun::observe_modes(const run::RunStep& step) {
   const std::vector<double> turns = turns_in_modes(step);
-  for (const WantedPlace& output : wanted(step, turns)) {
+  for (const RequestedPlace& output : wanted(step, turns)) {
     TangentsAt at = modal_->at(output.t, false);
     TangentSample sample{output.t,
                          step.forcing,
@@ -279,18 +280,18 @@ void TangentRun::observe_modes(const RunStep& step) {
   }
 }
 
-void TangentRun::observe_series(const RunStep& step) {
-  const Expansion& e = step.facts.expansion;
+void TangentRun::observe_series(const run::RunStep& step) {
+  const engine::Expansion& e = step.facts.expansion;
   std::vector<double> turns(step.facts.turning_points.begin(), step.facts.turning_points.end());
   if (losses_) {
     const std::vector<double> more = pressing_turns(model_, step);
     turns.insert(turns.end(), more.begin(), more.end());
   }
-  std::vector<WantedPlace> places = wanted(step, turns);
-  for (WantedPlace& output : places)
+  std::vector<RequestedPlace> places = wanted(step, turns);
+  for (RequestedPlace& output : places)
     output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
   std::vector<TangentSample> samples;
-  for (const WantedPlace& output : places) {
+  for (const RequestedPlace& output : places) {
     samples.push_back({output.t, step.forcing, step.decision.mode,
                        point_at(e.series->u, e.series->forces, e.series->scale, e.degree, output.x),
                        output.turn ? force_bends(*e.series, e.degree, output.x) : Vector(),
@@ -306,7 +307,7 @@ void TangentRun::observe_series(const RunStep& step) {
   end_ = point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
 }
 
-void TangentRun::instant(const RunInstant& instant) {
+void TangentRun::instant(const run::RunInstant& instant) {
   if (foreign_) {
     follow_instant(instant);
   } else {
@@ -318,7 +319,7 @@ void TangentRun::instant(const RunInstant& instant) {
 }
 
 /// Instant of an engine without series: at the time and in the state of the followed motion.
-void TangentRun::follow_instant(const RunInstant& instant) {
+void TangentRun::follow_instant(const run::RunInstant& instant) {
   std::optional<double> t;
   if (is_followed())
     t = followed_.time_of(instant, [&](double at) {
@@ -326,7 +327,7 @@ void TangentRun::follow_instant(const RunInstant& instant) {
     });
   const bool moves = is_followed() && t.value_or(instant.t) > followed_.t();
   if (moves) arrive(t.value_or(instant.t));
-  const RunInstant seen = moves && t ? followed_.pass(instant, *t, end_) : followed_.take(instant);
+  const run::RunInstant seen = moves && t ? followed_.pass(instant, *t, end_) : followed_.take(instant);
   if (moves) end_ = just_before(seen);
   pass(seen);
 }
@@ -338,15 +339,15 @@ Stretches TangentRun::stretches() const {
   return all;
 }
 
-void TangentRun::end(const RunPoint& last, const StepperReport& /*engine*/) {
+void TangentRun::end(const run::RunPoint& last, const engine::StepperReport& /*engine*/) {
   follow(last.t);
   cross(last.t);
 }
 
-void TangentRun::pass(const RunInstant& instant) {
-  const Jet& jet = instant.after.jet;
+void TangentRun::pass(const run::RunInstant& instant) {
+  const motion::Jet& jet = instant.after.jet;
   const SeriesPoint after{instant.after.u, instant.after.v, jet.a(), jet.forces.col(0), jet.forces.col(1)};
-  const Series series = series_of(jet, instant.forcing_after);
+  const motion::Series series = series_of(jet, instant.forcing_after);
   InstantMotion motion{instant, end_, after, series, {}, {}, {}, {}};
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
@@ -377,7 +378,7 @@ void TangentRun::pass(const RunInstant& instant) {
       state.impulses = next.impulse_n;
     }
     state.now = {std::move(next.start), std::move(next.point), std::move(next.driven)};
-    state.forcing.emplace(model_, state.derivative, instant.t, Side::after);
+    state.forcing.emplace(model_, state.derivative, instant.t, motion::Side::after);
   }
   listener_.at_instant(motion, states_);
   rows_at(instant, after);
@@ -386,7 +387,7 @@ void TangentRun::pass(const RunInstant& instant) {
 }
 
 /// An output row at the instant itself contains the values just after.
-void TangentRun::rows_at(const RunInstant& instant, const SeriesPoint& after) {
+void TangentRun::rows_at(const run::RunInstant& instant, const SeriesPoint& after) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{grid_[next_], instant.forcing_after, instant.after.mode, after, {}, {}, {}, {}};
     for (const TangentState& state : states_) {
@@ -414,7 +415,7 @@ void LandingRecord::begin(std::size_t c, const std::vector<double>& start,
                           const std::vector<TangentState>& states) {
   Stay& stay = all_[c].emplace_back();
   stay.landing.contact = static_cast<int>(c);
-  stay.from = of_each(states, [&](const TangentState& s) { return s.along.works.pressing[c]; });
+  stay.from = of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
   for (const double t : start) stay.landing.rates.push_back({t, t, 0.0, 0.0});
 }
 
@@ -436,7 +437,7 @@ void LandingRecord::turn(const TangentSample& s) {
 }
 
 void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentState>& states) {
-  const Decision& decision = m.instant.after;
+  const decide::Decision& decision = m.instant.after;
   for (std::size_t c = 0; c < all_.size(); ++c) {
     if (model_.contacts[c].normal_force_given()) continue;
     const bool was = !m.instant.mode_before[c].is_open(), is = !decision.mode[c].is_open();
@@ -448,7 +449,8 @@ void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentSta
     lasts_[c] = is;
     if (!was && !is && !(pushed > 0.0)) continue;
     Stay& stay = all_[c].back();
-    const auto work = of_each(states, [&](const TangentState& s) { return s.along.works.pressing[c]; });
+    const auto work =
+        of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
     for (std::size_t p = 0; p < parameters_; ++p) {
       LandingRates& rates = stay.landing.rates[p];
       rates.end = t[p];
@@ -469,7 +471,7 @@ std::vector<std::vector<MovingLanding>> LandingRecord::finish(const std::vector<
     if (!lasts_[c]) continue;
     const Stay& last = all_[c].back();
     const auto work =
-        of_each(states, [&](const TangentState& s) { return s.works->now().works.pressing[c]; });
+        of_each(states, [&](const TangentState& s) { return s.works->now().works.applied_normal_force[c]; });
     for (std::size_t p = 0; p < parameters_; ++p) {
       LandingRates& rates = result[c].back().rates[p];
       rates.end = states[p].alive ? 0.0 : EventRates::none;
@@ -479,4 +481,4 @@ std::vector<std::vector<MovingLanding>> LandingRecord::finish(const std::vector<
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -22,9 +22,9 @@
 #include "sensitivity/tangent_state.hpp"
 #include "signorini/sensitivity.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
-class TangentRun final : public RunListener {
+class TangentRun final : public run::RunListener {
  public:
   /// model, run: in the machine's units. All arguments except sizes must outlive the object.
   TangentRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
@@ -34,18 +34,18 @@ class TangentRun final : public RunListener {
   void cross_by(StateFlow& flow) { flow_ = &flow; }
   /// For an observer that forwards to another one: the modal data that the engine shares with it. Must outlive this
   /// object.
-  void listens_with(const ModalShare& share) { share_ = &share; }
+  void listens_with(const modal::ModalShare& share) { share_ = &share; }
   /// For derivatives of states alone: crosses grazing events without jumps (tangent_event.hpp).
   void cross_smooth_grazes() {
     for (TangentState& state : states_) state.events.cross_smooth_grazes();
   }
 
   /// Data that the engine of the run has to provide.
-  [[nodiscard]] ListenerNeeds needs() { return {&own_share_}; }
-  void begin(const RunInstant& start) override;
-  void step(const RunStep& step) override;
-  void instant(const RunInstant& instant) override;
-  void end(const RunPoint& last, const StepperReport& engine) override;
+  [[nodiscard]] run::ListenerNeeds needs() { return {&own_share_}; }
+  void begin(const run::RunInstant& start) override;
+  void step(const run::RunStep& step) override;
+  void instant(const run::RunInstant& instant) override;
+  void end(const run::RunPoint& last, const engine::StepperReport& engine) override;
 
   [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
   [[nodiscard]] Stretches stretches() const;
@@ -53,27 +53,28 @@ class TangentRun final : public RunListener {
  private:
   /// Method for the stretch after an instant; the last two once its end is known.
   enum class Way { unknown, series, modes, own_series, own_modes, closed };
-  [[nodiscard]] Way way_of(const RunStep& step);
-  [[nodiscard]] bool starts_in_modes(const RunStep& step);
-  void observe(const RunStep& step);
-  void observe_modes(const RunStep& step);
-  void observe_series(const RunStep& step);
-  [[nodiscard]] bool crosses(const RunStep& step);
+  [[nodiscard]] Way way_of(const run::RunStep& step);
+  [[nodiscard]] bool starts_in_modes(const run::RunStep& step);
+  void observe(const run::RunStep& step);
+  void observe_modes(const run::RunStep& step);
+  void observe_series(const run::RunStep& step);
+  [[nodiscard]] bool crosses(const run::RunStep& step);
   void follow(double t);
   void cross(double t);
   void arrive(double t);
   [[nodiscard]] bool is_followed() const { return way_ == Way::own_series || way_ == Way::own_modes; }
-  void follow_instant(const RunInstant& instant);
-  [[nodiscard]] SeriesPoint just_before(const RunInstant& instant);
-  [[nodiscard]] std::vector<WantedPlace> wanted(const RunStep& step, std::span<const double> turns);
-  [[nodiscard]] std::vector<double> turns_in_modes(const RunStep& step) const;
-  [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which, const RunStep& step) const;
-  void pass(const RunInstant& instant);
-  void rows_at(const RunInstant& instant, const SeriesPoint& after);
+  void follow_instant(const run::RunInstant& instant);
+  [[nodiscard]] SeriesPoint just_before(const run::RunInstant& instant);
+  [[nodiscard]] std::vector<RequestedPlace> wanted(const run::RunStep& step, std::span<const double> turns);
+  [[nodiscard]] std::vector<double> turns_in_modes(const run::RunStep& step) const;
+  [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which,
+                                 const run::RunStep& step) const;
+  void pass(const run::RunInstant& instant);
+  void rows_at(const run::RunInstant& instant, const SeriesPoint& after);
 
   const Model& model_;
-  Structure structure_;
-  ModeSystems systems_;
+  linear::SystemMatrices structure_;
+  motion::StateSystems systems_;
   TangentListener& listener_;
   std::vector<TangentState> states_;
   std::vector<double> grid_;
@@ -84,15 +85,15 @@ class TangentRun final : public RunListener {
   SeriesTangents series_;
   FollowedMotion followed_;
   Way way_ = Way::unknown;
-  ModalShare own_share_;
-  const ModalShare* share_ = &own_share_;
+  modal::ModalShare own_share_;
+  const modal::ModalShare* share_ = &own_share_;
   bool foreign_ = false;  ///< the engine makes no series
   Stretches stretches_;
   SeriesPoint end_;  ///< motion just before the next instant
   StateFlow* flow_ = nullptr;
-  Mode crossed_;        ///< contact states of the stretch that flow_ crosses
-  double begin_ = 0.0;  ///< beginning of the stretch
-  bool closed_flow_;    ///< EngineAbilities::closed_flow of the run's engine
+  contact::ContactStates crossed_;  ///< contact states of the stretch that flow_ crosses
+  double begin_ = 0.0;              ///< beginning of the stretch
+  bool closed_flow_;                ///< EngineAbilities::closed_flow of the run's engine
 };
 
 // Derivatives of contact phases (run/touch_tracker.hpp) by the parameters.
@@ -126,4 +127,4 @@ class LandingRecord {
   bool begun_ = false;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

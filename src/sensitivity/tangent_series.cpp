@@ -5,17 +5,17 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 // Relative to the tangent at the beginning: a larger term costs digits of the sum. Chosen value: three digits.
 constexpr double most_cancelling = 1e3;
 // Relative to the tangent: limit of the last terms of a series; ten thousand steps accumulate as their square root.
 // Chosen value.
-constexpr double left_out = 1e-14;
+constexpr double truncation_error = 1e-14;
 constexpr int first_terms = 3;  // terms that determine the size of the series
 
-std::size_t index_in(const Series& series, std::size_t contact, int order) {
+std::size_t index_in(const motion::Series& series, std::size_t contact, int order) {
   return contact * series.forcing.count + static_cast<std::size_t>(order);
 }
 
@@ -83,7 +83,8 @@ std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::Matrix
   return points;
 }
 
-void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out) {
+void recentre(const motion::Series& series, const motion::Forcing& forcing, double x, double part,
+              motion::Series& out) {
   // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
   const Eigen::Index columns = series.u.cols(), known = series.levels + 1;  // forces beyond are arbitrary
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(columns, columns);
@@ -103,12 +104,12 @@ void recentre(const Series& series, const Forcing& forcing, double x, double par
   forcing.expand(out.t, out.scale, static_cast<std::size_t>(columns), out.forcing);
 }
 
-TangentSeries::TangentSeries(const Model& model, const Structure& structure,
+TangentSeries::TangentSeries(const Model& model, const linear::SystemMatrices& structure,
                              const ModelDerivative& derivative, double size)
     : model_(model),
       structure_(structure),
       derivative_(derivative),
-      massless_(has_massless(model)),
+      massless_(linear::has_massless(model)),
       matrices_(derivative.mass.nonZeros() + derivative.damping.nonZeros() + derivative.stiffness.nonZeros() >
                 0),
       forms_(std::any_of(derivative.contacts.begin(), derivative.contacts.end(),
@@ -122,8 +123,8 @@ TangentSeries::TangentSeries(const Model& model, const Structure& structure,
     scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
 }
 
-void TangentSeries::begin(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
-                          const Tangent& start) {
+void TangentSeries::begin(const motion::StateSystem& system, const motion::Series& motion,
+                          const ForcingRates& forcing, const Tangent& start) {
   system_ = &system;
   motion_ = &motion;
   start_ = &start;
@@ -135,11 +136,13 @@ void TangentSeries::begin(const ModeSystem& system, const Series& motion, const 
   forcing.expand(motion.t, motion.scale, motion.forcing.count, forcing_);
   friction_.clear();
   for (const std::size_t c : system.factorised().by_rate)
-    friction_.emplace_back(c, FrictionTangent(model_.contacts[c].friction, derivative_.contacts[c].friction,
-                                              slip_sign(system.mode()[c].state)));
+    friction_.emplace_back(
+        c, contact::FrictionTangent(model_.contacts[c].friction, derivative_.contacts[c].friction,
+                                    slip_sign(system.mode()[c].state)));
   u_.col(0) = start.u;
   for (Eigen::Index i = 0; i < start.u.size(); ++i)
-    if (system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive) u_(i, 1) = scale_ * start.v[i];
+    if (system.kinds()[static_cast<std::size_t>(i)] == linear::DofKind::massive)
+      u_(i, 1) = scale_ * start.v[i];
 }
 
 /// The largest entry, rotations and displacements relative to the scales of the scene.
@@ -150,8 +153,8 @@ double TangentSeries::size_of(const Eigen::Ref<const Vector>& x) const {
   return size;
 }
 
-bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
-                           const Tangent& start, double x, int levels) {
+bool TangentSeries::expand(const motion::StateSystem& system, const motion::Series& motion,
+                           const ForcingRates& forcing, const Tangent& start, double x, int levels) {
   begin(system, motion, forcing, start);
   for (int k = 0; k <= std::min(levels, motion.levels); ++k) level(k);
   double first = 0.0, greatest = 0.0, power = 1.0, rounded = 0.0, last = 0.0;
@@ -166,7 +169,7 @@ bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const
       rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
     last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
-    if (last <= left_out * std::max(first, greatest) + nothing_) break;
+    if (last <= truncation_error * std::max(first, greatest) + nothing_) break;
     if (levels_ == most_tangent_levels) return false;
   }
   // Omitted terms count in velocities as often as their degree.
@@ -176,8 +179,8 @@ bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const
   return greatest <= most_cancelling * size_of(at(x).u);  // it may start from zero
 }
 
-void TangentSeries::expand_to(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
-                              const Tangent& start, int levels) {
+void TangentSeries::expand_to(const motion::StateSystem& system, const motion::Series& motion,
+                              const ForcingRates& forcing, const Tangent& start, int levels) {
   begin(system, motion, forcing, start);
   for (int k = 0; k <= levels; ++k) level(k);
 }
@@ -205,8 +208,8 @@ void TangentSeries::add_sources(int k) {
 
 /// Right-hand sides of the contacts' rows at order k.
 void TangentSeries::add_rows(int k) {
-  const Unknowns& at = system_->unknowns();
-  const Series& s = *motion_;
+  const linear::Unknowns& at = system_->unknowns();
+  const motion::Series& s = *motion_;
   const bool source = k <= s.levels;
   const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
   for (std::size_t c = 0; c < at.contacts; ++c) {
@@ -225,21 +228,22 @@ void TangentSeries::add_rows(int k) {
       ContactMotion m;
       m.N = s.forces(static_cast<Eigen::Index>(model_.layout.normal(c)), k);
       m.T = s.forces(static_cast<Eigen::Index>(model_.layout.tangent(c)), k);
-      m.gap = gap_coefficient(contact, s, static_cast<std::size_t>(k));
-      m.ut = ut_coefficient(contact, c, s, static_cast<std::size_t>(k));
+      m.gap = motion::gap_coefficient(contact, s, static_cast<std::size_t>(k));
+      m.ut = motion::ut_coefficient(contact, c, s, static_cast<std::size_t>(k));
       m.vn = to_velocity * contact.normal.dot(v);
-      m.vt = to_velocity * ut_coefficient(contact, c, s, static_cast<std::size_t>(k) + 1);
+      m.vt = to_velocity * motion::ut_coefficient(contact, c, s, static_cast<std::size_t>(k) + 1);
       m.an = to_acceleration * contact.normal.dot(a);
-      m.at = to_acceleration * ut_coefficient(contact, c, s, static_cast<std::size_t>(k) + 2);
-      m.pressing = s.forcing.pressing[f];
-      m.pressing_rate = to_velocity * s.forcing.pressing[f + 1];
+      m.at = to_acceleration * motion::ut_coefficient(contact, c, s, static_cast<std::size_t>(k) + 2);
+      m.applied_normal_force = s.forcing.applied_normal_force[f];
+      m.applied_normal_force_rate = to_velocity * s.forcing.applied_normal_force[f + 1];
       const Rows& row_rates = rates.rows[index_of(state.state)];
       r += row_rates.normal.rate(m);
-      if (!slips_nonlinearly(contact, state.state)) q += row_rates.tangent.rate(m);
+      if (!contact::slips_nonlinearly(contact, state.state)) q += row_rates.tangent.rate(m);
       const std::size_t p = c * forcing_.count + static_cast<std::size_t>(k);
       const double* surface = forcing_.surface.data() + p;
       r += normal.gap * rates.normal.dot(u) + normal.vn * to_velocity * rates.normal.dot(v) +
-           normal.an * to_acceleration * rates.normal.dot(a) + normal.pressing * forcing_.pressing[p];
+           normal.an * to_acceleration * rates.normal.dot(a) +
+           normal.applied_normal_force * forcing_.applied_normal_force[p];
       q += tangent.ut * (rates.tangent.dot(u) - surface[0]) +
            tangent.vt * to_velocity * (rates.tangent.dot(v) - surface[1]) +
            tangent.at * to_acceleration * (rates.tangent.dot(a) - surface[2]);
@@ -263,7 +267,7 @@ void TangentSeries::add_friction(int k) {
     const ContactRates& rates = derivative_.contacts[c];
     double rate = 0.0, slip = model_.contacts[c].tangent.dot(u_.col(k + 1));
     if (k <= motion_->levels) {
-      rate = ut_coefficient(model_.contacts[c], c, *motion_, level + 1);
+      rate = motion::ut_coefficient(model_.contacts[c], c, *motion_, level + 1);
       slip += rates.tangent.dot(motion_->u.col(k + 1)) - forcing_.surface[c * forcing_.count + level + 1];
     }
     const auto row = static_cast<Eigen::Index>(model_.layout.normal(c));
@@ -280,14 +284,14 @@ void TangentSeries::add_friction(int k) {
 void TangentSeries::level(int k) {
   const std::size_t n = known_u_.size();
   const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
-  const std::vector<DofKind>& kinds = system_->kinds();
+  const std::vector<linear::DofKind>& kinds = system_->kinds();
   for (std::size_t i = 0; i < n; ++i) {
     const auto e = static_cast<Eigen::Index>(i);
-    known_u_[i] = kinds[i] == DofKind::algebraic ? 0.0 : u_(e, k);
-    known_v_[i] = kinds[i] == DofKind::massive ? to_velocity * u_(e, k + 1) : 0.0;
+    known_u_[i] = kinds[i] == linear::DofKind::algebraic ? 0.0 : u_(e, k);
+    known_v_[i] = kinds[i] == linear::DofKind::massive ? to_velocity * u_(e, k + 1) : 0.0;
     x_[i] = 0.0;
   }
-  for (const UndampedMotion& motion : system_->undamped())
+  for (const linear::UndampedMotion& motion : system_->undamped())
     for (const auto& [dof, factor] : motion.others)
       known_u_[static_cast<std::size_t>(dof)] -= factor * u_(motion.dof, k);
   structure_.subtract_forces(known_v_.data(), known_u_.data(), x_.data());
@@ -298,17 +302,17 @@ void TangentSeries::level(int k) {
   ++solves_;
   for (std::size_t i = 0; i < n; ++i) {
     const auto e = static_cast<Eigen::Index>(i);
-    if (kinds[i] == DofKind::massive)
+    if (kinds[i] == linear::DofKind::massive)
       u_(e, k + 2) = x_[i] / to_acceleration;
-    else if (kinds[i] == DofKind::damped)
+    else if (kinds[i] == linear::DofKind::damped)
       u_(e, k + 1) = x_[i] / to_velocity;
     else
       u_(e, k) = x_[i];
   }
-  for (const UndampedMotion& motion : system_->undamped())
+  for (const linear::UndampedMotion& motion : system_->undamped())
     for (const auto& other : motion.others)
       u_(other.first, k) = known_u_[static_cast<std::size_t>(other.first)];
-  for (const UndampedMotion& motion : system_->undamped())
+  for (const linear::UndampedMotion& motion : system_->undamped())
     for (const auto& [dof, factor] : motion.others)
       u_(dof, k) += factor * x_[static_cast<std::size_t>(motion.dof)];
   std::copy(x_.begin() + static_cast<std::ptrdiff_t>(n), x_.end(), forces_.col(k).data());
@@ -324,4 +328,4 @@ std::vector<SeriesPoint> TangentSeries::at(const std::vector<double>& x,
   return points_at(u_, forces_, scale_, static_cast<std::size_t>(std::max(levels_ - late(), 0)), x, dofs);
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -16,7 +16,7 @@
 #include "sensitivity/forcing_rates.hpp"
 #include "sensitivity/model_derivative.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 /// Tangents of u and v at one instant, and of the anchors, by one parameter.
 struct Tangent {
@@ -38,7 +38,8 @@ struct SeriesPoint {
 
 /// Converts a series around t to one around t + scale x, whose half-width is the fraction `part`; the forcing is
 /// expanded again.
-void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out);
+void recentre(const motion::Series& series, const motion::Forcing& forcing, double x, double part,
+              motion::Series& out);
 
 class TangentSeries {
  public:
@@ -47,15 +48,15 @@ class TangentSeries {
 
   /// All arguments except size must outlive the object; size: size of the parameter. A change below eps of a scale's
   /// displacement for a change of the parameter by its size is zero.
-  TangentSeries(const Model& model, const Structure& structure, const ModelDerivative& derivative,
-                double size);
+  TangentSeries(const Model& model, const linear::SystemMatrices& structure,
+                const ModelDerivative& derivative, double size);
 
   /// Computes the levels needed to reach x, at least `levels` or those of the motion; false: it does not converge
   /// there.
-  [[nodiscard]] bool expand(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
-                            const Tangent& start, double x, int levels);
+  [[nodiscard]] bool expand(const motion::StateSystem& system, const motion::Series& motion,
+                            const ForcingRates& forcing, const Tangent& start, double x, int levels);
   /// Computes exactly `levels` levels.
-  void expand_to(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+  void expand_to(const motion::StateSystem& system, const motion::Series& motion, const ForcingRates& forcing,
                  const Tangent& start, int levels);
 
   [[nodiscard]] SeriesPoint at(double x) const;
@@ -70,7 +71,7 @@ class TangentSeries {
   [[nodiscard]] double error() const { return error_; }
 
  private:
-  void begin(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+  void begin(const motion::StateSystem& system, const motion::Series& motion, const ForcingRates& forcing,
              const Tangent& start);
   void level(int k);
   void add_sources(int k);
@@ -80,14 +81,14 @@ class TangentSeries {
   [[nodiscard]] int late() const { return massless_ ? 2 : 0; }
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   const ModelDerivative& derivative_;
   bool massless_, matrices_, forms_;
-  const ModeSystem* system_ = nullptr;
-  const Series* motion_ = nullptr;
+  const motion::StateSystem* system_ = nullptr;
+  const motion::Series* motion_ = nullptr;
   const Tangent* start_ = nullptr;
   ForcingRatesSeries forcing_;
-  std::vector<std::pair<std::size_t, FrictionTangent>> friction_;  // contacts with varying friction
+  std::vector<std::pair<std::size_t, contact::FrictionTangent>> friction_;  // contacts with varying friction
   Eigen::MatrixXd u_, forces_;
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
   Vector a_, v_;
@@ -96,4 +97,4 @@ class TangentSeries {
   long solves_ = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -5,7 +5,7 @@
 
 #include "engine/exact/series_works.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 constexpr int most_halvings = 30;
@@ -18,7 +18,7 @@ constexpr std::size_t work_parts = 2;
 
 }  // namespace
 
-Vector force_bends(const Series& series, std::size_t degree, double x) {
+Vector force_bends(const motion::Series& series, std::size_t degree, double x) {
   Vector sum = Vector::Zero(series.forces.rows());
   for (std::size_t k = degree; k-- > 0;) {
     if (k + 2 > degree) continue;
@@ -28,8 +28,8 @@ Vector force_bends(const Series& series, std::size_t degree, double x) {
   return sum;
 }
 
-std::vector<double> pressing_turns(const Model& model, const RunStep& step) {
-  const Expansion& e = step.facts.expansion;
+std::vector<double> pressing_turns(const Model& model, const run::RunStep& step) {
+  const engine::Expansion& e = step.facts.expansion;
   std::vector<double> turns;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (model.contacts[c].normal_force_given() || step.decision.mode[c].is_open()) continue;
@@ -50,31 +50,33 @@ std::vector<double> pressing_turns(const Model& model, const RunStep& step) {
   return turns;
 }
 
-SeriesTangents::SeriesTangents(const Model& model, ModeSystems& systems,
+SeriesTangents::SeriesTangents(const Model& model, motion::StateSystems& systems,
                                const std::vector<const ModelDerivative*>& data, bool losses)
     : model_(model), systems_(systems), touched_(contact_dofs(model, data)), losses_(losses) {}
 
 /// The mode's system with friction at the slip rates at the beginning of a series.
-ModeSystemPtr SeriesTangents::system_at(const ModeSystem& system, const Series& series) const {
+motion::StateSystemPtr SeriesTangents::system_at(const motion::StateSystem& system,
+                                                 const motion::Series& series) const {
   std::vector<Form> rows;
   for (const std::size_t c : system.factorised().by_rate)
-    rows.push_back(FrictionSeries(model_.contacts[c], c, slip_sign(system.mode()[c].state),
-                                  system.rows()[c].normal, series)
+    rows.push_back(motion::FrictionSeries(model_.contacts[c], c, slip_sign(system.mode()[c].state),
+                                          system.rows()[c].normal, series)
                        .row());
   return systems_.at_friction(system, rows);
 }
 
 /// Works over [from, to] of the step; the tangent's own series begins at `begin`.
-void SeriesTangents::integrate(TangentState& state, const RunStep& step, double begin, double from,
+void SeriesTangents::integrate(TangentState& state, const run::RunStep& step, double begin, double from,
                                double to) const {
-  const Expansion& e = step.facts.expansion;
-  const GaussRule& rule = gauss_rule();
+  const engine::Expansion& e = step.facts.expansion;
+  const exact::GaussRule& rule = exact::gauss_rule();
   const ForcingRatesSeries& forcing = state.series.forcing();
   const double h = (to - from) / work_parts;
   if (!(h > 0.0)) return;
   std::vector<double> x, own;
-  for (std::size_t i = 0; i < work_parts * GaussRule::nodes; ++i) {
-    x.push_back(from + h * (static_cast<double>(i / GaussRule::nodes) + rule.x[i % GaussRule::nodes]));
+  for (std::size_t i = 0; i < work_parts * exact::GaussRule::nodes; ++i) {
+    x.push_back(from +
+                h * (static_cast<double>(i / exact::GaussRule::nodes) + rule.x[i % exact::GaussRule::nodes]));
     own.push_back(x.back() - begin);
   }
   std::vector<SeriesPoint> motion =
@@ -93,18 +95,19 @@ void SeriesTangents::integrate(TangentState& state, const RunStep& step, double 
       for (Eigen::Index k = forcing.load.cols(); k-- > 0;)
         place.load = place.load * own[i] + forcing.load.col(k);
     }
-    state.works->add(place, h * e.series->scale * rule.w[i % GaussRule::nodes]);
+    state.works->add(place, h * e.series->scale * rule.w[i % exact::GaussRule::nodes]);
   }
 }
 
 /// One tangent to the end of the step, part by part.
-void SeriesTangents::advance(TangentState& state, const RunStep& step, const std::vector<WantedPlace>& wanted,
-                             std::vector<TangentSample>& samples, std::size_t p) const {
-  const Expansion& e = step.facts.expansion;
-  const ModeSystem* system = e.system != nullptr ? e.system : step.decision.system.get();
-  ModeSystemPtr own;
+void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
+                             const std::vector<RequestedPlace>& wanted, std::vector<TangentSample>& samples,
+                             std::size_t p) const {
+  const engine::Expansion& e = step.facts.expansion;
+  const motion::StateSystem* system = e.system != nullptr ? e.system : step.decision.system.get();
+  motion::StateSystemPtr own;
   const int levels = std::max(fewest_tangent_levels, static_cast<int>(step.forcing.greatest_degree()) + 2);
-  Series moved;
+  motion::Series moved;
   std::size_t next = 0;
   double from = 0.0;
   int halvings = 0;
@@ -114,7 +117,7 @@ void SeriesTangents::advance(TangentState& state, const RunStep& step, const std
     if (state.reach > 0.0) length = std::min(rest, bolder * state.reach / e.series->scale);
     if (length < rest && length > 0.6 * rest) length = 0.5 * rest;
     if (from > 0.0) recentre(*e.series, step.forcing, from, 1.0, moved);
-    const Series& motion = from > 0.0 ? moved : *e.series;
+    const motion::Series& motion = from > 0.0 ? moved : *e.series;
     if (from > 0.0 && !system->factorised().by_rate.empty() && (own = system_at(*system, moved)))
       system = own.get();
     while (length > 0.0 &&
@@ -157,4 +160,4 @@ void SeriesTangents::advance(TangentState& state, const RunStep& step, const std
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -10,13 +10,13 @@
 #include "sensitivity/tangent_series.hpp"
 #include "sensitivity/work_rates.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 /// Motion and tangents at one time between events.
 struct TangentSample {
   double t = 0.0;
-  const Forcing& forcing;
-  const Mode& mode;
+  const motion::Forcing& forcing;
+  const contact::ContactStates& mode;
   SeriesPoint point;
   Vector force_bends;                            ///< second derivatives of the contact forces
   std::vector<SeriesPoint> tangents;             ///< one per parameter; empty vectors: it no longer exists
@@ -27,8 +27,8 @@ struct TangentSample {
 
 /// Tangent of one parameter.
 struct TangentState {
-  explicit TangentState(const Model& model, const Structure& structure, ModeSystems& systems,
-                        const ModelDerivative& data, double size, double t_end)
+  explicit TangentState(const Model& model, const linear::SystemMatrices& structure,
+                        motion::StateSystems& systems, const ModelDerivative& data, double size, double t_end)
       : derivative(data), series(model, structure, data, size), events(model, systems, data, size, t_end) {}
 
   const ModelDerivative& derivative;
@@ -70,34 +70,35 @@ class TangentListener {
 // Works over a part of a step use ten Gauss points for each half of a step.
 
 /// A requested position in a step, in its series.
-struct WantedPlace {
+struct RequestedPlace {
   double t = 0.0, x = 0.0;
   bool row = false, turn = false;
 };
 
 /// Second derivatives of the contact forces at x.
-[[nodiscard]] Vector force_bends(const Series& series, std::size_t degree, double x);
+[[nodiscard]] Vector force_bends(const motion::Series& series, std::size_t degree, double x);
 /// Times at which a contact's compression has a maximum: N' reaches zero and then rises.
-[[nodiscard]] std::vector<double> pressing_turns(const Model& model, const RunStep& step);
+[[nodiscard]] std::vector<double> pressing_turns(const Model& model, const run::RunStep& step);
 
 class SeriesTangents {
  public:
   /// model, systems: must outlive the object.
-  SeriesTangents(const Model& model, ModeSystems& systems, const std::vector<const ModelDerivative*>& data,
-                 bool losses);
+  SeriesTangents(const Model& model, motion::StateSystems& systems,
+                 const std::vector<const ModelDerivative*>& data, bool losses);
 
   /// Advances to the end of the step; adds the parameter's tangent to samples, one for each requested place.
-  void advance(TangentState& state, const RunStep& step, const std::vector<WantedPlace>& wanted,
+  void advance(TangentState& state, const run::RunStep& step, const std::vector<RequestedPlace>& wanted,
                std::vector<TangentSample>& samples, std::size_t parameter) const;
 
  private:
-  [[nodiscard]] ModeSystemPtr system_at(const ModeSystem& system, const Series& series) const;
-  void integrate(TangentState& state, const RunStep& step, double begin, double from, double to) const;
+  [[nodiscard]] motion::StateSystemPtr system_at(const motion::StateSystem& system,
+                                                 const motion::Series& series) const;
+  void integrate(TangentState& state, const run::RunStep& step, double begin, double from, double to) const;
 
   const Model& model_;
-  ModeSystems& systems_;
+  motion::StateSystems& systems_;
   std::vector<Eigen::Index> touched_;  // degrees of freedom on which contacts, or their derivatives, depend
   bool losses_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

@@ -6,18 +6,18 @@
 #include "contact/law.hpp"
 #include "sensitivity/forcing_rates.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 namespace {
 
 /// Derivative of the form p' of a contact that slips in direction s; the guard of that state is s p'.
 Form slip_form_rate(const Contact& contact, const ContactRates& rates, const ContactState& state, int s) {
-  const auto forms = guards(contact, state);
+  const auto forms = contact::guards(contact, state);
   for (std::size_t i = 0; i < forms.size(); ++i)
     if (forms[i].kind == Guard::sliding) {
       Form form = rates.guards[index_of(state.state)][i];
       if (s < 0)
         for (double* x : {&form.N, &form.T, &form.gap, &form.ut, &form.vn, &form.vt, &form.an, &form.at,
-                          &form.pressing, &form.pressing_rate, &form.constant})
+                          &form.applied_normal_force, &form.applied_normal_force_rate, &form.constant})
           *x = -*x;
       return form;
     }
@@ -61,13 +61,13 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     if (!contact.obeys_coulomb()) {
       friction = p.N * m.vn + m.N * p.vn + p.T * m.vt + m.T * p.vt;
     } else if (const int s = slip_sign(state.state); s != 0) {
-      const Form form = slip_rate(contact, s);
+      const Form form = contact::slip_rate(contact, s);
       friction =
           p.T * form.value(m) + m.T * (form.rate(p) + slip_form_rate(contact, rates, state, s).value(m));
     }
     now_.works.friction[c] += factor * friction;
     now_.works.surface[c] -= factor * (p.T * at.forcing.surface(c, at.t, 1) + m.T * at.driven[c].surface[1]);
-    now_.works.pressing[c] -= factor * p.N;
+    now_.works.applied_normal_force[c] -= factor * p.N;
     if (!contact.obeys_coulomb()) continue;
     if (!is_open(state.state))
       damped += damping_rate(rates) * m.vn * m.vn + 2.0 * contact.normal_damping * m.vn * p.vn;
@@ -78,16 +78,17 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
   now_.works.damping += factor * damped;
 }
 
-void WorkTangent::shift(const Forcing& forcing, double t, const Mode& mode, const SeriesPoint& motion,
-                        const std::vector<ContactMotion>& m, double dt, const std::vector<double>& dt_of) {
+void WorkTangent::shift(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+                        const SeriesPoint& motion, const std::vector<ContactMotion>& m, double dt,
+                        const std::vector<double>& dt_of) {
   now_.works.loads += dt * forcing.power(t, motion.v.data());
   now_.works.damping += dt * motion.v.dot(model_.damping * motion.v);
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const double slip = working_slip_rate(contact, mode[c].state, m[c]);
+    const double slip = contact::working_slip_rate(contact, mode[c].state, m[c]);
     now_.works.add(c,
-                   work_on(contact, mode[c].state, m[c].N, m[c].T,
-                           {slip, forcing.surface(c, t, 1), m[c].vn, m[c].vn, 1.0}),
+                   contact::work_on(contact, mode[c].state, m[c].N, m[c].T,
+                                    {slip, forcing.surface(c, t, 1), m[c].vn, m[c].vn, 1.0}),
                    dt_of[c]);
     if (mode[c].state == State::inside)
       now_.works.damping -= dt_of[c] * contact.normal_stiffness * m[c].gap * m[c].vn;
@@ -148,12 +149,12 @@ struct LossRates::Sides {
 };
 
 void LossRates::add_impact(const Sides& s, WorkRates& works) const {
-  const RunInstant& now = s.motion.instant;
+  const run::RunInstant& now = s.motion.instant;
   if (s.after.impulse_n.empty()) return;
   const WorkTangent energy(model_, derivative_);
   double driven = 0.0;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    const Impulse& impulse = now.after.impulses[c];
+    const decide::Impulse& impulse = now.after.impulses[c];
     const double dt = s.after.rates[c].t;
     const double moved =
         s.after.impulse_t[c] * now.forcing_before.surface(c, now.t, 1) +
@@ -170,9 +171,9 @@ std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &b = s.motion.motion_before[c], &a = s.motion.motion_after[c];
   const double kt = contact.anchor_spring().value_or(0.0);
-  const Decision& now = s.motion.instant.after;
+  const decide::Decision& now = s.motion.instant.after;
   if (!now.jumped[c] || !(std::abs(a.T) < std::abs(b.T))) return std::nullopt;
-  if (slides_at_once(contact) && (now.mode[c].state != State::stick || now.visited[c])) return 0.0;
+  if (contact::slides_at_once(contact) && (now.mode[c].state != State::stick || now.visited[c])) return 0.0;
   if (!(kt > 0.0)) return std::nullopt;
   return (b.T * s.D_before[c].T - a.T * s.D_after[c].T) / kt -
          (b.T * b.T - a.T * a.T) * derivative_.contacts[c].tangential_stiffness / (2.0 * kt * kt);
@@ -180,9 +181,9 @@ std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
 
 /// Derivative of P . (u+ - u-) on parts without mass, which jump under continuous loads.
 double LossRates::driven_by(const Sides& s) const {
-  const RunInstant& now = s.motion.instant;
+  const run::RunInstant& now = s.motion.instant;
   ForcingRatesSeries rates;
-  ForcingRates(model_, derivative_, now.t, Side::after).expand(now.t, 1.0, 1, rates);
+  ForcingRates(model_, derivative_, now.t, motion::Side::after).expand(now.t, 1.0, 1, rates);
   Vector load = Vector::Zero(model_.size()), rate = rates.load.col(0);
   now.forcing_after.add_load(now.t, 0, load.data());
   now.forcing_after.add_load(now.t, 1, rate.data(), s.after.dt);
@@ -195,7 +196,7 @@ double LossRates::driven_by(const Sides& s) const {
 }
 
 void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
-  const RunInstant& now = s.motion.instant;
+  const run::RunInstant& now = s.motion.instant;
   const InstantMotion& m = s.motion;
   double released = 0.0, lost = 0.0, dropped = 0.0;
   if (massless_) {
@@ -203,7 +204,7 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
         {now.mode_before, m.before.u, m.before.v, s.Du_before, s.Dv_before, m.motion_before, s.D_before});
     const Energy to = works.stored(
         {now.after.mode, m.after.u, m.after.v, s.Du_after, s.Dv_after, m.motion_after, s.D_after});
-    WorkRates impact{Works(model_.contacts.size()), 0.0};
+    WorkRates impact{motion::WorkIntegrals(model_.contacts.size()), 0.0};
     add_impact(s, impact);
     released = from.stored() - to.stored() - (impact.impact - impact.surface());
   }
@@ -230,7 +231,7 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
     if (!massless_) {
       loss = drops[c].value_or(0.0);
     } else if (now.load_jumps) {
-      loss = Da.T * (slip_of(contact, a) - slip_of(contact, b)) +
+      loss = Da.T * (contact::slip_of(contact, a) - contact::slip_of(contact, b)) +
              a.T * (slip_by(contact, rates, a, Da) - slip_by(contact, rates, b, Db));
     } else if (drops[c]) {
       loss = *drops[c] + (released - dropped) / count;
@@ -245,7 +246,7 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
 
 WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, const TangentAfter& after,
                           WorkTangent& works) const {
-  const RunInstant& now = m.instant;
+  const run::RunInstant& now = m.instant;
   std::vector<double> dt_of;
   Sides s{m, before, after, {}, {}, {}, {}, {}, {}};
   s.Du_before = before.point.u + after.dt * m.before.v;
@@ -272,4 +273,4 @@ WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, c
   return along;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

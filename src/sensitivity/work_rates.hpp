@@ -16,10 +16,10 @@
 #include "sensitivity/contact_rates.hpp"
 #include "sensitivity/tangent_event.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity {
 
 struct WorkRates {
-  Works works;
+  motion::WorkIntegrals works;
   double impact = 0.0;
 
   [[nodiscard]] double friction() const;
@@ -29,8 +29,8 @@ struct WorkRates {
 /// All quantities at one position between instants.
 struct TangentPlace {
   double t = 0.0;
-  const Forcing& forcing;
-  const Mode& mode;
+  const motion::Forcing& forcing;
+  const contact::ContactStates& mode;
   SeriesPoint motion, tangent;
   std::vector<DrivenRates> driven;  ///< one per contact
   Vector load;                      ///< P_p
@@ -38,7 +38,7 @@ struct TangentPlace {
 
 /// u and v with their derivatives, and those of all contacts: at fixed time, or along an instant.
 struct StoredMotion {
-  const Mode& mode;
+  const contact::ContactStates& mode;
   const Vector &u, &v, &Du, &Dv;
   const std::vector<ContactMotion>&m, &D;
 };
@@ -47,15 +47,16 @@ class WorkTangent {
  public:
   /// All arguments must outlive the object.
   WorkTangent(const Model& model, const ModelDerivative& derivative)
-      : model_(model), derivative_(derivative), now_{Works(model.contacts.size()), 0.0} {}
+      : model_(model), derivative_(derivative), now_{motion::WorkIntegrals(model.contacts.size()), 0.0} {}
 
   [[nodiscard]] const WorkRates& now() const { return now_; }
   [[nodiscard]] WorkRates& now() { return now_; }
   /// Adds factor times the derivatives of all powers.
   void add(const TangentPlace& place, double factor);
   /// Adds dt times the powers themselves; each contact has its own dt.
-  void shift(const Forcing& forcing, double t, const Mode& mode, const SeriesPoint& motion,
-             const std::vector<ContactMotion>& m, double dt, const std::vector<double>& dt_of);
+  void shift(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+             const SeriesPoint& motion, const std::vector<ContactMotion>& m, double dt,
+             const std::vector<double>& dt_of);
   /// Derivatives of kinetic, elastic and contact energy; all others are zero.
   [[nodiscard]] Energy stored(const StoredMotion& at) const;
   [[nodiscard]] double kinetic(const Vector& v, const Vector& Dv) const;
@@ -110,4 +111,4 @@ class LossRates {
   bool massless_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity

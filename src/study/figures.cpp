@@ -3,11 +3,11 @@
 #include "result/summary_parts.hpp"
 #include "scene/overrides.hpp"
 
-namespace signorini {
+namespace signorini::study {
 
 std::string key_unit(const std::string& path, const Units& units) {
-  const Key* key = key_of(path);
-  return key != nullptr ? unit_in_words(key->unit, units) : "";
+  const scene::Key* key = scene::key_of(path);
+  return key != nullptr ? result::unit_in_words(key->unit, units) : "";
 }
 
 std::string key_with_unit(const std::string& path, const Units& units) {
@@ -15,4 +15,4 @@ std::string key_with_unit(const std::string& path, const Units& units) {
   return unit.empty() ? path : path + " [" + unit + "]";
 }
 
-}  // namespace signorini
+}  // namespace signorini::study

@@ -7,7 +7,7 @@
 #include "base/json.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::study {
 
 /// Value for a cell; empty if absent.
 template <class Value>
@@ -18,8 +18,8 @@ template <class Value>
 
 /// JSON value; null if absent.
 template <class Value>
-[[nodiscard]] Json json_of(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json();
+[[nodiscard]] base::Json json_of(const std::optional<Value>& value) {
+  return value ? base::Json(*value) : base::Json();
 }
 
 // The unit of a key of the scene, by its path, with the scene's unit names.
@@ -31,4 +31,4 @@ template <class Value>
 /// "PATH [UNIT]", or the path alone.
 [[nodiscard]] std::string key_with_unit(const std::string& path, const Units& units);
 
-}  // namespace signorini
+}  // namespace signorini::study

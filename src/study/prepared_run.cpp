@@ -17,7 +17,7 @@
 #include "signorini/simulate.hpp"
 #include "study/reduction/find_cutoff.hpp"
 
-namespace signorini {
+namespace signorini::study {
 namespace {
 
 PreparedRun built(Scene scene) {
@@ -29,18 +29,18 @@ PreparedRun built(Scene scene) {
 
 PreparedRun prepare_run(const std::string& file, const std::vector<Override>& changes,
                         const std::function<bool()>& go_on) {
-  return built(find_cutoff(read_scene(file, changes), go_on));
+  return built(reduction::find_cutoff(read_scene(file, changes), go_on));
 }
 
 PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found) {
-  return built(find_cutoff(std::move(scene), found));
+  return built(reduction::find_cutoff(std::move(scene), found));
 }
 
 Report PreparedRun::ends(Recorder& recorder) const {
   return simulate(model, without_rows(scene.run), recorder);
 }
 
-KeptRun PreparedRun::keep(RunDirectory& directory, ForwardingRecorder& watch,
+KeptRun PreparedRun::keep(result::RunDirectory& directory, run::ForwardingRecorder& watch,
                           const std::optional<CertifyOptions>& certified) const {
   KeptRun kept;
   try {
@@ -76,7 +76,8 @@ bool is_there(const fs::path& file) {
 }
 
 /// A file beside the manifest that it does not list was not written to its end.
-bool was_written(const fs::path& directory, const std::optional<Manifest>& manifest, std::string_view file) {
+bool was_written(const fs::path& directory, const std::optional<base::Manifest>& manifest,
+                 std::string_view file) {
   return is_there(directory / file) && (!manifest || manifest->find(file) != nullptr);
 }
 
@@ -84,7 +85,7 @@ bool was_written(const fs::path& directory, const std::optional<Manifest>& manif
 class PictureRows final : public Recorder {
  public:
   PictureRows(const PreparedRun& prepared, bool instants, const std::function<bool()>& go_on)
-      : table_(event_table(prepared.model)),
+      : table_(result::event_table(prepared.model)),
         instants_(instants),
         go_on_(go_on),
         motions_(prepared.model.contacts.size()) {
@@ -107,20 +108,20 @@ class PictureRows final : public Recorder {
 
   [[nodiscard]] const std::string& events() const { return events_.str(); }
   void write(const fs::path& directory, const Model& model) const {
-    PictureTables tables(directory, model);
+    result::PictureTables tables(directory, model);
     for (std::size_t k = 0; k < motions_.size(); ++k) tables.motion(static_cast<int>(k), motions_[k]);
     tables.curves(curves_);
     if (bodies_) bodies_->write(directory);
   }
 
  private:
-  CsvTable<Event> table_;
+  result::CsvTable<Event> table_;
   bool instants_;
   const std::function<bool()>& go_on_;
-  CsvBlock events_;
+  result::CsvBlock events_;
   std::vector<std::vector<MotionRow>> motions_;
   Curves curves_;
-  std::optional<BodyMotionFile> bodies_;
+  std::optional<result::BodyMotionFile> bodies_;
 };
 
 /// Compares row by row; a certificate has appended columns to those of the run.
@@ -136,18 +137,18 @@ bool same_events(const std::string& events, const fs::path& file) {
 }  // namespace
 
 bool lacks_picture_rows(const fs::path& directory) {
-  const std::optional<Manifest> manifest = read_manifest(directory);
+  const std::optional<base::Manifest> manifest = base::read_manifest(directory);
   for (const char* table : {"motion.csv", "curves.csv"})
     if (was_written(directory, manifest, table)) return false;
   std::ifstream stream(directory / "summary.json", std::ios::binary);
   try {
-    const Json summary = parse_json(stream);
+    const base::Json summary = base::parse_json(stream);
     const std::string kind = summary.at("outcome").at("kind");
     // A run that a full disk ended would not end there again.
     const bool by_itself = summary.at("outcome").value("exit_code", 0) != static_cast<int>(ExitCode::file);
     return (kind == "done" || kind == "stopped") && by_itself &&
            summary.at("versions").at("signorini") == version;
-  } catch (const Json::exception&) {
+  } catch (const base::Json::exception&) {
     return false;  // the drawing itself reports the error
   }
 }
@@ -162,20 +163,20 @@ bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go
         (directory / "events.csv").string(),
         "the run was computed again for its pictures (it was made with --no-plots), and has other "
         "events now: the program, or a file that run.toml reads, is another than it was");
-  std::optional<Manifest> manifest = read_manifest(directory);
+  std::optional<base::Manifest> manifest = base::read_manifest(directory);
   if (manifest) {
-    for (const std::string_view table : picture_rows) manifest->drop(table);
-    write_file(directory / manifest_file, manifest->text());
+    for (const std::string_view table : base::picture_rows) manifest->drop(table);
+    result::write_file(directory / base::manifest_file, manifest->text());
   }
   std::error_code ignored;
-  for (const std::string_view table : picture_rows)
+  for (const std::string_view table : base::picture_rows)
     fs::remove(directory / table, ignored);  // opening a pipe would wait
   rows.write(directory, prepared.model);
   if (manifest) {
-    for (const std::string_view table : picture_rows) manifest->take(directory, table);
-    write_file(directory / manifest_file, manifest->text());
+    for (const std::string_view table : base::picture_rows) manifest->take(directory, table);
+    result::write_file(directory / base::manifest_file, manifest->text());
   }
   return true;
 }
 
-}  // namespace signorini
+}  // namespace signorini::study

@@ -17,7 +17,7 @@
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::study {
 
 /// A run that has been written to disk.
 struct KeptRun {
@@ -33,7 +33,7 @@ struct PreparedRun {
   Report ends(Recorder& recorder) const;
   /// Into `directory`, to which `watch` passes all on; certified where options are given. Where a file cannot be
   /// written the directory says how far the run came. Errors: as of ends(); FileError.
-  KeptRun keep(RunDirectory& directory, ForwardingRecorder& watch,
+  KeptRun keep(result::RunDirectory& directory, run::ForwardingRecorder& watch,
                const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 
@@ -61,4 +61,4 @@ struct PreparedRun {
 /// were written. Errors: those of prepare_run; FileError for events that differ.
 bool add_picture_rows(const std::filesystem::path& directory, const std::function<bool()>& go_on);
 
-}  // namespace signorini
+}  // namespace signorini::study

@@ -158,7 +158,7 @@ TEST_CASE("check: mass and centre of a half circle") {
   put("elements = 8", "elements = 400");
   put("mass = 0.1", "mass = 0.0");
   const Scene scene = parse_scene(text, "test.toml", {{"run.engine", "exact"}});
-  const CheckReport report = check(scene, build_model(scene));
+  const check::CheckReport report = check::check(scene, build_model(scene));
   REQUIRE(report.mass);
   const double half = M_PI / 800.0;  // of 400 chords
   close(report.mass->total, 2.0 * 800.0 * 1.3 * std::sin(half), 1e-12);

@@ -82,11 +82,11 @@ TEST_CASE("frames have stresses of all nodes and pressures along seams, also whe
   const Scene scene = parse_scene(pressed_and_stretched(degrees), "frames.toml");
   const Model model = build_model(scene);
   {
-    RunDirectory directory(folder / "run", scene, model, {true, {"test"}});
+    result::RunDirectory directory(folder / "run", scene, model, {true, {"test"}});
     static_cast<void>(simulate(model, scene.run, directory));
   }
   int blocks = 0, strips = 0;
-  CsvReader bodies(folder / "run" / "frame_bodies.csv");
+  result::CsvReader bodies(folder / "run" / "frame_bodies.csv");
   const auto column = [&](const char* name) { return bodies.number(bodies.column(name)); };
   while (bodies.next()) {
     const bool block = bodies.cell(bodies.column("body")) == "block";
@@ -101,7 +101,7 @@ TEST_CASE("frames have stresses of all nodes and pressures along seams, also whe
   }
   CHECK(blocks == 2 * 35);
   CHECK(strips == 2 * 10);
-  CsvReader seams(folder / "run" / "frame_seams.csv");
+  result::CsvReader seams(folder / "run" / "frame_seams.csv");
   int rows = 0;
   while (seams.next()) {
     CHECK(seams.number(seams.column("s")) == doctest::Approx(0.5 * (rows % 7)).epsilon(1e-12));
@@ -118,11 +118,11 @@ TEST_CASE("frames for ParaView: cells, tractions on the slave, states of the sea
   const Scene scene = parse_scene(pressed_and_stretched(0.0), "frames.toml");
   const Model model = build_model(scene);
   {
-    RunDirectory directory(folder / "run", scene, model, {true, {"test"}});
+    result::RunDirectory directory(folder / "run", scene, model, {true, {"test"}});
     static_cast<void>(simulate(model, scene.run, directory));
   }
   std::filesystem::create_directory(folder / "run" / "paraview");
-  const auto list = write_paraview_bodies(folder / "run", scene);
+  const auto list = report::write_paraview_bodies(folder / "run", scene);
   REQUIRE(list);
   CHECK(made_up::slurp(*list).find("timestep=\"0.07\" file=\"body-0002.vtu\"") != std::string::npos);
   const std::string text = made_up::slurp(folder / "run" / "paraview" / "body-0002.vtu");

@@ -105,11 +105,12 @@ contact_mass = "none"
                                        (folder / "crack.msh").string());
   const Scene whole = parse_scene(text, "crack.toml");
   const Model structure = build_model(whole);
-  const double f1 =
-      lowest_frequencies(structure.mass, structure.damping, structure.stiffness, {}, 1).modes[0].omega /
-      (2.0 * std::numbers::pi);
-  const double f2 = lowest_frequencies(structure.mass, structure.damping, structure.stiffness,
-                                       close_contacts(structure.contacts), 1)
+  const double f1 = modes::lowest_frequencies(structure.mass, structure.damping, structure.stiffness, {}, 1)
+                        .modes[0]
+                        .omega /
+                    (2.0 * std::numbers::pi);
+  const double f2 = modes::lowest_frequencies(structure.mass, structure.damping, structure.stiffness,
+                                              modes::close_contacts(structure.contacts), 1)
                         .modes[0]
                         .omega /
                     (2.0 * std::numbers::pi);

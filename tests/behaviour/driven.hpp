@@ -37,9 +37,9 @@ struct Driven {
     const Eigen::Index n = M.rows(), d = 5;
     Matrix a = Matrix::Zero(2 * n + d, 2 * n + d);
     a.block(0, n, n, n).setIdentity();
-    a.block(n, 0, n, n) = -signorini::solve_dense(M, K);
-    a.block(n, n, n, n) = -signorini::solve_dense(M, C);
-    a.block(n, 2 * n, n, d) = signorini::solve_dense(M, F);
+    a.block(n, 0, n, n) = -signorini::base::solve_dense(M, K);
+    a.block(n, n, n, n) = -signorini::base::solve_dense(M, C);
+    a.block(n, 2 * n, n, d) = signorini::base::solve_dense(M, F);
     const Eigen::Index w = 2 * n;
     a(w + linear, w + one) = 1.0;
     a(w + square, w + linear) = 2.0;

@@ -43,7 +43,7 @@ std::optional<Run> run_with(const Scene& scene, Engine engine, std::size_t unuse
   spec.engine = engine;
   if (engine == Engine::newmark && !spec.dt) spec.dt = 1e-3 * spec.t_end;
   try {
-    engine_row(spec.engine).refuse(model, spec);
+    run::engine_row(spec.engine).refuse(model, spec);
   } catch (const SceneError&) {
     return std::nullopt;
   }

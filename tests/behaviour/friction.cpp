@@ -84,8 +84,8 @@ TEST_CASE(
         "test.toml");
     const Model model = build_model(scene);
     const Result result = simulate(model, scene.run);
-    const ContactRow row{1.0, model.contacts[0], result.rows.back().contacts[0]};
-    const std::string text = contact_table().text(std::vector<ContactRow>{row});
+    const result::ContactRow row{1.0, model.contacts[0], result.rows.back().contacts[0]};
+    const std::string text = result::contact_table().text(std::vector<result::ContactRow>{row});
     CHECK(std::stod(text.substr(text.rfind(',') + 1)) ==
           doctest::Approx(std::abs(push) < 3.5 ? 0.2 : 0.35).epsilon(1e-12));
   }

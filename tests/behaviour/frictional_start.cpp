@@ -168,8 +168,9 @@ TEST_CASE("the portal's feet carry the thrust of the force method, two thirds of
   Vector weight = Vector::Zero(model.size());
   for (const Load& load : model.loads)
     if (load.name == "gravity") load.direction.add_to(weight, 1.0);
-  const Vector u =
-      SymmetricSolver(with_springs(model.stiffness, contact_springs(model.contacts))).solve(weight);
+  const Vector u = assembly::SymmetricSolver(
+                       assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts)))
+                       .solve(weight);
   CHECK((u - model.u0).cwiseAbs().maxCoeff() < 1e-12 * u.cwiseAbs().maxCoeff());
 }
 

@@ -254,7 +254,8 @@ TEST_CASE("a string of bars: what only its tension holds, by a force, by cold an
       CAPTURE(why);
       CAPTURE(angle);
       const Model model = built(string_of(why, n, l, angle, S, m));
-      const Frequencies found = lowest_frequencies(model.mass, model.damping, model.stiffness, {}, n - 1);
+      const modes::Frequencies found =
+          modes::lowest_frequencies(model.mass, model.damping, model.stiffness, {}, n - 1);
       REQUIRE(found.modes.size() == n - 1);
       // The spring that guides the pulled end gives way by S / l over its 1e9.
       const double within = why == std::string("pulled") ? 1e-8 : 1e-10;
@@ -270,7 +271,8 @@ TEST_CASE("a long string of short bars, whose directions round more: it is held,
   constexpr int n = 300;
   std::string text = string_of("short", n, l, angle, S, m);
   const Model model = built(text);
-  const Frequencies found = lowest_frequencies(model.mass, model.damping, model.stiffness, {}, 1);
+  const modes::Frequencies found =
+      modes::lowest_frequencies(model.mass, model.damping, model.stiffness, {}, 1);
   CHECK(std::pow(found.modes[0].omega, 2) ==
         doctest::Approx(S / (m * l) * (2.0 - 2.0 * std::cos(pi / n))).epsilon(1e-5));
 }

@@ -384,7 +384,7 @@ TEST_CASE("a block that rocks in two halves: the forces of the first are those o
   const auto folder = own.path() / "first";
   const Scene scene = parse_scene(Block().scene(0.3), "test.toml");
   const Model model = build_model(scene);
-  RunDirectory directory(folder, scene, model, {true, {"test"}});
+  result::RunDirectory directory(folder, scene, model, {true, {"test"}});
   static_cast<void>(directory.finish(simulate(model, scene.run, directory)));
   std::string later = Block().scene(1.0);
   const std::size_t at = later.find("initial = "), end = later.find('\n', at);

@@ -56,7 +56,7 @@ std::vector<double> axial(const std::string& text) {
   const Model model = build_model(parse_scene(text, "test.toml"));
   REQUIRE(model.geometric);
   std::vector<double> forces;
-  for (const FrozenForces::Element& e : model.geometric->forces.elements)
+  for (const Prestress::Element& e : model.geometric->forces.elements)
     forces.push_back(0.5 * (e.at_from + e.at_to));
   return forces;
 }

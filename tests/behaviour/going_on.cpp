@@ -21,7 +21,7 @@ using namespace parts;
 /// Runs the scene into the folder, which another may go on from.
 Model keep(const std::filesystem::path& folder, const Scene& scene) {
   Model model = build_model(scene);
-  RunDirectory directory(folder, scene, model, {true, {"test"}});
+  result::RunDirectory directory(folder, scene, model, {true, {"test"}});
   const Report report = simulate(model, scene.run, directory);
   static_cast<void>(directory.finish(report));
   return model;

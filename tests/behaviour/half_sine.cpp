@@ -100,7 +100,7 @@ class Follower {
       A(5, 5) = 1.0;
       A(5, 3) = A(5, 4) = mode.slip * s_.f;
     }
-    return solve_dense(A, r);
+    return base::solve_dense(A, r);
   }
   [[nodiscard]] Eigen::MatrixXd accelerations(const Mode& mode) const {
     Eigen::MatrixXd dynamics = Eigen::MatrixXd::Zero(3, 2);

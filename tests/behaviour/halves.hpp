@@ -73,7 +73,7 @@ class Kept final : public Result {
   void finish() { static_cast<void>(directory_.finish(report)); }
 
  private:
-  RunDirectory directory_;
+  result::RunDirectory directory_;
 };
 
 struct Sizes {

@@ -244,13 +244,13 @@ TEST_CASE("verify: envelopes, stresses of both fibres and forces with a preload 
               output("both", "stress", "at = [\"A\", \"P\"]") + output("hanger", "spring", "spring = 1"),
           "\"static\""),
       "test.toml", {{"run.engine", "ida"}});
-  VerifyRequest request;
+  verify::VerifyRequest request;
   request.run = scene.run;
   request.most_seconds = 5.0;
   const Model model = build_model(scene);
-  const Verification v = verify(model, model, request);
+  const verify::Verification v = verify::verify(model, model, request);
   INFO(v.sentence);
-  CHECK(v.verdict == Agreement::agree);
+  CHECK(v.verdict == verify::Agreement::agree);
 }
 
 TEST_SUITE_END();

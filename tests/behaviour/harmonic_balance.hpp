@@ -45,7 +45,7 @@ class HarmonicBalance {
         beside.reshaped()[k] += h;
         J.col(k) = (residual(beside) - r) / h;
       }
-      q.reshaped() -= signorini::solve_dense(J, r);
+      q.reshaped() -= signorini::base::solve_dense(J, r);
     }
     return q;
   }

@@ -29,11 +29,11 @@ std::string objection_to(const Scene& scene) {
 }
 
 /// The compliant law with friction, as data.
-std::shared_ptr<OwnLaw> compliant_law(double kn, double kt, double f) {
+std::shared_ptr<UserContactLaw> compliant_law(double kn, double kt, double f) {
   using enum State;
   const OwnForm spring{{.N = 1.0, .gap = -kn}};
   const OwnGuard lets_go{{{.N = -1.0}}, 0};
-  auto law = std::make_shared<OwnLaw>();
+  auto law = std::make_shared<UserContactLaw>();
   law->states.push_back({"off", open, {{.N = 1.0}}, {{.T = 1.0}}, {{{{.gap = 1.0}}, 1, Form{.ut = 1.0}}}});
   law->states.push_back({"rests",
                          stick,
@@ -135,7 +135,7 @@ TEST_CASE("the compliant law as data moves as the built-in one, in any units") {
   for (const double length : {1.0, 1e3}) {  // metres, millimetres
     const Factors factors{1.0, length, 1.0};
     Scene built = parse_scene(hopping_block, "hopping");
-    built = rescaled(built, factors);
+    built = scene::rescaled(built, factors);
     Scene own = built;
     own.contacts[0].friction = {};
     own.contacts[0].own = compliant_law(1e5 / length, 5e4 / length, 0.4);
@@ -170,18 +170,21 @@ TEST_CASE("what a law of one's own may not be is told with its state") {
   const auto has = [](const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
   };
-  CHECK(message([](OwnLaw&, Scene&) {}).empty());
+  CHECK(message([](UserContactLaw&, Scene&) {}).empty());
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[1].guards[0].next = 9; }),
+            "'rests': found next state 9"));
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[2].normal.form.N = 0.0; }),
+            "'slides': expected N"));
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].guards.resize(4); }), "found 4 guards"));
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].tangent.form.at = 1.0; }), "forms are on"));
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].kind = State::inside; }), "expected a kind"));
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states.clear(); }), "found 0 states"));
   CHECK(
-      has(message([](OwnLaw& l, Scene&) { l.states[1].guards[0].next = 9; }), "'rests': found next state 9"));
-  CHECK(has(message([](OwnLaw& l, Scene&) { l.states[2].normal.form.N = 0.0; }), "'slides': expected N"));
-  CHECK(has(message([](OwnLaw& l, Scene&) { l.states[0].guards.resize(4); }), "found 4 guards"));
-  CHECK(has(message([](OwnLaw& l, Scene&) { l.states[0].tangent.form.at = 1.0; }), "forms are on"));
-  CHECK(has(message([](OwnLaw& l, Scene&) { l.states[0].kind = State::inside; }), "expected a kind"));
-  CHECK(has(message([](OwnLaw& l, Scene&) { l.states.clear(); }), "found 0 states"));
-  CHECK(has(message([](OwnLaw&, Scene& s) { s.contacts[0].friction.static_ = 0.4; }), "beside a law"));
-  CHECK(has(message([](OwnLaw&, Scene& s) { s.initial = {}, s.initial.is_static = true; }), "static start"));
+      has(message([](UserContactLaw&, Scene& s) { s.contacts[0].friction.static_ = 0.4; }), "beside a law"));
+  CHECK(has(message([](UserContactLaw&, Scene& s) { s.initial = {}, s.initial.is_static = true; }),
+            "static start"));
   for (const Engine engine : {Engine::newmark, Engine::friction_iteration})
-    CHECK(has(message([&](OwnLaw&, Scene& s) { s.run.engine = engine, s.run.dt = 1e-3; }),
+    CHECK(has(message([&](UserContactLaw&, Scene& s) { s.run.engine = engine, s.run.dt = 1e-3; }),
               "contact 'p' has a law of its own; use \"ida\""));
 }
 
@@ -332,10 +335,10 @@ supports = [{ node = "ball", fix = ["ux"] }]
 contacts = [{ name = "pad", node = "ball", law = "compliant", normal = [0.0, 1.0], gap = 0.1, normal_stiffness = 1e4 }]
 )",
                               "crushed");
-    whole = rescaled(whole, {1.0, length, 1.0});
+    whole = scene::rescaled(whole, {1.0, length, 1.0});
     // Elastic up to Y, crushed there; keeps its dent p.
     const double kn = 1e4 / length, Y = 150.0;
-    auto pad = std::make_shared<OwnLaw>();
+    auto pad = std::make_shared<UserContactLaw>();
     const OwnForm elastic{{.N = 1.0, .gap = -kn}, kn}, smooth{{.T = 1.0}};
     pad->states = {{"off", open, {{.N = 1.0}}, smooth, {{{{.gap = 1.0}, -1.0}, 1}}},
                    {"on", closed, elastic, smooth, {{{{.N = -1.0}}, 0}, {{{.N = 1.0, .constant = Y}}, 2}}},

@@ -64,7 +64,7 @@ std::string scene(const Seen& seen) {
 }
 
 /// Asks for whole jets, as whoever observes a run does.
-class Onlooker final : public RunListener {};
+class Onlooker final : public run::RunListener {};
 
 }  // namespace
 
@@ -82,7 +82,7 @@ TEST_CASE("decisions near the contacts that change are those of the whole struct
       Result near, whole;
       near.report = simulate(model, read.run, near);
       Onlooker onlooker;
-      whole.report = simulate(model, read.run, whole, onlooker);
+      whole.report = run::simulate(model, read.run, whole, onlooker);
       REQUIRE(near.report.outcome.kind == Outcome::Kind::done);
       CHECK(near.report.witness.violations.empty());
       CHECK(near.report.audit.energy.value < 1e-9 * near.report.audit.energy_scale);

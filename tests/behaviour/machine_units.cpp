@@ -61,7 +61,7 @@ void check_same(const Event& a, const Event& b, const Factors& factors) {
   CHECK(a.t_uncertainty == b.t_uncertainty);
   REQUIRE(a.guard_rate.has_value() == b.guard_rate.has_value());
   if (a.guard_rate && a.type != EventType::impact && a.type != EventType::time)
-    CHECK(*a.guard_rate * factor_of(guard_of(a.type), factors) / factors.time == *b.guard_rate);
+    CHECK(*a.guard_rate * scene::factor_of(guard_of(a.type), factors) / factors.time == *b.guard_rate);
 }
 
 void check_same(const Energy& a, const Energy& b) {
@@ -89,10 +89,10 @@ void check_rows(const Model& model, const Told& here, const Told& there, const F
   REQUIRE(here.rows.size() == there.rows.size());
   for (std::size_t i = 0; i < here.rows.size(); ++i) {
     const Result::Row& row = there.rows[i];
-    CHECK(row.u == physical(here.rows[i].u, model.physical_dofs(), 0, factors));
-    CHECK(row.v == physical(here.rows[i].v, model.physical_dofs(), 1, factors));
+    CHECK(row.u == run::physical(here.rows[i].u, model.physical_dofs(), 0, factors));
+    CHECK(row.v == run::physical(here.rows[i].v, model.physical_dofs(), 1, factors));
     Sample sample{here.rows[i].t, nullptr, nullptr, here.rows[i].contacts, here.rows[i].energy};
-    sample = physical(sample, factors);
+    sample = run::physical(sample, factors);
     CHECK(row.t == sample.t);
     check_same(sample.energy, row.energy);
     for (std::size_t k = 0; k < row.contacts.size(); ++k) check_same(sample.contacts[k], row.contacts[k]);
@@ -102,7 +102,7 @@ void check_rows(const Model& model, const Told& here, const Told& there, const F
     REQUIRE(here.drawn[k].size() == there.drawn[k].size());
     for (std::size_t i = 0; i < here.drawn[k].size(); ++i) {
       const Sample sample =
-          physical(Sample{here.drawn[k][i].t, nullptr, nullptr, {here.drawn[k][i].sample}, {}}, factors);
+          run::physical(Sample{here.drawn[k][i].t, nullptr, nullptr, {here.drawn[k][i].sample}, {}}, factors);
       CHECK(there.drawn[k][i].t == sample.t);
       check_same(sample.contacts[0], there.drawn[k][i].sample);
     }
@@ -127,16 +127,16 @@ void check_bytes(const Scene& scene, const Factors& factors) {
   CAPTURE(factors.force);
   CAPTURE(factors.length);
   CAPTURE(factors.time);
-  const Scene other = rescaled(scene, factors);
+  const Scene other = scene::rescaled(scene, factors);
   const Model model = build_model(scene);
   const Told here = run(model, scene.run), there = run(build_model(other), other.run);
   CHECK(here.report.outcome.reason == there.report.outcome.reason);
   REQUIRE(here.events.size() == there.events.size());
   for (std::size_t i = 0; i < here.events.size(); ++i)
-    check_same(physical(here.events[i], factors), there.events[i], factors);
+    check_same(run::physical(here.events[i], factors), there.events[i], factors);
   check_rows(model, here, there, factors);
   check_rounds(here, there, factors);
-  const Report report = physical(here.report, factors);
+  const Report report = run::physical(here.report, factors);
   CHECK(report.outcome.t == there.report.outcome.t);
   check_same(report.audit.final, there.report.audit.final);
   CHECK(report.audit.energy.value == there.report.audit.energy.value);
@@ -224,7 +224,7 @@ TEST_SUITE("behaviour/machine_units") {
     CHECK(here.events.size() == 614);
     for (const double force : {1e-9, 1e-13, 1e20}) {
       CAPTURE(force);
-      const Scene scene = rescaled(scene_of("rigid-frame", "exact", "0.7"), {force, 1.0, 1.0});
+      const Scene scene = scene::rescaled(scene_of("rigid-frame", "exact", "0.7"), {force, 1.0, 1.0});
       const Result there = run(build_model(scene), scene.run);
       CHECK(there.report.outcome.reason == "");
       CHECK(there.events.size() == 614);

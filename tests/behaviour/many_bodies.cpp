@@ -36,9 +36,9 @@ std::string blocks(const std::string& law, int count, int first = 0) {
 
 const std::vector<std::string> laws{"slider", "rigid", "compliant"};
 
-CheckReport checked(const std::string& text) {
+check::CheckReport checked(const std::string& text) {
   const Scene scene = parse_scene(text, "blocks.toml");
-  return check(scene, build_model(scene));
+  return check::check(scene, build_model(scene));
 }
 
 std::vector<double> times_of(const Result& result, const Model& model, const std::string& contact) {
@@ -58,14 +58,14 @@ TEST_CASE("free blocks of every law, by one and by hundreds: what holds them, th
     for (const int count : {1, 2, 123, 124, 260}) {
       CAPTURE(law);
       CAPTURE(count);
-      const CheckReport report = checked(blocks(law, count));
+      const check::CheckReport report = checked(blocks(law, count));
       CHECK(report.contacts.size() == static_cast<std::size_t>(count));
       CHECK(report.free_motions.size() == static_cast<std::size_t>(2 * count));
       CHECK(report.open.free_motions == 2 * count);
       CHECK(report.open.modes.empty());
       REQUIRE(report.stuck.modes.size() ==
               (law == "compliant" ? std::min<std::size_t>(5, 2 * report.contacts.size()) : 0));
-      for (const NaturalMode& mode : report.stuck.modes)
+      for (const modes::NaturalMode& mode : report.stuck.modes)
         CHECK(mode.omega == doctest::Approx(std::sqrt(1e5)).epsilon(1e-9));
     }
 }

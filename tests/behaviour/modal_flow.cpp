@@ -300,7 +300,7 @@ TEST_CASE(
   const auto chosen = [](const std::string& model, std::vector<Override> changes) {
     changes.push_back({"run.engine", "exact"});
     const Scene scene = read_scene(std::string(SIGNORINI_MODELS "/") + model, changes);
-    return choose_flow(build_model(scene), scene.run).reason;
+    return run::choose_flow(build_model(scene), scene.run).reason;
   };
   const std::string gains = "auto: complex modes can follow the whole scene",
                     dear = "auto: the complex modes of the contact states would cost as much as the series";

@@ -90,7 +90,7 @@ struct RegularStop {
       Eigen::Matrix3d J;
       for (int j = 0; j < 3; ++j)
         J.col(j) = (quarter(x + 1e-6 * Eigen::Vector3d::Unit(j)) - wanted - r) / 1e-6;
-      const Eigen::Vector3d step = solve_dense(J, r);
+      const Eigen::Vector3d step = base::solve_dense(J, r);
       x -= step;
       if (step.norm() <= 1e-10) break;
     }

@@ -138,7 +138,7 @@ struct FrictionBeam {
     for (Eigen::Index i = 0; i < n; ++i)
       if (i != slider) free.push_back(i);
     const Eigen::MatrixXd held = K(free, free), masses = M(free, free);
-    stuck = std::sqrt(generalized_eigenvalues(held, masses)[0]);
+    stuck = std::sqrt(base::generalized_eigenvalues(held, masses)[0]);
     beta = 2.0 * 0.01 / stuck;
   }
 
@@ -160,7 +160,7 @@ struct FrictionBeam {
       }
       Eigen::MatrixXd Z(2 * n, 2 * n);  // of real and imaginary parts
       Z << K - h * h * w * w * M, -h * w * beta * K, h * w * beta * K, K - h * h * w * w * M;
-      const Eigen::VectorXd x = solve_dense(Z, Eigen::VectorXd::Unit(2 * n, slider));
+      const Eigen::VectorXd x = base::solve_dense(Z, Eigen::VectorXd::Unit(2 * n, slider));
       compliance[k] = {x[slider], x[n + slider]};
       if (h == 1) driven = load * complex<double>(x[tip], x[n + tip]);
     }
@@ -192,7 +192,7 @@ struct FrictionBeam {
       const double step = 1e-7 * amplitude;
       for (Eigen::Index k = 0; k < size; ++k)
         J.col(k) = (residual(y + step * Eigen::VectorXd::Unit(size, k)) - r) / step;
-      const Eigen::VectorXd dy = solve_dense(J, r);
+      const Eigen::VectorXd dy = base::solve_dense(J, r);
       double part = 1.0;
       while (part > 1e-3 && residual(y - part * dy).norm() >= r.norm()) part *= 0.5;
       y -= part * dy;

@@ -26,7 +26,7 @@ struct TwoMasses {
     Eigen::Vector2d x, v;
   };
   [[nodiscard]] State slipping(const State& from, double phase, double s, double t) const {
-    const EigenPairs modes = symmetric_eigen(K);
+    const base::EigenPairs modes = base::symmetric_eigen(K);
     const Eigen::Vector2d answer =
         (K - w * w * Eigen::Matrix2d::Identity()).inverse() * Eigen::Vector2d(p, 0.0);
     const Eigen::Vector2d rest = K.inverse() * Eigen::Vector2d(-s * F, 0.0);

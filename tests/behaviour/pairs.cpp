@@ -34,10 +34,10 @@ PairTable table_of(const std::vector<Feature>& features, PairSettings settings =
 }
 
 /// Every rebound is a thousandth too fast.
-class ReboundTooFast final : public FaultInjector {
-  bool change(const Mode& /*before*/, const Vector& v, Decision& decided) override {
+class ReboundTooFast final : public run::FaultInjector {
+  bool change(const contact::ContactStates& /*before*/, const Vector& v, decide::Decision& decided) override {
     if (std::none_of(decided.impulses.begin(), decided.impulses.end(),
-                     [](const Impulse& impulse) { return impulse.hit; }))
+                     [](const decide::Impulse& impulse) { return impulse.hit; }))
       return false;
     decided.v += 1e-3 * (decided.v - v);
     return true;

@@ -15,12 +15,12 @@ constexpr double kn = 1e4, kt = 5e3, f = 0.4;
 
 /// The compliant law with friction. Which way a contact slips that has left the disc is decided by the sign of T alone:
 /// of the two guards of "leaves" one holds.
-std::shared_ptr<OwnLaw> disc_law() {
+std::shared_ptr<UserContactLaw> disc_law() {
   using enum State;
   const OwnForm spring{{.N = 1.0, .gap = -kn}}, held{{.T = 1.0, .ut = -kt}, kt};
   const OwnGuard lets_go{{{.N = -1.0}}, 0};
   const Form plus{.N = -f, .T = 1.0}, minus{.N = -f, .T = -1.0};
-  auto law = std::make_shared<OwnLaw>();
+  auto law = std::make_shared<UserContactLaw>();
   law->states.push_back({"off", open, {{.N = 1.0}}, {{.T = 1.0}}, {{{{.gap = 1.0}}, 1, Form{.ut = 1.0}}}});
   law->states.push_back({"rests", stick, spring, held, {lets_go, {{}, 4, {}, {{plus, minus}}}}});
   for (const double s : {1.0, -1.0})

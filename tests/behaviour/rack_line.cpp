@@ -128,13 +128,13 @@ TEST_CASE("rack line: turned by odd angles, permuted, in other units") {
 
 TEST_CASE("rack line: verify finds that ida and newmark agree") {
   const Scene scene = parse_scene(line_text(0.0, 0.1), "line.toml", {{"run.engine", "ida"}});
-  VerifyRequest request;
+  verify::VerifyRequest request;
   request.run = scene.run;
   request.most_seconds = 8.0;
   const Model model = build_model(scene);
-  const Verification v = verify(model, model, request);
+  const verify::Verification v = verify::verify(model, model, request);
   INFO(v.sentence);
-  CHECK(v.verdict == Agreement::agree);
+  CHECK(v.verdict == verify::Agreement::agree);
 }
 
 TEST_SUITE_END();

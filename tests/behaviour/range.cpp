@@ -86,7 +86,7 @@ TEST_CASE("check ends on all of them") {
   for (const char* name : {"growth", "hang-slider", "tiny-times", "denormal-start"}) {
     CAPTURE(name);
     const Scene scene = read_scene(folder + name + ".toml");
-    CHECK(check(scene, build_model(scene)).contacts.size() == scene.contacts.size());
+    CHECK(check::check(scene, build_model(scene)).contacts.size() == scene.contacts.size());
   }
 }
 

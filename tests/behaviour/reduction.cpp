@@ -413,7 +413,7 @@ TEST_CASE(
     CAPTURE(tolerance);
     Changes asked = changes;
     asked.push_back({"reduction.tolerance", fmt::format("{}", tolerance)});
-    const Scene scene = find_cutoff(read_scene(pipeline, asked));
+    const Scene scene = reduction::find_cutoff(read_scene(pipeline, asked));
     REQUIRE_FALSE(scene.reduction->tried.empty());
     const CutoffTrial& last = scene.reduction->tried.back();
     CAPTURE(last.modes);
@@ -458,7 +458,7 @@ TEST_CASE("a tolerance finds the same modes however the scene is written, and fi
                                             {"run.output_dt", "5e-4"},
                                             {"run.engine", "exact"},
                                             {"reduction.tolerance", "1e-3"}});
-  const Scene found = find_cutoff(scene);
+  const Scene found = reduction::find_cutoff(scene);
   CHECK(found.reduction->tried.size() > 1);
   CHECK(found.reduction->tried.back().modes < 51);
   CHECK(found.reduction->tried.back().error <= 1e-3);
@@ -466,15 +466,15 @@ TEST_CASE("a tolerance finds the same modes however the scene is written, and fi
                                   *reversed(scene)};
   for (const Transformed& other : others) {
     CAPTURE(other.name);
-    check_same_trials(*found.reduction, *find_cutoff(other.scene).reduction, 1.0);
+    check_same_trials(*found.reduction, *reduction::find_cutoff(other.scene).reduction, 1.0);
   }
   Factors units;
   units.force = 1e3;
   units.length = 10.0;
   units.time = 0.1;
-  check_same_trials(*found.reduction, *find_cutoff(in_units(scene, units)->scene).reduction, 10.0);
+  check_same_trials(*found.reduction, *reduction::find_cutoff(in_units(scene, units)->scene).reduction, 10.0);
   // Along other axes ux and uy are other numbers, by a factor of sqrt(2) and 1/sqrt(2) at most.
-  const Scene askew = find_cutoff(turned(scene, 33.0)->scene);
+  const Scene askew = reduction::find_cutoff(turned(scene, 33.0)->scene);
   const double factor = askew.reduction->tried[0].missed / found.reduction->tried[0].missed;
   CHECK(factor < 2.0);  // of what is missed, and of what it is beside
   CHECK(factor > 0.5);
@@ -489,7 +489,7 @@ TEST_CASE("a tolerance on another scene: the full model within the error that is
   const Result full = simulate(whole_model, whole.run);
   Changes asked = changes;
   asked.push_back({"reduction.tolerance", "1e-3"});
-  const Scene scene = find_cutoff(read_scene(lift_off, asked));
+  const Scene scene = reduction::find_cutoff(read_scene(lift_off, asked));
   const double told = scene.reduction->tried.back().error;
   CHECK(told <= 1e-3);
   CHECK(scene.reduction->tried.back().modes < whole_model.size());
@@ -566,7 +566,7 @@ std::pair<double, double> off_and_told(const Beam& beam) {
   const Scene whole = parse_scene(text, "beam.toml");
   const Model model = build_model(whole);
   const Result full = simulate(model, whole.run);
-  const Scene scene = find_cutoff(
+  const Scene scene = reduction::find_cutoff(
       parse_scene(text, "beam.toml", {{"reduction.tolerance", fmt::format("{}", beam.tolerance)}}));
   const Result reduced = simulate(build_model(scene), scene.run);
   REQUIRE(reduced.rows.size() == full.rows.size());
@@ -632,13 +632,14 @@ TEST_SUITE_END();
 TEST_SUITE_BEGIN("behaviour/reduction");
 
 TEST_CASE("a tolerance that no cutoff meets keeps all modes; contacts with dashpots have one, too") {
-  const Scene all = find_cutoff(read_scene(
+  const Scene all = reduction::find_cutoff(read_scene(
       pipeline, {{"run.t_end", "2e-3"}, {"run.engine", "exact"}, {"reduction.tolerance", "1e-300"}}));
   CHECK(all.reduction->tried.back().modes == 51);
   CHECK(all.reduction->tried.back().missed == 0.0);
-  const Scene damped = find_cutoff(read_scene(pipeline, {{"run.t_end", "2e-3"},
-                                                         {"contacts.first.tangential_damping", "10.0"},
-                                                         {"reduction.tolerance", "1e-3"}}));
+  const Scene damped =
+      reduction::find_cutoff(read_scene(pipeline, {{"run.t_end", "2e-3"},
+                                                   {"contacts.first.tangential_damping", "10.0"},
+                                                   {"reduction.tolerance", "1e-3"}}));
   CHECK(damped.reduction->tried.back().error <= 1e-3);
 }
 
@@ -647,16 +648,16 @@ TEST_CASE("runs that are compared have one cutoff; another tolerance has its own
     return read_scene(pipeline,
                       {{"run.t_end", "2e-3"}, {"run.engine", engine}, {"reduction.tolerance", tolerance}});
   };
-  Scene first = find_cutoff(asked("exact", "1e-2"));
+  Scene first = reduction::find_cutoff(asked("exact", "1e-2"));
   first.reduction->cutoff_omega *= 1.01;  // what no search of its own would find
-  const Scene same = find_cutoff(asked("ida", "1e-2"), first.reduction);
+  const Scene same = reduction::find_cutoff(asked("ida", "1e-2"), first.reduction);
   CHECK(same.reduction->cutoff_omega == first.reduction->cutoff_omega);
   CHECK(same.run.engine == Engine::ida);
-  const Scene sharper = find_cutoff(asked("exact", "1e-3"), first.reduction);
+  const Scene sharper = reduction::find_cutoff(asked("exact", "1e-3"), first.reduction);
   CHECK(sharper.reduction->tolerance == 1e-3);
   CHECK(sharper.reduction->tried.back().error <= 1e-3);
   CHECK(sharper.reduction->cutoff_omega > first.reduction->cutoff_omega);
-  CHECK_FALSE(find_cutoff(asked("exact", "1e-2"), std::nullopt).reduction->tried.empty());
+  CHECK_FALSE(reduction::find_cutoff(asked("exact", "1e-2"), std::nullopt).reduction->tried.empty());
 }
 
 TEST_CASE("one model of a scene with a tolerance has a cutoff only where it was looked for") {

@@ -43,7 +43,7 @@ double apart(const Scene& scene, const Result& a, const Result& b) {
 /// part in what is told, and none in what is compared: told may be more than the error, never less.
 ReductionSpec check_promise(Scene scene, double tolerance) {
   scene.reduction.emplace().tolerance = tolerance;
-  const Scene found = find_cutoff(scene);
+  const Scene found = reduction::find_cutoff(scene);
   const ReductionSpec spec = *found.reduction;
   REQUIRE_FALSE(spec.tried.empty());
   const double told = spec.tried.back().error;

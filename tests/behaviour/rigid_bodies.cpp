@@ -265,7 +265,7 @@ TEST_CASE("a body is drawn as the hull of its nodes") {
     const Scene scene = parse_scene(
         head + run_table(1.0, 0.1) + "[nodes]\n" + nodes + body("block", "[0.5, 0.5]", names, 1.0, 1.0),
         "test.toml");
-    return outline_of(scene, scene.rigid[0]);
+    return scene::outline_of(scene, scene.rigid[0]);
   };
   const auto square = lines("A = [0.0, 0.0]\nB = [1.0, 1.0]\nC = [1.0, 0.0]\nD = [0.0, 1.0]\n", "A, B, C, D");
   REQUIRE(square.size() == 4);

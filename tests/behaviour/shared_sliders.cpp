@@ -181,7 +181,8 @@ TEST_CASE("three sliders on two motions share what they hold by the least norm")
 TEST_CASE("sliders that share: a start with friction, a run that goes on, check") {
   const std::string sliders = slider("L", left, "B") + slider("R", right, "B");
   std::string text = body(0.0, sliders);
-  CHECK_NOTHROW((void)check(parse_scene(text, "test.toml"), build_model(parse_scene(text, "test.toml"))));
+  CHECK_NOTHROW(
+      (void)check::check(parse_scene(text, "test.toml"), build_model(parse_scene(text, "test.toml"))));
   std::string frictional = text;
   frictional.replace(frictional.find("t_end = 5.0"), 11, "t_end = 5.0\ninitial = \"frictional\"");
   for (const std::string& engine : engines) {

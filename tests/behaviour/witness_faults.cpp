@@ -16,23 +16,23 @@ TEST_SUITE_BEGIN("behaviour/witness_faults");
 namespace {
 
 /// Changes the first decision that it can.
-class Once : public FaultInjector {
+class Once : public run::FaultInjector {
  public:
   bool done = false;
-  bool change(const Mode& mode, const Vector& v, Decision& decided) override {
+  bool change(const contact::ContactStates& mode, const Vector& v, decide::Decision& decided) override {
     if (done || decided.jet.t < 0.05) return false;
     return done = plant(mode, v, decided);
   }
 
  protected:
-  virtual bool plant(const Mode& mode, const Vector& v, Decision& decided) = 0;
+  virtual bool plant(const contact::ContactStates& mode, const Vector& v, decide::Decision& decided) = 0;
 };
 
-class Nothing final : public FaultInjector {};
+class Nothing final : public run::FaultInjector {};
 
 /// The hit happens, and leaves no impulse in the record.
 class ImpulseLeftOut final : public Once {
-  bool plant(const Mode&, const Vector&, Decision& decided) override {
+  bool plant(const contact::ContactStates&, const Vector&, decide::Decision& decided) override {
     if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
     decided.impulses.clear();
     decided.blows.clear();
@@ -42,7 +42,7 @@ class ImpulseLeftOut final : public Once {
 
 /// The hit is swallowed: it is held at rest.
 class HitSwallowed final : public Once {
-  bool plant(const Mode&, const Vector& v, Decision& decided) override {
+  bool plant(const contact::ContactStates&, const Vector& v, decide::Decision& decided) override {
     if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
     decided.impulses.clear();
     decided.blows.clear();
@@ -52,13 +52,13 @@ class HitSwallowed final : public Once {
   }
 };
 
-class RestitutionIgnored final : public FaultInjector {
+class RestitutionIgnored final : public run::FaultInjector {
  public:
   void correct(Model& model) override { model.contacts[0].restitution = 0.8; }
 };
 
 class WrongSign final : public Once {
-  bool plant(const Mode& before, const Vector&, Decision& decided) override {
+  bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     if (before[1].state != State::stick) return false;
     State& state = decided.mode[1].state;
     if (state != State::slip_plus && state != State::slip_minus) return false;
@@ -69,7 +69,7 @@ class WrongSign final : public Once {
 
 /// What slides sticks at a hit of the other.
 class NeighbourStuck final : public Once {
-  bool plant(const Mode& before, const Vector&, Decision& decided) override {
+  bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
     if (before[1].state != State::slip_plus && before[1].state != State::slip_minus) return false;
     if (decided.mode[1].state != before[1].state) return false;
@@ -79,17 +79,18 @@ class NeighbourStuck final : public Once {
 };
 
 /// An event of the compliant foot is found too late. In the units that are computed in.
-class Late final : public FaultInjector {
+class Late final : public run::FaultInjector {
  public:
   double at = 0.0, by = 0.0;
-  double late(const Step& step, const Decision&) override {
-    return !step.fired.empty() && step.fired[0].contact == 1 && std::abs(step.end - at) < 1e-6 * at ? by
-                                                                                                    : 0.0;
+  double late(const engine::Step& step, const decide::Decision&) override {
+    return !step.triggered.empty() && step.triggered[0].contact == 1 && std::abs(step.end - at) < 1e-6 * at
+               ? by
+               : 0.0;
   }
 };
 
 class AnchorReset final : public Once {
-  bool plant(const Mode& before, const Vector&, Decision& decided) override {
+  bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     if (before[1].is_open() || decided.mode[1].state != State::stick || before[1].state == State::stick)
       return false;
     decided.mode[1].anchor = decided.before[1].ut;
@@ -97,14 +98,14 @@ class AnchorReset final : public Once {
   }
 };
 
-class Skipped final : public FaultInjector {
+class Skipped final : public run::FaultInjector {
  public:
-  void watch(std::vector<GuardStart>& guards) override {
+  void watch(std::vector<decide::GuardStart>& guards) override {
     for (std::size_t i = 3; i < guards.size(); ++i) guards[i].kind = Guard::none;
   }
 };
 
-class PeaksAtEnds final : public FaultInjector {
+class PeaksAtEnds final : public run::FaultInjector {
   bool forgets_peaks_inside() override { return true; }
 };
 
@@ -112,7 +113,7 @@ class PeaksAtEnds final : public FaultInjector {
 
 /// What slides sticks, for nothing.
 class Stuck final : public Once {
-  bool plant(const Mode& before, const Vector&, Decision& decided) override {
+  bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     for (std::size_t k = 0; k < before.size(); ++k) {
       const State now = decided.mode[k].state;
       if ((now != State::slip_plus && now != State::slip_minus) || before[k].state != now) continue;
@@ -125,7 +126,7 @@ class Stuck final : public Once {
 
 /// The first slip of any goes the other way.
 class OtherWay final : public Once {
-  bool plant(const Mode& before, const Vector&, Decision& decided) override {
+  bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     for (std::size_t k = 0; k < before.size(); ++k) {
       State& now = decided.mode[k].state;
       if (before[k].state != State::stick || (now != State::slip_plus && now != State::slip_minus)) continue;
@@ -137,16 +138,16 @@ class OtherWay final : public Once {
 };
 
 /// The guards of the second contact are not seen.
-class SecondSkipped final : public FaultInjector {
+class SecondSkipped final : public run::FaultInjector {
  public:
-  void watch(std::vector<GuardStart>& guards) override {
+  void watch(std::vector<decide::GuardStart>& guards) override {
     for (std::size_t i = 3; i < 6; ++i) guards[i].kind = Guard::none;
   }
 };
 
 /// Where the second contact comes to stick it forgets its force.
 class SecondAnchorReset final : public Once {
-  bool plant(const Mode& before, const Vector&, Decision& decided) override {
+  bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     if (before[1].is_open() || decided.mode[1].state != State::stick || before[1].state == State::stick)
       return false;
     decided.mode[1].anchor = decided.before[1].ut;

@@ -78,7 +78,7 @@ TEST_CASE("planted faults: a saved state that lacks something, by the first run'
         const Scene first = prepared(parse_scene(text, "first.toml", changes));
         const Model model = build_model(first);
         {
-          RunDirectory directory(folder, first, model, {true, {"test"}});
+          result::RunDirectory directory(folder, first, model, {true, {"test"}});
           static_cast<void>(directory.finish(simulate(model, first.run, directory)));
         }
         if (loss.text != nullptr) {
@@ -89,10 +89,10 @@ TEST_CASE("planted faults: a saved state that lacks something, by the first run'
           std::ofstream(folder / "states.csv") << states;
         }
         const double t = first.run.frames.front();
-        changes.insert(changes.end(),
-                       {{"run.initial", "{ run = \"" + folder.string() + "\", t = " + shortest(t) + " }"},
-                        {"run.t_end", "0.05"},
-                        {"run.frames", "[]"}});
+        changes.insert(changes.end(), {{"run.initial", "{ run = \"" + folder.string() +
+                                                           "\", t = " + base::shortest(t) + " }"},
+                                       {"run.t_end", "0.05"},
+                                       {"run.frames", "[]"}});
         const Scene second = prepared(parse_scene(text, "second.toml", changes));
         const Model rest = build_model(second);
         REQUIRE(rest.continues.size() == rest.contacts.size());

@@ -227,17 +227,17 @@ inline constexpr Way ways[] = {{Engine::exact, Flow::taylor},
                                {Engine::ida, Flow::automatic},
                                {Engine::newmark, Flow::automatic}};
 
-inline Result run_of(const char* text, const Way& way, FaultInjector& faults) {
+inline Result run_of(const char* text, const Way& way, run::FaultInjector& faults) {
   Scene scene = parse_scene(text, "planted.toml");
   scene.run.engine = way.engine;
   scene.run.flow = way.flow;
   scene.run.certify = Certify::no;
   Result result;
-  result.report = simulate(build_model(scene), scene.run, result, faults);
+  result.report = run::simulate(build_model(scene), scene.run, result, faults);
   return result;
 }
 
-inline Report run_with(const Way& way, FaultInjector& faults) {
+inline Report run_with(const Way& way, run::FaultInjector& faults) {
   return run_of(scene_text, way, faults).report;
 }
 

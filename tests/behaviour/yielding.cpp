@@ -277,7 +277,7 @@ TEST_CASE("yielding: a scene in other units is the same motion, and a run goes o
   const Result reference = simulate(whole);
   const std::vector<Event> all = events_of_pad(reference);
   const Factors odd{3.7, 0.21, 5.3};
-  const std::vector<Event> other = events_of_pad(simulate(rescaled(whole, odd)));
+  const std::vector<Event> other = events_of_pad(simulate(scene::rescaled(whole, odd)));
   REQUIRE(other.size() == all.size());
   for (std::size_t i = 0; i < all.size(); ++i) CHECK(std::abs(other[i].t / odd.time - all[i].t) < 1e-8);
   // While it is crushed, in flight over the dent, and while it is crushed again.

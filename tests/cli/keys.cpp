@@ -16,7 +16,7 @@ TEST_CASE("cli keys: every key is listed with its meaning") {
   const Ending ending = shell.run({"keys"});
   CHECK(ending.code == 0);
   CHECK(ending.err.empty());
-  for (const signorini::Key& key : signorini::all_keys()) {
+  for (const signorini::scene::Key& key : signorini::scene::all_keys()) {
     const std::string path =
         key.table.empty() ? std::string(key.name) : std::string(key.table) + "." + std::string(key.name);
     CAPTURE(path);

@@ -168,7 +168,7 @@ TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, ar
   // A line without its checksum, and one whose checksum is right but which is no row.
   shell.write(file, lines[0].substr(0, lines[0].find(",\"checksum\"")) + "}\n");
   refused("rows.jsonl: line 1 has been altered since it was written");
-  shell.write(file, R"({"row":1,"checksum":")" + signorini::fingerprint_of(R"({"row":1})") + "\"}\n");
+  shell.write(file, R"({"row":1,"checksum":")" + signorini::base::fingerprint_of(R"({"row":1})") + "\"}\n");
   refused("rows.jsonl: line 1 is not a row of a sweep: ");
   fs::remove(shell / file);
   fs::create_directory(shell / file);

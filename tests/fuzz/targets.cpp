@@ -37,7 +37,7 @@ bool is_small(const Scene& scene) {
 }
 
 void build_and_check(const Scene& scene) {
-  if (is_small(scene)) (void)check(scene, build_model(scene));
+  if (is_small(scene)) (void)check::check(scene, build_model(scene));
 }
 
 /// A directory of its own, gone with its owner.
@@ -99,12 +99,12 @@ void scene(std::string_view bytes) {
 
 void matrix(std::string_view bytes) {
   std::istringstream in{std::string(bytes)};
-  tolerate_errors([&] { (void)read_matrix_market(in, "fuzz.mtx", "matrices.mass"); });
+  tolerate_errors([&] { (void)scene::read_matrix_market(in, "fuzz.mtx", "matrices.mass"); });
 }
 
 void table(std::string_view bytes) {
   std::istringstream in{std::string(bytes)};
-  tolerate_errors([&] { (void)read_time_table(in, "fuzz.csv", "loads.1.history"); });
+  tolerate_errors([&] { (void)scene::read_time_table(in, "fuzz.csv", "loads.1.history"); });
 }
 
 void setting(std::string_view bytes) {
@@ -114,19 +114,19 @@ void setting(std::string_view bytes) {
   if (equals == std::string::npos) return;
   const Override change{text.substr(0, equals), text.substr(equals + 1)};
   tolerate_errors([&] { build_and_check(read_scene(SIGNORINI_MODELS "/belt.toml", {change})); });
-  tolerate_errors([&] { (void)parse_vary(text); });
+  tolerate_errors([&] { (void)sweep::parse_vary(text); });
 }
 
 void results(std::string_view bytes) {
   const Folder from, to;
   unpack(bytes, from.path());
-  tolerate_errors([&] { (void)write_plots(from.path()); });
+  tolerate_errors([&] { (void)result::write_plots(from.path()); });
   tolerate_errors([&] {
     constexpr std::size_t most_points = 1000;
-    const SweepSpec spec = read_sweep_spec(from.path());
-    if (points(spec.vary).size() > most_points) return;
-    SweepDirectory merged(to.path() / "merged", spec, false);
-    (void)merge_sweeps({from.path()}, merged);
+    const sweep::SweepSpec spec = sweep::read_sweep_spec(from.path());
+    if (sweep::points(spec.vary).size() > most_points) return;
+    sweep::SweepDirectory merged(to.path() / "merged", spec, false);
+    (void)sweep::merge_sweeps({from.path()}, merged);
     merged.write_results();
   });
 }

@@ -52,16 +52,16 @@ class Deadline : public Recorder {
 };
 
 struct Truth {
-  Track track;
+  certify::Track track;
   Certificate certificate;
 };
 
 std::optional<Truth> truth_of(const Model& model, RunSpec run, double seconds) {
   run.engine = Engine::exact;
   run.certify = Certify::yes;
-  if (!exact_takes(model, run)) return std::nullopt;
+  if (!run::exact_takes(model, run)) return std::nullopt;
   Deadline deadline(seconds);
-  Tracker tracker(model, false, &deadline);
+  certify::CompanionTracker tracker(model, false, &deadline);
   CertifyOptions options;
   options.go_on = [&] { return deadline.go_on(); };
   CertifiedReport report = simulate_certified(model, run, tracker, options);
@@ -79,14 +79,14 @@ struct Tally {
 /// Times of the truth by contact and number, with their errors.
 struct Answers {
   struct Answer {
-    const TimedEvent* event;
+    const certify::TimedEvent* event;
     double error;
   };
   std::vector<std::vector<Answer>> of_contact;
 
   Answers(const Truth& truth, std::size_t contacts) : of_contact(contacts) {
     for (std::size_t i = 0; i < truth.track.events.size(); ++i) {
-      const TimedEvent& event = truth.track.events[i];
+      const certify::TimedEvent& event = truth.track.events[i];
       if (event.is_change() && truth.certificate.certain(i))
         of_contact[static_cast<std::size_t>(event.contact)].push_back(
             {&event, truth.certificate.t_errors[i]});
@@ -94,14 +94,14 @@ struct Answers {
   }
 };
 
-void judge_run(const std::string& name, const Track& track, const Certificate& certificate,
+void judge_run(const std::string& name, const certify::Track& track, const Certificate& certificate,
                const Truth& truth, std::size_t contacts, Tally& tally, std::FILE* rows) {
   const Answers answers(truth, contacts);
   std::vector<std::size_t> next(contacts, 0);
   std::vector<bool> astray(contacts, false);
   double greatest = 0.0;  // bound
   for (std::size_t i = 0; i < track.events.size(); ++i) {
-    const TimedEvent& event = track.events[i];
+    const certify::TimedEvent& event = track.events[i];
     if (!event.is_change()) continue;
     const auto k = static_cast<std::size_t>(event.contact);
     const std::size_t number = next[k]++;
@@ -128,7 +128,7 @@ void judge_run(const std::string& name, const Track& track, const Certificate& c
     if (!certain) continue;
     ++tally.certain_right;
     const double bound = off_by, off = std::abs(event.t - answer->event->t);
-    if (!event.fell || answer->error * sharper > bound) continue;
+    if (!event.is_located || answer->error * sharper > bound) continue;
     ++tally.judged;
     if (off > 0.0) {
       tally.overestimates.push_back(bound / off);
@@ -165,13 +165,13 @@ void examine(const std::string& name, const Scene& scene, const Asked& asked,
     run.output_times = std::vector{run.t_end};
     run.frames.clear();
     // Rebounds rest below a velocity that follows rtol: the truth is that of the same velocity.
-    const auto held = plan_companion(model, run).runs.front().model;
+    const auto held = certify::plan_companion(model, run).runs.front().model;
     const std::optional<Truth> truth = truth_of(held, run, asked.seconds);
     if (!truth) return;
     for (const Companion companion : {Companion::finer, Companion::exact}) {
       run.companion = companion;
       Deadline deadline(asked.seconds);
-      Tracker tracker(model, false, &deadline);
+      certify::CompanionTracker tracker(model, false, &deadline);
       CertifyOptions options;
       options.go_on = [&] { return deadline.go_on(); };
       const CertifiedReport report = simulate_certified(model, run, tracker, options);
@@ -181,7 +181,7 @@ void examine(const std::string& name, const Scene& scene, const Asked& asked,
       tally.own_seconds += report.report.wall_time;
       tally.companion_seconds += report.certificate->wall_time;
       tally.wait_seconds += report.certificate->wait;
-      const Track track{std::move(tracker.events), report.report.outcome.t, ""};
+      const certify::Track track{std::move(tracker.events), report.report.outcome.t, ""};
       judge_run(fmt::format("{}, rtol {:g}, {}", name, rtol, report.certificate->companion), track,
                 *report.certificate, *truth, model.contacts.size(), tally, asked.rows);
     }

@@ -41,8 +41,8 @@ constexpr Planted errors[] = {
     {"mass", [](Model& m) { m.mass *= planted; }},
 };
 
-VerifyRequest request_of(const Scene& scene, double seconds) {
-  VerifyRequest request;
+verify::VerifyRequest request_of(const Scene& scene, double seconds) {
+  verify::VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;
   request.most_seconds = seconds;
@@ -50,12 +50,12 @@ VerifyRequest request_of(const Scene& scene, double seconds) {
 }
 
 /// By how many bars the exact flow moves with the error: the greatest over the events that both have.
-double moved(const Model& model, const Model& off, const Scene& scene, const Verification& v) {
+double moved(const Model& model, const Model& off, const Scene& scene, const verify::Verification& v) {
   RunSpec run = scene.run;
   run.engine = Engine::exact;
   const Result right = simulate(model, run), wrong = simulate(off, run);
   double greatest = 0.0;
-  for (const VerifiedEvent& event : v.events) {
+  for (const verify::VerifiedEvent& event : v.events) {
     const auto near = [&](const Result& result) {
       double best = INFINITY;
       for (const Event& e : result.events)
@@ -70,9 +70,9 @@ double moved(const Model& model, const Model& off, const Scene& scene, const Ver
   return greatest;
 }
 
-std::string orders_of(const Verification& v) {
+std::string orders_of(const verify::Verification& v) {
   std::string text;
-  for (const VerifiedKind& kind : v.kinds)
+  for (const verify::VerifiedKind& kind : v.kinds)
     if (kind.order) text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", kind.name, *kind.order);
   return text;
 }
@@ -81,21 +81,22 @@ std::string orders_of(const Verification& v) {
 bool examine(const std::string& path, double seconds) {
   const Scene scene = read_scene(path, {{"run.engine", "ida"}});
   const Model model = build_model(scene);
-  const Verification v = verify(model, model, request_of(scene, seconds));
+  const verify::Verification v = verify::verify(model, model, request_of(scene, seconds));
   fmt::print("| {} | {} | {:.4g} | {:.2g} | {} | ", std::filesystem::path(path).stem().string(),
-             to_string(v.verdict), v.until, v.dt.empty() ? 0.0 : v.dt.front(), orders_of(v));
-  bool good = v.verdict != Agreement::differ;
+             verify::to_string(v.verdict), v.until, v.dt.empty() ? 0.0 : v.dt.front(), orders_of(v));
+  bool good = v.verdict != verify::Agreement::differ;
   for (const Planted& error : errors) {
     Model off = model;
     error.plant(off);
-    VerifyRequest request = request_of(scene, seconds);
+    verify::VerifyRequest request = request_of(scene, seconds);
     if (!v.dt.empty()) request.dt = v.dt.front();
-    const Verification found = verify(model, off, request);
+    const verify::Verification found = verify::verify(model, off, request);
     const double by = moved(model, off, scene, v);
-    fmt::print("{} ({:.2g}) | ", found.verdict == Agreement::differ ? "found" : "-", by);
-    if (by > bars && v.verdict == Agreement::agree) good = good && found.verdict == Agreement::differ;
+    fmt::print("{} ({:.2g}) | ", found.verdict == verify::Agreement::differ ? "found" : "-", by);
+    if (by > bars && v.verdict == verify::Agreement::agree)
+      good = good && found.verdict == verify::Agreement::differ;
   }
-  fmt::print("{} |\n", v.verdict == Agreement::agree ? "" : v.sentence);
+  fmt::print("{} |\n", v.verdict == verify::Agreement::agree ? "" : v.sentence);
   std::fflush(stdout);
   return good;
 }

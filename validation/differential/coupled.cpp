@@ -88,7 +88,7 @@ class Mechanics {
 /// M^-1 P and -M^-1 (C v + K u).
 std::array<Extended, 2> Mechanics::free_acceleration(const State& s) const {
   Vector load = Vector::Zero(static_cast<Eigen::Index>(model_.size()));
-  Forcing(model_, s.t, Side::after).add_load(s.t, 0, load.data());
+  motion::Forcing(model_, s.t, motion::Side::after).add_load(s.t, 0, load.data());
   const Extended inner = Eigen::MatrixXd(model_.damping).cast<long double>() * s.v.cast<long double>() +
                          Eigen::MatrixXd(model_.stiffness).cast<long double>() * s.u.cast<long double>();
   return {solved(load.cast<long double>()), solved(-inner)};
@@ -340,7 +340,7 @@ CoupledFinding examine_coupled(const Scene& scene, std::size_t most_instants) {
     }
     Result run = run_with_rows(model, spec, times, !stops);
     found.undecided = first.report.undecided;
-    Mechanics mechanics(model, tolerance_of(model, spec).capture_velocity());
+    Mechanics mechanics(model, engine::tolerance_of(model, spec).capture_velocity());
     mechanics.pass({0.0, model.u0, model.v0});
     for (const Result* rows : {&first, static_cast<const Result*>(&run)})
       for (const Result::Row& row : rows->rows) mechanics.pass({row.t, row.u, row.v});

@@ -8,15 +8,16 @@
 namespace signorini::differential {
 namespace {
 
-std::string side(const std::vector<LoggedEvent>& events, const std::optional<std::size_t>& i) {
+std::string side(const std::vector<compare::LoggedEvent>& events, const std::optional<std::size_t>& i) {
   return i ? fmt::format("{:.9g} {}", events[*i].t, events[*i].name()) : std::string("no more events");
 }
 
 /// Distance of event i to the nearest at another time, in units of their uncertainties.
-double room_of(const std::vector<LoggedEvent>& events, const std::optional<std::size_t>& i, double roundoff) {
+double room_of(const std::vector<compare::LoggedEvent>& events, const std::optional<std::size_t>& i,
+               double roundoff) {
   double room = Deviation::never;
   if (!i) return room;
-  for (const LoggedEvent& other : events) {
+  for (const compare::LoggedEvent& other : events) {
     const double distance = std::abs(other.t - events[*i].t);
     const double blur = std::max(other.uncertainty, events[*i].uncertainty);
     if (distance > roundoff && blur > 0.0) room = std::min(room, distance / blur);
@@ -53,7 +54,7 @@ void raise(std::vector<double>& list, const std::vector<double>& other) {
     if (!other.empty()) list[i] = std::max(list[i], other[std::min(i, other.size() - 1)]);
 }
 
-bool same_but_end(const LoggedEvent& a, const LoggedEvent& b) {
+bool same_but_end(const compare::LoggedEvent& a, const compare::LoggedEvent& b) {
   return a.contact == b.contact && a.type == b.type && a.from == b.from;
 }
 
@@ -106,12 +107,12 @@ Deviation deviation(const Track& reference, const Track& other, const Weights& w
   // A run that was given up ends there; one that stopped has said so by an event.
   for (const Track* track : {&reference, &other})
     if (given_up(*track)) t_end = std::min(t_end, track->t);
-  const Alignment alignment = align(reference.events, other.events, {t_end, 0.0});
+  const compare::Alignment alignment = compare::align(reference.events, other.events, {t_end, 0.0});
   d.aligned = alignment.pairs.size();
   std::vector<std::pair<double, double>> gaps;  // between the two times of each event
   double latest = 0.0, blurred = 0.0;
-  for (const AlignedPair& pair : alignment.pairs) {
-    const LoggedEvent &a = reference.events[pair.reference], &b = other.events[pair.other];
+  for (const compare::AlignedPair& pair : alignment.pairs) {
+    const compare::LoggedEvent &a = reference.events[pair.reference], &b = other.events[pair.other];
     latest = std::max(latest, apart(a.t, b.t));
     d.time[a.contact].push_back(latest);
     blurred = std::max(blurred, a.uncertainty + b.uncertainty);
@@ -154,14 +155,14 @@ bool rests_by_rounding(const Track& a, const Track& b, double t_end) {
          a.events[i].to == b.events[i].to)
     ++i;
   if (i >= a.events.size() || i >= b.events.size() || !same_but_end(a.events[i], b.events[i])) return false;
-  const LoggedEvent& here = a.events[i];
+  const compare::LoggedEvent& here = a.events[i];
   if (here.type != to_string(EventType::impact)) return false;
   const bool first_goes_on = here.to == to_string(State::open);
-  const std::vector<LoggedEvent>& goes_on = first_goes_on ? a.events : b.events;
+  const std::vector<compare::LoggedEvent>& goes_on = first_goes_on ? a.events : b.events;
   const double longest = std::sqrt(64.0 * std::numeric_limits<double>::epsilon()) * t_end;
   double left = here.t;
   for (std::size_t k = i; k < goes_on.size(); ++k) {
-    const LoggedEvent& e = goes_on[k];
+    const compare::LoggedEvent& e = goes_on[k];
     if (e.contact != here.contact) continue;
     if (!(e.t - left < longest)) return false;
     if (e.to != to_string(State::open)) return true;

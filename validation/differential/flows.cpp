@@ -43,7 +43,7 @@ bool modes_take(const Scene& scene) {
   try {
     RunSpec modal = scene.run;
     modal.flow = Flow::modal;
-    (void)choose_flow(build_model(scene), modal);
+    (void)run::choose_flow(build_model(scene), modal);
   } catch (const Error&) {
     return false;
   }

@@ -92,7 +92,7 @@ class Judge {
   bool find_reference() {
     reference_spec_ = spec(Engine::exact, settings_.tight);
     linear_ = std::none_of(model_.contacts.begin(), model_.contacts.end(),
-                           [](const Contact& c) { return friction_varies(c); });
+                           [](const Contact& c) { return contact::friction_varies(c); });
     if (!linear_) reference_spec_ = spec(Engine::ida, 0.1 * settings_.tight);
     reference_ = run_of(model_, reference_spec_);
     if (reference_.end == Track::End::refused) {

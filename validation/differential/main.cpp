@@ -311,7 +311,7 @@ void look_at_witness(const std::string& name, const std::string& text, const Ask
       ++alarms.laws[a.way + ", " + a.law];
       fmt::print("{} {}: {} {} {} times, t = {:.9g} ({}): {:.3g}, limit {:.3g}{}\n", name, a.way, a.law,
                  a.contact, a.count, a.worst.t, a.worst.event, a.worst.value, a.worst.limit,
-                 a.worst.grave ? " GRAVE" : "");
+                 a.worst.unexplained ? " GRAVE" : "");
     }
     alarms.with_alarms += static_cast<long>(ways.size());
   } catch (const SceneError&) {

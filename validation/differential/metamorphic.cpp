@@ -150,7 +150,7 @@ struct Metamorphic::Members {
 
   [[nodiscard]] Promise promise_of(const Track& track) {
     Promise promise;
-    promise.least_time = resolution_at(scene.run.t_end, 0.0);  // what is closer is one instant
+    promise.least_time = motion::resolution_at(scene.run.t_end, 0.0);  // what is closer is one instant
     if (settings.engine != Engine::ida) {
       promise.spread = spread;
       promise.factor = settings.factor;

@@ -113,10 +113,10 @@ Found by_relations(const Scene& scene, const CheckRequest& request) {
 
 /// The scene of the text, with what changes it as a whole: other units, a later start.
 SceneReader reader(const CheckRequest& request) {
-  const Scene scene = find_cutoff(parse_scene(request.text, "pair.toml"));
+  const Scene scene = reduction::find_cutoff(parse_scene(request.text, "pair.toml"));
   SceneReader read = [text = request.text, found = scene.reduction](const std::vector<Override>& changes) {
     Scene changed = parse_scene(text, "pair.toml", changes);
-    return found ? find_cutoff(std::move(changed), found) : changed;
+    return found ? reduction::find_cutoff(std::move(changed), found) : changed;
   };
   const bool computes =
       asks(request, Check::derivatives) || asks(request, Check::orbit) || asks(request, Check::verify);
@@ -158,9 +158,9 @@ std::vector<Checked> check_scene(const CheckRequest& request) {
     for (const Check check : {Check::derivatives, Check::orbit, Check::sweep, Check::verify})
       if (asks(request, check)) return by_commands(request);
     if (request.only == "engines")
-      return {by_engines(find_cutoff(parse_scene(request.text, "pair.toml")), request)};
+      return {by_engines(reduction::find_cutoff(parse_scene(request.text, "pair.toml")), request)};
     if (request.only == "flows")
-      return {by_flows(find_cutoff(parse_scene(request.text, "pair.toml")), request)};
+      return {by_flows(reduction::find_cutoff(parse_scene(request.text, "pair.toml")), request)};
     const Scene scene = reader(request)({});
     Found found = by_relations(scene, request);
     constexpr std::uint64_t each = 4;

@@ -228,16 +228,18 @@ Checked by_sweep(const CheckRequest& request, const std::string& path) {
     if (load.name == "push") given = load.amplitude;
   constexpr double part = 0.9;
   const std::string value = fmt::format("{:.17g}", part * given);
-  Scene changed = find_cutoff(parse_scene(request.text, "pair.toml", {{path, value}}));
+  Scene changed = reduction::find_cutoff(parse_scene(request.text, "pair.toml", {{path, value}}));
   std::optional<SavedState> carried;
   if (asks(Check::going_on)) {
-    const std::optional<Related> later = related_going_on_at(find_cutoff(scene), 0.3 * scene.run.t_end);
+    const std::optional<Related> later =
+        related_going_on_at(reduction::find_cutoff(scene), 0.3 * scene.run.t_end);
     if (!later) return {Kind::idle, how, "the run does not come so far"};
     carried = later->scene.initial.saved;
     changed.initial = {};
     changed.initial.saved = carried;
   }
-  const SweepRow row = compute_row({"pair.toml", request.text, {{path, value}}, 0, {value}, {}, {}}, carried);
+  const sweep::SweepRow row =
+      sweep::compute_row({"pair.toml", request.text, {{path, value}}, 0, {value}, {}, {}}, carried);
   if (row.outcome == "refused") return {Kind::refused, how, row.reason};
   if (row.outcome != "done") return {Kind::idle, how, row.outcome + ": " + row.reason};
   Transformed other = permuted(changed, request.seed);
@@ -257,7 +259,7 @@ Checked by_sweep(const CheckRequest& request, const std::string& path) {
   double greatest = 0.0;
   for (const Peak& peak : run.peaks) greatest = std::max({greatest, std::abs(peak.N), std::abs(peak.T)});
   constexpr double same = 1e-5;
-  for (const SweepRow::Contact& c : row.contacts)
+  for (const sweep::SweepRow::Contact& c : row.contacts)
     for (std::size_t k = 0; k < run.contacts.size(); ++k) {
       if (run.contacts[k] != c.name) continue;
       const double f = other.factors.force;
@@ -270,15 +272,15 @@ Checked by_sweep(const CheckRequest& request, const std::string& path) {
 }
 
 Checked by_verify(const Scene& scene) {
-  VerifyRequest request;
+  verify::VerifyRequest request;
   request.run = scene.run;
   request.run.engine = Engine::ida;
   request.dt = scene.run.dt ? *scene.run.dt : scene.run.t_end / 2000.0;
   request.most_seconds = 2.0;
   const Model model = build_model(scene);
-  const Verification found = verify(model, model, request);
-  if (found.verdict == Agreement::agree) return {Kind::held, "verify", ""};
-  return {found.verdict == Agreement::differ ? Kind::broken : Kind::idle, "verify", found.sentence};
+  const verify::Verification found = verify::verify(model, model, request);
+  if (found.verdict == verify::Agreement::agree) return {Kind::held, "verify", ""};
+  return {found.verdict == verify::Agreement::differ ? Kind::broken : Kind::idle, "verify", found.sentence};
 }
 
 }  // namespace signorini::differential

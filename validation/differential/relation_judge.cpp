@@ -38,8 +38,8 @@ class WrittenBack {
       : first_(first), related_(related), other_(other) {}
 
   void events() {
-    std::vector<LoggedEvent> kept;
-    for (LoggedEvent event : other_.events) {
+    std::vector<compare::LoggedEvent> kept;
+    for (compare::LoggedEvent event : other_.events) {
       if (std::find(first_.contacts.begin(), first_.contacts.end(), event.contact) == first_.contacts.end())
         continue;
       event.t = time(event.t);
@@ -123,7 +123,7 @@ class WrittenBack {
   }
   /// Of the first one's value, the other's.
   [[nodiscard]] double factor(const SeenColumn& column) const {
-    double f = factor_of(column.unit, related_.factors);
+    double f = scene::factor_of(column.unit, related_.factors);
     const bool turns =
         column.of == SeenColumn::Of::slip ||
         (column.of == SeenColumn::Of::force && column.name.substr(column.name.rfind('.')) == ".T");
@@ -253,17 +253,17 @@ bool shares_motion(const Model& model) {
   std::vector<Vector> rows;
   std::vector<std::size_t> tangents;
   for (const Contact& c : model.contacts) {
-    if (c.takes_impulses()) rows.push_back(full(c.normal, model.size()));
+    if (c.takes_impulses()) rows.push_back(assembly::full(c.normal, model.size()));
     if (!c.sticks_rigidly()) continue;
     tangents.push_back(rows.size());
-    rows.push_back(full(c.tangent, model.size()));
+    rows.push_back(assembly::full(c.tangent, model.size()));
   }
   Eigen::MatrixXd all(model.size(), static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = rows[i].normalized();
   for (const std::size_t t : tangents) {
     Eigen::MatrixXd others = all;
     others.col(static_cast<Eigen::Index>(t)).setZero();
-    if (rank(others) == rank(all)) return true;
+    if (base::rank(others) == base::rank(all)) return true;
   }
   return false;
 }
@@ -273,7 +273,7 @@ bool near_event(const SeenRun& run, double t, double t_end, double from) {
   // What a disturbance moves an event by is in its error; a restart's and the clock's rounding are not.
   const double instant = 64.0 * eps * (t_end + from);
   return std::any_of(run.events.begin(), run.events.end(),
-                     [&](const LoggedEvent& event) {
+                     [&](const compare::LoggedEvent& event) {
                        return !(std::abs(event.t - t) > 2.0 * event.uncertainty + instant);
                      }) ||
          std::any_of(run.instants.begin(), run.instants.end(),
@@ -413,22 +413,22 @@ bool RelationJudge::Members::ends_differ(const SeenRun& other, Likeness& result)
 }
 
 void RelationJudge::Members::events(const Related& related, const SeenRun& other, Likeness& result) const {
-  const auto certain = [&](const std::vector<LoggedEvent>& events) {
-    std::vector<LoggedEvent> list;
-    for (const LoggedEvent& event : events)
+  const auto certain = [&](const std::vector<compare::LoggedEvent>& events) {
+    std::vector<compare::LoggedEvent> list;
+    for (const compare::LoggedEvent& event : events)
       if (event.t > related.from) list.push_back(event);
     return list;
   };
-  std::vector<LoggedEvent> a = certain(run.events), b = certain(other.events);
+  std::vector<compare::LoggedEvent> a = certain(run.events), b = certain(other.events);
   double slack = rounding_of_sums * (run.t + std::abs(related.later));
-  for (std::vector<LoggedEvent>* events : {&a, &b})
-    for (LoggedEvent& event : *events) {
+  for (std::vector<compare::LoggedEvent>* events : {&a, &b})
+    for (compare::LoggedEvent& event : *events) {
       if (std::isnan(event.uncertainty)) event.uncertainty = 0.0;
       if (event.t < result.until) slack = std::max(slack, event.uncertainty);
     }
-  const Alignment aligned = align(a, b, {result.until, rounding_of_sums * run.t});
-  for (const AlignedPair& pair : aligned.pairs) {
-    const LoggedEvent &x = a[pair.reference], &y = b[pair.other];
+  const compare::Alignment aligned = compare::align(a, b, {result.until, rounding_of_sums * run.t});
+  for (const compare::AlignedPair& pair : aligned.pairs) {
+    const compare::LoggedEvent &x = a[pair.reference], &y = b[pair.other];
     if (std::max(x.t, y.t) >= result.until) continue;
     ++result.events;
     // A going on begins from what a run of the first part left, which states nothing: its error there is another of the
@@ -449,7 +449,7 @@ void RelationJudge::Members::events(const Related& related, const SeenRun& other
   // What lies within its error of the end, or of where the second run begins, may lie on the other side of it.
   const bool at_edge = split.t + 2.0 * slack >= result.until || split.t - 2.0 * slack <= related.from;
   if (at_edge) return;
-  const auto side = [](const std::vector<LoggedEvent>& events, const std::optional<std::size_t>& i) {
+  const auto side = [](const std::vector<compare::LoggedEvent>& events, const std::optional<std::size_t>& i) {
     return i ? fmt::format("{:.12g} {}", events[*i].t, events[*i].name()) : std::string("none");
   };
   exceeds(result, "sequence", side(a, split.reference) + " | " + side(b, split.other), {split.t, never});
@@ -465,9 +465,9 @@ bool RelationJudge::Members::copies_part(const Likeness::Parting& at) const {
   double most = 0.0;
   for (std::size_t i = 1; i < copies.size(); ++i) {
     const auto &a = copies[0].events, &b = copies[i].events;
-    const Alignment aligned = align(a, b, {run.t, rounding_of_sums * run.t});
+    const compare::Alignment aligned = compare::align(a, b, {run.t, rounding_of_sums * run.t});
     if (aligned.split && aligned.split->t <= at.t * (1.0 + rounding_of_sums)) return true;
-    for (const AlignedPair& pair : aligned.pairs)
+    for (const compare::AlignedPair& pair : aligned.pairs)
       if (a[pair.reference].t <= at.t * (1.0 + rounding_of_sums))
         most = std::max(most, std::abs(a[pair.reference].t - b[pair.other].t));
   }

@@ -43,7 +43,7 @@ void shift_histories(Scene& scene, double by) {
 
 /// Before t = 0 it stands still, as the state at t = 0 takes it; what follows is continuous there but for loads.
 bool waits(const HistorySpec& spec, Drives of) {
-  const History history = make_history(spec, "history");
+  const History history = scene::make_history(spec, "history");
   const Piece &before = history.piece_before(0.0), &after = history.piece(0.0);
   for (const int order : {1, 2})
     if (before.value(0.0, order) != 0.0 || before.value(-1.0, order) != 0.0) return false;
@@ -55,7 +55,7 @@ bool waits(const HistorySpec& spec, Drives of) {
 /// Parts without mass follow a load that jumps at once. At t = 0 energies are counted from what has come of that; where
 /// the same happens later, it is the work of the load.
 bool jumps_at_start(const HistorySpec& spec, Drives of) {
-  const History history = make_history(spec, "history");
+  const History history = scene::make_history(spec, "history");
   const Piece &before = history.piece_before(0.0), &after = history.piece(0.0);
   // What sticks to a surface follows its acceleration.
   const bool rate = of == Drives::surface && before.value(0.0, 1) != after.value(0.0, 1);
@@ -69,7 +69,7 @@ class KeptRun {
     static std::atomic<long> number{0};
     path_ = fs::temp_directory_path() / fmt::format("signorini-relation-{}-{}", getpid(), number++);
     const Model model = build_model(scene);
-    RunDirectory directory(path_, scene, model, {true, {"relations"}});
+    result::RunDirectory directory(path_, scene, model, {true, {"relations"}});
     report_ = simulate(model, scene.run, directory);
     static_cast<void>(directory.finish(report_));
   }
@@ -133,7 +133,7 @@ namespace {
 /// Which rebounds rest follows from scales, and they from t_end; in both parts as in the whole run.
 Scene with_captures_told(Scene scene) {
   const Model model = build_model(scene);
-  const double slowest = tolerance_of(model, scene.run).capture_velocity();
+  const double slowest = engine::tolerance_of(model, scene.run).capture_velocity();
   for (std::size_t k = 0; k < scene.contacts.size(); ++k)
     if (ContactSpec& c = scene.contacts[k]; model.contacts[k].takes_impulses() && !c.capture_velocity)
       c.capture_velocity = slowest;

@@ -82,18 +82,18 @@ void take_events(const Kept& run, const Model& model, const std::optional<Certif
       seen.instants.push_back(event.t);
       continue;
     }
-    LoggedEvent row{event.t,
-                    model.contacts[static_cast<std::size_t>(event.contact)].name,
-                    to_string(event.type),
-                    to_string(event.from),
-                    to_string(event.to),
-                    0.0};
+    compare::LoggedEvent row{event.t,
+                             model.contacts[static_cast<std::size_t>(event.contact)].name,
+                             to_string(event.type),
+                             to_string(event.from),
+                             to_string(event.to),
+                             0.0};
     if (certificate) row.uncertainty = certificate->t_errors[i];
     seen.events.push_back(std::move(row));
   }
 }
 
-SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, FaultInjector* faults = nullptr) {
+SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, run::FaultInjector* faults = nullptr) {
   SeenRun seen;
   RunSpec spec = scene.run;
   spec.certify = certify;
@@ -105,7 +105,7 @@ SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, FaultInje
     CertifyOptions options;
     options.go_on = [&run] { return run.in_time(); };
     if (faults != nullptr)
-      found.report = simulate(model, spec, run, *faults);
+      found.report = run::simulate(model, spec, run, *faults);
     else
       found = simulate_certified(model, spec, run, options);
   } catch (const SceneError& error) {
@@ -141,7 +141,7 @@ SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, FaultInje
 
 SeenRun see(const Scene& scene, const Bounds& bounds) { return see(scene, bounds, Certify::yes); }
 SeenRun see_plainly(const Scene& scene, const Bounds& bounds) { return see(scene, bounds, Certify::no); }
-SeenRun see_injected(const Scene& scene, const Bounds& bounds, FaultInjector& faults) {
+SeenRun see_injected(const Scene& scene, const Bounds& bounds, run::FaultInjector& faults) {
   return see(scene, bounds, Certify::no, &faults);
 }
 

@@ -28,13 +28,13 @@ struct SeenColumn {
 
 struct SeenRun {
   Track::End end = Track::End::done;
-  std::string reason, said;         ///< as of Track
-  bool open_start = false;          ///< its start says what the data leave open
-  bool shared = false;              ///< it says that friction forces on one motion are not unique
-  double t = 0.0;                   ///< reached
-  double until = 0.0;               ///< certain until then; not certified: t
-  std::vector<LoggedEvent> events;  ///< uncertainty: t_error; not a number where it is not certain
-  std::vector<double> instants;     ///< at which loads or surfaces change, whatever contacts do
+  std::string reason, said;                  ///< as of Track
+  bool open_start = false;                   ///< its start says what the data leave open
+  bool shared = false;                       ///< it says that friction forces on one motion are not unique
+  double t = 0.0;                            ///< reached
+  double until = 0.0;                        ///< certain until then; not certified: t
+  std::vector<compare::LoggedEvent> events;  ///< uncertainty: t_error; not a number where it is not certain
+  std::vector<double> instants;              ///< at which loads or surfaces change, whatever contacts do
   std::vector<SeenColumn> columns;
   struct Row {
     double t = 0.0;
@@ -51,6 +51,6 @@ struct SeenRun {
 [[nodiscard]] SeenRun see(const Scene& scene, const Bounds& bounds);
 [[nodiscard]] SeenRun see_plainly(const Scene& scene, const Bounds& bounds);
 /// Without a companion, with errors that a test plants.
-[[nodiscard]] SeenRun see_injected(const Scene& scene, const Bounds& bounds, FaultInjector& faults);
+[[nodiscard]] SeenRun see_injected(const Scene& scene, const Bounds& bounds, run::FaultInjector& faults);
 
 }  // namespace signorini::differential

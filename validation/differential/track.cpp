@@ -30,8 +30,8 @@ class Bounded : public Result {
   std::chrono::steady_clock::time_point end_;
 };
 
-LoggedEvent logged(const Event& event, const Model& model) {
-  LoggedEvent row;
+compare::LoggedEvent logged(const Event& event, const Model& model) {
+  compare::LoggedEvent row;
   row.t = event.t;
   row.type = to_string(event.type);
   row.from = to_string(event.from);

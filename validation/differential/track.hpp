@@ -29,7 +29,7 @@ struct Track {
   std::string said;    ///< the whole sentence
   double t = 0.0;      ///< reached
   long steps = 0;      ///< as counted by Bounds
-  std::vector<LoggedEvent> events;
+  std::vector<compare::LoggedEvent> events;
   std::vector<Result::Row> rows;
   Report report;
 };

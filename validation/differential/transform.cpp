@@ -217,7 +217,7 @@ std::optional<Transformed> in_units(const Scene& scene, const Factors& factors) 
   if (scene.matrices && factors.length != 1.0) return std::nullopt;
   return Transformed{
       fmt::format("forces x {:g}, lengths x {:g}, times x {:g}", factors.force, factors.length, factors.time),
-      rescaled(scene, factors), factors};
+      scene::rescaled(scene, factors), factors};
 }
 
 Scene disturbed(const Scene& scene, std::uint64_t seed) {
@@ -225,7 +225,7 @@ Scene disturbed(const Scene& scene, std::uint64_t seed) {
   Scene result = scene;
   Random draw(seed);
   const auto relative = [&] { return 1.0 + eps * draw.real(-1.0, 1.0); };
-  visit_quantities(result, [&](double& x, const Unit&) { x *= relative(); });
+  scene::visit_quantities(result, [&](double& x, const Unit&) { x *= relative(); });
   result.run = scene.run;
   if (scene.matrices) {
     result.matrices = scene.matrices;
@@ -257,7 +257,7 @@ Scene disturbed(const Scene& scene, std::uint64_t seed) {
 
 Track mapped_back(Track track, const Transformed& from, const Track& reference, const Scene& scene) {
   track.t /= from.factors.time;
-  for (LoggedEvent& event : track.events) {
+  for (compare::LoggedEvent& event : track.events) {
     event.t /= from.factors.time;
     event.uncertainty /= from.factors.time;
     if (!from.mirrored) continue;

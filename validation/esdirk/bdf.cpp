@@ -20,7 +20,7 @@ class Bdf final : public Integrator {
         layout_(model_),
         linear_(model_, structure_, layout_) {
     for (N_Vector* x : {&y_, &yp_}) {
-      *x = make_vector(layout_.size(), parts_.context);
+      *x = ida::make_vector(layout_.size(), parts_.context);
       N_VConst(0.0, *x);
     }
     ida_ = IDACreate(parts_.context);
@@ -113,7 +113,7 @@ class Bdf final : public Integrator {
       m.an = contact.normal.dot(a);
       m.at += contact.tangent.dot(a);
       r[f] = flow_.rows()[k].normal.value(m);
-      r[f + 1] = slips_nonlinearly(contact, mode_[k].state)
+      r[f + 1] = contact::slips_nonlinearly(contact, mode_[k].state)
                      ? stribeck_row(contact, mode_[k].state, m.vt).value(m)
                      : flow_.rows()[k].tangent.value(m);
     }
@@ -123,7 +123,7 @@ class Bdf final : public Integrator {
     auto* b = static_cast<Bdf*>(self);
     const double* x = NV_DATA_S(y);
     for (std::size_t k = 0; k < b->model_.contacts.size(); ++k)
-      if (const State state = b->mode_[k].state; slips_nonlinearly(b->model_.contacts[k], state)) {
+      if (const State state = b->mode_[k].state; contact::slips_nonlinearly(b->model_.contacts[k], state)) {
         const ContactMotion m = b->flow_.motion(k, t, 0, x, x + b->flow_.size());
         b->linear_.linearise(k, stribeck_tangent(b->model_.contacts[k], state, m.vt, x[b->layout_.force(k)]));
       }
@@ -144,10 +144,10 @@ class Bdf final : public Integrator {
 
   ModeFlow& flow_;
   const Model& model_;
-  Structure structure_;
-  Layout layout_;
-  IdaLinearSolver linear_;
-  Mode mode_;
+  linear::SystemMatrices structure_;
+  ida::Layout layout_;
+  ida::IdaLinearSolver linear_;
+  contact::ContactStates mode_;
   Parts parts_;
   N_Vector y_ = nullptr, yp_ = nullptr;
   void* ida_ = nullptr;

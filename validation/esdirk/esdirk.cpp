@@ -13,7 +13,7 @@ namespace {
 class Esdirk final : public Integrator {
  public:
   Esdirk(ModeFlow& flow, int order, bool linear) : flow_(flow), order_(order) {
-    y_ = make_vector(2 * flow.size(), parts_.context);
+    y_ = ida::make_vector(2 * flow.size(), parts_.context);
     N_VConst(0.0, y_);
     memory_ = ARKStepCreate(nullptr, &Esdirk::derivative, 0.0, y_, parts_.context);
     ARKStepSetUserData(memory_, this);

@@ -8,17 +8,17 @@ namespace signorini::esdirk {
 
 Form stribeck_row(const Contact& contact, State state, double vt) {
   const int s = slip_sign(state);
-  return sliding_row(s, sliding_friction(contact, s * vt));
+  return contact::sliding_row(s, contact::sliding_friction(contact, s * vt));
 }
 
 Form stribeck_tangent(const Contact& contact, State state, double vt, double N) {
   ContactMotion m;
   m.vt = vt;
   m.N = N;
-  return sliding_row_tangent(contact, slip_sign(state), m);
+  return contact::sliding_row_tangent(contact, slip_sign(state), m);
 }
 
-ModeFlow::ModeFlow(const Model& model, const Structure& structure)
+ModeFlow::ModeFlow(const Model& model, const linear::SystemMatrices& structure)
     : model_(model),
       structure_(structure),
       n_(model.size()),
@@ -35,21 +35,22 @@ ModeFlow::ModeFlow(const Model& model, const Structure& structure)
   }
 }
 
-void ModeFlow::start(const Mode& mode, double t) {
-  const bool same = !mode_.empty() && states_of(mode) == states_of(mode_);
+void ModeFlow::start(const contact::ContactStates& mode, double t) {
+  const bool same = !mode_.empty() && contact::states_of(mode) == contact::states_of(mode_);
   mode_ = mode;
-  rows_ = tangents_ = rows_of(model_, mode);
-  forcing_.emplace(model_, t, Side::after);
+  rows_ = tangents_ = linear::rows_of(model_, mode);
+  forcing_.emplace(model_, t, motion::Side::after);
   linear_ = true;
   for (std::size_t k = 0; k < mode.size(); ++k)
-    if (slips_nonlinearly(model_.contacts[k], mode[k].state)) {
+    if (contact::slips_nonlinearly(model_.contacts[k], mode[k].state)) {
       if (!model_.contacts[k].normal_force_given())
         throw std::runtime_error("Stribeck's friction is treated on sliders only");
       linear_ = false;
     }
   if (same) return;
   fresh_ = true;
-  const std::vector<Weights> accelerations(static_cast<std::size_t>(n_), Weights{1.0, 0.0, 0.0});
+  const std::vector<linear::Weights> accelerations(static_cast<std::size_t>(n_),
+                                                   linear::Weights{1.0, 0.0, 0.0});
   if (!mass_.set(rows_, accelerations, true)) throw std::runtime_error("forces are not unique");
   ++count.factorisations;
 }
@@ -62,8 +63,8 @@ ContactMotion ModeFlow::motion(std::size_t k, double t, int order, const double*
   m.vn = contact.normal.dot(v);
   m.vt = contact.tangent.dot(v) - forcing_->surface(k, t, order + 1);
   m.at = -forcing_->surface(k, t, order + 2);
-  m.pressing = forcing_->pressing(k, t, order);
-  m.pressing_rate = forcing_->pressing(k, t, order + 1);
+  m.applied_normal_force = forcing_->applied_normal_force(k, t, order);
+  m.applied_normal_force_rate = forcing_->applied_normal_force(k, t, order + 1);
   return m;
 }
 
@@ -82,8 +83,10 @@ void ModeFlow::derivative(double t, int order, const double* y, double* dy) {
     rhs_[row] = side(rows_[k].normal);
     rhs_[row + 1] = side(rows_[k].tangent);
     // N of a slider is known, so the friction of the slip rate is a constant of its row.
-    if (const State state = mode_[k].state; order == 0 && slips_nonlinearly(model_.contacts[k], state))
-      rhs_[row + 1] = (rows_[k].tangent.N - stribeck_row(model_.contacts[k], state, m.vt).N) * -m.pressing;
+    if (const State state = mode_[k].state;
+        order == 0 && contact::slips_nonlinearly(model_.contacts[k], state))
+      rhs_[row + 1] =
+          (rows_[k].tangent.N - stribeck_row(model_.contacts[k], state, m.vt).N) * -m.applied_normal_force;
   }
   mass_.solve(rhs_.data());
   std::copy(v, v + n_, dy);
@@ -93,16 +96,17 @@ void ModeFlow::derivative(double t, int order, const double* y, double* dy) {
 void ModeFlow::linearise(double t, const double* y) {
   if (linear_) return;
   for (std::size_t k = 0; k < rows_.size(); ++k)
-    if (slips_nonlinearly(model_.contacts[k], mode_[k].state)) {
+    if (contact::slips_nonlinearly(model_.contacts[k], mode_[k].state)) {
       const ContactMotion m = motion(k, t, 0, y, y + n_);
-      tangents_[k].tangent = stribeck_tangent(model_.contacts[k], mode_[k].state, m.vt, -m.pressing);
+      tangents_[k].tangent =
+          stribeck_tangent(model_.contacts[k], mode_[k].state, m.vt, -m.applied_normal_force);
     }
 }
 
 bool ModeFlow::factor(double g) {
   ++count.factorisations;
   g_ = g;
-  const std::vector<Weights> weights(static_cast<std::size_t>(n_), Weights{1.0, g, g * g});
+  const std::vector<linear::Weights> weights(static_cast<std::size_t>(n_), linear::Weights{1.0, g, g * g});
   const bool ok = implicit_.set(tangents_, weights, fresh_);
   fresh_ = !ok;
   return ok;

@@ -18,10 +18,10 @@ namespace signorini::esdirk {
 
 class ModeFlow {
  public:
-  ModeFlow(const Model& model, const Structure& structure);
+  ModeFlow(const Model& model, const linear::SystemMatrices& structure);
 
   /// Puts a mode and the pieces of the loads just after t in force.
-  void start(const Mode& mode, double t);
+  void start(const contact::ContactStates& mode, double t);
   /// dy = f(t, y); order k > 0: the k-th derivative of f along a motion whose k-th derivative is y (not for
   /// Stribeck's friction).
   void derivative(double t, int order, const double* y, double* dy);
@@ -44,7 +44,7 @@ class ModeFlow {
 
   [[nodiscard]] int size() const { return n_; }
   [[nodiscard]] const Model& model() const { return model_; }
-  [[nodiscard]] const Forcing& forcing() const { return *forcing_; }
+  [[nodiscard]] const motion::Forcing& forcing() const { return *forcing_; }
   [[nodiscard]] bool linear() const { return linear_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
   /// Motion of contact k without forces and accelerations; order > 0: its derivatives.
@@ -57,13 +57,13 @@ class ModeFlow {
 
  private:
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   int n_;
-  SystemMatrix mass_, implicit_;
-  Mode mode_;
+  linear::SystemMatrix mass_, implicit_;
+  contact::ContactStates mode_;
   std::vector<Rows> rows_, tangents_;
   std::vector<double> rhs_, work_, scale_;
-  std::optional<Forcing> forcing_;
+  std::optional<motion::Forcing> forcing_;
   double g_ = 0.0, rtol_ = 0.0;
   bool linear_ = true, fresh_ = true;
 };

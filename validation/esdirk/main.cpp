@@ -111,7 +111,7 @@ void print_frontier(const std::string& of, const std::vector<std::vector<Row>>& 
 void compare(const Subject& subject, double limit) {
   const Scene scene = read_scene(subject.file, subject.changes);
   const Model model = build_model(scene);
-  const Structure structure(model);
+  const linear::SystemMatrices structure(model);
   ModeFlow flow(model, structure);
   const Cut reference = cut(scene, model, subject.restart);
   const auto stretches = static_cast<double>(reference.stretches.size());

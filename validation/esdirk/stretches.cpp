@@ -7,7 +7,7 @@
 namespace signorini::esdirk {
 namespace {
 
-std::optional<Ending> ending_of(const Model& model, const Event& event, const Mode& mode) {
+std::optional<Ending> ending_of(const Model& model, const Event& event, const contact::ContactStates& mode) {
   const auto contact = static_cast<std::size_t>(event.contact);
   if (!event.guard_rate || *event.guard_rate == 0.0) return std::nullopt;
   Guard guard = Guard::none;
@@ -16,7 +16,7 @@ std::optional<Ending> ending_of(const Model& model, const Event& event, const Mo
   if (event.type == EventType::stick || event.type == EventType::reversal) guard = Guard::sliding;
   if (event.type == EventType::slip)
     guard = event.to == State::slip_plus ? Guard::slip_plus : Guard::slip_minus;
-  for (const GuardForm& g : guards(model.contacts[contact], mode[contact]))
+  for (const GuardForm& g : contact::guards(model.contacts[contact], mode[contact]))
     if (g.kind == guard && guard != Guard::none) return Ending{contact, g.form, *event.guard_rate};
   return std::nullopt;
 }

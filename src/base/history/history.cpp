@@ -132,6 +132,10 @@ double Piece::value(double t, int order) const {
   return sum + amplitude * sine;
 }
 
+}  // namespace signorini
+
+namespace signorini::history {
+
 double roundoff(const Piece& piece, double t) {
   const double s = std::abs(t - piece.origin);
   double size = 0.0, slope = 0.0, power = 1.0, lower = 0.0;
@@ -161,6 +165,10 @@ double roundoff_of_rate(const Piece& piece, double t) {
   if (piece.function) size += std::abs(of_function(piece, t, 1));
   return rounding::of_many * size;
 }
+
+}  // namespace signorini::history
+
+namespace signorini {
 
 History::History(std::vector<double> starts, std::vector<Piece> pieces)
     : starts_(std::move(starts)), pieces_(std::move(pieces)) {
@@ -195,7 +203,7 @@ std::vector<Breakpoint> History::breakpoints() const {
     const double change = std::abs(right.value(t) - left.value(t));
     // No breakpoint between equal constants (a load of amplitude zero, two equal steps).
     if (change == 0.0 && is_constant_piece(left) && is_constant_piece(right)) continue;
-    result.push_back({t, change > roundoff(left, t) + roundoff(right, t)});
+    result.push_back({t, change > history::roundoff(left, t) + history::roundoff(right, t)});
   }
   return result;
 }
@@ -326,7 +334,7 @@ bool is_constant_and_sine(const Piece& p) {
                      p.coefficients.end(), [](double c) { return c == 0.0; });
 }
 
-bool negative(const Piece& p, double t) { return p.value(t) < -roundoff(p, t); }
+bool negative(const Piece& p, double t) { return p.value(t) < -history::roundoff(p, t); }
 
 /// The first trough of the sine at or after `from`.
 double trough(const Piece& p, double from) {
@@ -355,7 +363,7 @@ double search(const Piece& p, double from, double to) {
   const double m = 0.5 * (from + to);
   if (negative(p, m)) return m;
   const double r = std::max(m - from, to - m);
-  if (lower_bound(p, m, r) >= -roundoff(p, m)) return -1.0;
+  if (lower_bound(p, m, r) >= -history::roundoff(p, m)) return -1.0;
   // no numbers between the ends
   if (r <= rounding::of_few * std::max(std::abs(from), std::abs(to))) return -1.0;
   const double left = search(p, from, m);
@@ -396,6 +404,10 @@ double magnitude_between(const Piece& p, double from, double to) {
 
 }  // namespace
 
+}  // namespace signorini
+
+namespace signorini::history {
+
 double magnitude(const History& f, double t_end) {
   double largest = 0.0;
   each_part(f, t_end, [&](const Piece& p, double from, double to) {
@@ -435,4 +447,4 @@ double negative_at(const History& f, double t_end) {
   return found;
 }
 
-}  // namespace signorini
+}  // namespace signorini::history

@@ -2,7 +2,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::history {
 
 std::size_t end_of_instant(const History& f, std::size_t from, double t_end) {
   const std::vector<double>& starts = f.starts();
@@ -26,4 +26,4 @@ History resolved(const History& f, double t_end) {
   return {std::move(starts), std::move(pieces)};
 }
 
-}  // namespace signorini
+}  // namespace signorini::history

@@ -9,7 +9,7 @@
 
 #include "signorini/history.hpp"
 
-namespace signorini {
+namespace signorini::history {
 
 /// Bound of the rounding error of evaluating the piece at t; units of f.
 [[nodiscard]] double roundoff(const Piece& piece, double t);
@@ -40,4 +40,4 @@ namespace signorini {
 [[nodiscard]] std::size_t end_of_instant(const History& f, std::size_t from, double t_end);
 [[nodiscard]] History resolved(const History& f, double t_end);
 
-}  // namespace signorini
+}  // namespace signorini::history

@@ -17,7 +17,7 @@ Form friction_left(const Contact& contact, double side) {
   if (contact.friction.by_force())
     form.limit = 1.0;
   else
-    form.N = -static_friction(contact);
+    form.N = -contact::static_friction(contact);
   return form;
 }
 
@@ -36,14 +36,14 @@ Form tangent_row(const Contact& contact, const ContactState& state) {
     if (contact.friction.by_force())
       row.limit = -s;
     else
-      row = sliding_row(s, slipping_friction(contact, state.state));
+      row = contact::sliding_row(s, contact::slipping_friction(contact, state.state));
   }
   return row;
 }
 
 /// Closing: the contact enters the friction cone at its apex, so only the directions are compared.
 ContactState close(const Contact& contact, const MotionJet& jet) {
-  ContactState next{state_at_rest(contact), jet.motion[0].ut};
+  ContactState next{contact::state_at_rest(contact), jet.motion[0].ut};
   if (!contact.has_friction()) return next;
   // N jumps and T does not, or the shear element is still moving: the guards that the caller checks decide.
   if (contact.normal_damping > 0.0 || contact.shear) return next;
@@ -55,7 +55,7 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
     const double pull = *contact.tangential_stiffness * std::abs(d.ut);
     // At the apex, friction that depends on N has the coefficient of light loads.
     if (pull > contact.friction.static_ * contact.normal_stiffness * std::abs(d.gap))
-      next.state = slip_along(d.ut);
+      next.state = contact::slip_along(d.ut);
     break;
   }
   return next;
@@ -70,7 +70,7 @@ Form CoulombLaw::slip_rate(const Contact& contact, int s) const {
   if (contact.friction.by_force())
     form.limit_rate = -s / *contact.tangential_stiffness;
   else
-    add_normal_rate(contact, s * kinetic_friction(contact) / *contact.tangential_stiffness, form);
+    add_normal_rate(contact, s * contact::kinetic_friction(contact) / *contact.tangential_stiffness, form);
   return form;
 }
 
@@ -111,7 +111,7 @@ ContactLaw::Guards CoulombLaw::guards(const Contact& contact, const ContactState
     result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
     if (contact.shear && contact.friction.rises()) {  // the limit determines the rate and is more accurate
       result[1].form = {};
-      result[1].form.N = static_friction(contact);
+      result[1].form.N = contact::static_friction(contact);
       result[1].form.T = s;
     }
   }
@@ -123,7 +123,7 @@ ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& 
   const ContactMotion& m = jet.motion[0];
   switch (fallen) {
     case Guard::separation:
-      return {let_go(contact, m.gap), 0.0};
+      return {contact::let_go(contact, m.gap), 0.0};
     case Guard::clearing:
       return {State::open, 0.0};
     case Guard::closing:
@@ -131,11 +131,11 @@ ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& 
     case Guard::slip_plus:
     case Guard::slip_minus: {
       const double s = fallen == Guard::slip_plus ? 1.0 : -1.0;
-      const double T = s * sliding_limit(contact, m.N);
-      return {slip_along(s), slip_of(contact, m.ut, T)};
+      const double T = s * contact::sliding_limit(contact, m.N);
+      return {contact::slip_along(s), contact::slip_of(contact, m.ut, T)};
     }
     case Guard::sliding:
-      return {State::stick, slip_of(contact, m)};
+      return {State::stick, contact::slip_of(contact, m)};
     case Guard::none:
     case Guard::own_1:
     case Guard::own_2:
@@ -148,9 +148,9 @@ ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& 
 std::vector<ContactState> CoulombLaw::candidates(const Contact& contact, const ContactState& now,
                                                  const ContactMotion& before) const {
   // A contact that stuck keeps its anchor; a contact that slipped sticks at its current position.
-  const double anchor = now.state == State::stick ? now.anchor : slip_of(contact, before);
+  const double anchor = now.state == State::stick ? now.anchor : contact::slip_of(contact, before);
   std::vector<ContactState> result;
-  if (!capabilities.normal_force_given) result.push_back({let_go(contact, before.gap), 0.0});
+  if (!capabilities.normal_force_given) result.push_back({contact::let_go(contact, before.gap), 0.0});
   if (!contact.has_friction()) {
     result.push_back({State::closed, 0.0});
     return result;
@@ -170,7 +170,7 @@ ContactWork CoulombLaw::work(const Contact& contact, State state, double N, doub
   if (slip_sign(state) != 0) work.friction = T * path.slip;
   work.surface = -T * path.surface;
   if (!is_open(state)) work.damping = contact.normal_damping * path.gap_rate * path.gap;
-  work.pressing = -N * path.time;
+  work.applied_normal_force = -N * path.time;
   return work;
 }
 
@@ -180,7 +180,7 @@ double CoulombLaw::normal_energy(const Contact& /*contact*/, State /*state*/,
 }
 
 double CoulombLaw::stored_energy(const Contact& contact, State state, const ContactMotion& m) const {
-  return shear_energy(contact, m.T) + normal_energy(contact, state, m);
+  return contact::shear_energy(contact, m.T) + normal_energy(contact, state, m);
 }
 
 void CoulombLaw::add_normal_violations(const Contact& /*contact*/, State /*state*/,
@@ -192,8 +192,8 @@ Violations CoulombLaw::violations(const Contact& contact, State state, const Con
   add_normal_violations(contact, state, m, v);
   const int s = slip_sign(state);
   const double limit = s == 0 || is_held(state) || contact.friction.by_force()
-                           ? sticking_limit(contact, m.N)
-                           : -sliding_friction(contact, s * m.vt) * m.N;
+                           ? contact::sticking_limit(contact, m.N)
+                           : -contact::sliding_friction(contact, s * m.vt) * m.N;
   if (!is_open(state)) v.friction = std::abs(m.T) - limit;
   if (s != 0) v.direction = -m.T * slip_rate(contact, s).value(m);
   return v;

@@ -18,7 +18,7 @@ class CoulombLaw : public ContactLaw {
  public:
   explicit CoulombLaw(Law law) : CoulombLaw(law, capabilities_of(law)) {}
 
-  [[nodiscard]] std::string name() const override { return to_string(law_); }
+  [[nodiscard]] std::string name() const override { return contact::to_string(law_); }
   [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state) const override;
   [[nodiscard]] Guards guards(const Contact& contact, const ContactState& state) const override;
   [[nodiscard]] Form slip_rate(const Contact& contact, int s) const override;

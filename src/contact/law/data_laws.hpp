@@ -25,7 +25,7 @@ struct DataLaw {
   std::string_view meaning;  ///< part of the sentence about the key `law`
   std::vector<DataLawConstant> constants;
   /// Makes the law from kn and the constants, in their order.
-  OwnLaw (*make)(double normal_stiffness, const std::vector<double>& constants);
+  UserContactLaw (*make)(double normal_stiffness, const std::vector<double>& constants);
   /// Key whose value contradicts the others, and a message; nullopt: the values are valid.
   std::optional<std::pair<std::string_view, std::string>> (*objection)(double normal_stiffness,
                                                                        const std::vector<double>& constants);

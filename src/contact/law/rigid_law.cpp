@@ -15,7 +15,7 @@ class RigidLaw final : public CoulombLaw {
  private:
   [[nodiscard]] Form closed_normal_row(const Contact& /*contact*/) const override { return {.an = 1.0}; }
   void add_normal_rate(const Contact& /*contact*/, double factor, Form& form) const override {
-    form.pressing_rate = -factor;  // never used: a rigid contact has no kt
+    form.applied_normal_force_rate = -factor;  // never used: a rigid contact has no kt
   }
   void add_normal_violations(const Contact& /*contact*/, State state, const ContactMotion& m,
                              Violations& v) const override {

@@ -11,12 +11,12 @@ class SliderLaw final : public CoulombLaw {
 
  private:
   [[nodiscard]] Form closed_normal_row(const Contact& /*contact*/) const override {
-    return {.N = 1.0, .pressing = 1.0};
+    return {.N = 1.0, .applied_normal_force = 1.0};
   }
   void set_normal_guards(const Contact& /*contact*/, const ContactState& /*state*/,
                          Guards& /*result*/) const override {}
   void add_normal_rate(const Contact& /*contact*/, double factor, Form& form) const override {
-    form.pressing_rate = -factor;
+    form.applied_normal_force_rate = -factor;
   }
 };
 

@@ -18,7 +18,7 @@ Form with_memory(const OwnForm& own, double memory) {
 }
 
 /// True if no guard contains products of forms.
-bool has_linear_guards(const OwnLaw& law) {
+bool has_linear_guards(const UserContactLaw& law) {
   for (const OwnState& state : law.states)
     for (const OwnGuard& guard : state.guards)
       if (!guard.products.empty()) return false;
@@ -27,13 +27,13 @@ bool has_linear_guards(const OwnLaw& law) {
 
 class UserLaw final : public ContactLaw {
  public:
-  explicit UserLaw(std::shared_ptr<const OwnLaw> data)
+  explicit UserLaw(std::shared_ptr<const UserContactLaw> data)
       : ContactLaw(
             {.normal_spring = true, .signorini_coulomb = false, .linear_guards = has_linear_guards(*data)}),
         data_(std::move(data)) {}
 
   [[nodiscard]] std::string name() const override {
-    return is_named() ? data_->name : to_string(Law::compliant);
+    return is_named() ? data_->name : contact::to_string(Law::compliant);
   }
   [[nodiscard]] bool is_named() const override { return !data_->name.empty(); }
 
@@ -80,7 +80,7 @@ class UserLaw final : public ContactLaw {
     ContactWork work;
     work.friction = N * path.gap + T * path.slip;
     work.surface = -T * path.surface;
-    work.pressing = -N * path.time;
+    work.applied_normal_force = -N * path.time;
     return work;
   }
   [[nodiscard]] double stored_energy(const Contact& /*contact*/, State /*state*/,
@@ -126,7 +126,7 @@ class UserLaw final : public ContactLaw {
     return {data_, &guard.products};
   }
 
-  std::shared_ptr<const OwnLaw> data_;
+  std::shared_ptr<const UserContactLaw> data_;
 };
 
 /// Visits the coefficients of a form whose value has the unit `of`.
@@ -149,7 +149,7 @@ void visit_form(OwnForm& own, const Unit& of, const ContactLaw::VisitConstant& v
 }
 
 Unit unit_of(const FormProduct& product) {
-  const Unit a = unit_of(product.a), b = unit_of(product.b);
+  const Unit a = contact::unit_of(product.a), b = contact::unit_of(product.b);
   return {a.force + b.force, a.length + b.length, a.time + b.time};
 }
 
@@ -185,15 +185,15 @@ std::string refusal_of(const OwnState& state, std::size_t states) {
       return refuse(fmt::format("found next state {}, expected 0 to {}", guard.next, states - 1));
   }
   for (const Form& f : forms)
-    if (f.an != 0.0 || f.at != 0.0 || f.pressing != 0.0 || f.pressing_rate != 0.0 || f.limit != 0.0 ||
-        f.limit_rate != 0.0)
+    if (f.an != 0.0 || f.at != 0.0 || f.applied_normal_force != 0.0 || f.applied_normal_force_rate != 0.0 ||
+        f.limit != 0.0 || f.limit_rate != 0.0)
       return refuse("forms are on N, T, g, ut and their rates");
   return {};
 }
 
 }  // namespace
 
-std::string refusal_of(const OwnLaw& law) {
+std::string refusal_of(const UserContactLaw& law) {
   if (law.states.empty() || law.states.size() > most_own_states)
     return fmt::format("found {} states, expected 1 to {}", law.states.size(), most_own_states);
   for (const OwnState& state : law.states)
@@ -201,7 +201,7 @@ std::string refusal_of(const OwnLaw& law) {
   return {};
 }
 
-bool acts_along_tangent(const OwnLaw& law) {
+bool acts_along_tangent(const UserContactLaw& law) {
   const auto looks = [](const Form& f) { return f.ut != 0.0 || f.vt != 0.0; };
   const auto depends = [&](const Form& f) { return f.T != 0.0 || looks(f); };
   for (const OwnState& state : law.states) {
@@ -218,22 +218,23 @@ bool acts_along_tangent(const OwnLaw& law) {
   return false;
 }
 
-std::shared_ptr<const OwnLaw> visited(OwnLaw law, const ContactLaw::VisitConstant& visit) {
+std::shared_ptr<const UserContactLaw> visited(UserContactLaw law, const ContactLaw::VisitConstant& visit) {
   for (OwnState& state : law.states) {
-    visit_form(state.normal, unit_of(state.normal.form), visit);
-    visit_form(state.tangent, unit_of(state.tangent.form), visit);
+    visit_form(state.normal, contact::unit_of(state.normal.form), visit);
+    visit_form(state.tangent, contact::unit_of(state.tangent.form), visit);
     for (OwnGuard& guard : state.guards) {
-      const Unit of = guard.products.empty() ? unit_of(guard.positive.form) : unit_of(guard.products.front());
+      const Unit of =
+          guard.products.empty() ? contact::unit_of(guard.positive.form) : unit_of(guard.products.front());
       visit_form(guard.positive, of, visit);
       if (guard.memory) visit_form(*guard.memory, unit::length, visit);
       for (FormProduct& p : guard.products)
-        for (Form* factor : {&p.a, &p.b}) visit_form(*factor, unit_of(*factor), visit);
+        for (Form* factor : {&p.a, &p.b}) visit_form(*factor, contact::unit_of(*factor), visit);
     }
   }
-  return std::make_shared<const OwnLaw>(std::move(law));
+  return std::make_shared<const UserContactLaw>(std::move(law));
 }
 
-ContactLawPtr::ContactLawPtr(std::shared_ptr<const OwnLaw> law)
+ContactLawPtr::ContactLawPtr(std::shared_ptr<const UserContactLaw> law)
     : law_(std::make_shared<const UserLaw>(std::move(law))) {}
 
 }  // namespace signorini

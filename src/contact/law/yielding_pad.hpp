@@ -13,7 +13,7 @@
 
 namespace signorini {
 
-[[nodiscard]] OwnLaw yielding_pad(double normal_stiffness, double yield_force);
+[[nodiscard]] UserContactLaw yielding_pad(double normal_stiffness, double yield_force);
 
 /// The yielding law of scenes, with its constant yield_force.
 [[nodiscard]] const DataLaw& yielding_law();

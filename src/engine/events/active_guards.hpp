@@ -12,16 +12,16 @@
 #include "decide/decision.hpp"
 #include "engine/events/step_history.hpp"
 
-namespace signorini {
+namespace signorini::events {
 
-class Arming {
+class ActiveGuards {
  public:
   /// One entry for each slot (contact/contact_states.hpp).
-  void start(const std::vector<GuardStart>& guards);
+  void start(const std::vector<decide::GuardStart>& guards);
 
   [[nodiscard]] std::size_t size() const { return guards_.size(); }
-  [[nodiscard]] bool idle(std::size_t slot) const { return guards_[slot].standing == Standing::idle; }
-  [[nodiscard]] bool armed(std::size_t slot) const { return guards_[slot].standing == Standing::armed; }
+  [[nodiscard]] bool idle(std::size_t slot) const { return guards_[slot].standing == Status::idle; }
+  [[nodiscard]] bool armed(std::size_t slot) const { return guards_[slot].standing == Status::armed; }
   /// The guard is x^leading times a polynomial that is positive at 0; 0: the guard is armed, or its derivatives are
   /// unknown.
   [[nodiscard]] std::size_t leading(std::size_t slot) const { return guards_[slot].leading; }
@@ -29,16 +29,16 @@ class Arming {
   /// The prediction by the guard's derivatives at the start has been refuted.
   void doubt(std::size_t slot) { guards_[slot].leading = 0; }
   /// The guard is zero again, and its derivatives are unknown.
-  void wait(std::size_t slot) { guards_[slot] = {Standing::waiting, 0}; }
-  void arm(std::size_t slot) { guards_[slot] = {Standing::armed, 0}; }
+  void wait(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
+  void arm(std::size_t slot) { guards_[slot] = {Status::armed, 0}; }
   /// Takes the guard's value at the end of a step without an event: a guard that started at zero is armed above the
   /// level, and its derivatives at the start are no longer used.
   void see(std::size_t slot, double value, double level);
 
  private:
-  enum class Standing : unsigned char { idle, armed, waiting };
+  enum class Status : unsigned char { idle, armed, waiting };
   struct Guarded {
-    Standing standing = Standing::idle;
+    Status standing = Status::idle;
     std::size_t leading = 0;
   };
   std::vector<Guarded> guards_;
@@ -59,7 +59,7 @@ class Arming {
 inline constexpr double re_arm_tolerances = 10.0;
 
 /// Place inside the last step at which a guard reaches zero.
-struct Fall {
+struct ZeroCrossing {
   std::size_t slot = 0;  ///< contact/contact_states.hpp
   double x = 0.0;        ///< 0..1 on the step
 };
@@ -67,20 +67,21 @@ struct Fall {
 class Watch {
  public:
   /// levels: re-arming levels, one for each slot.
-  void start(const std::vector<GuardStart>& guards, GuardForms forms, std::vector<double> levels);
-  [[nodiscard]] bool armed(std::size_t slot) const { return arming_.armed(slot); }
+  void start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
+             std::vector<double> levels);
+  [[nodiscard]] bool armed(std::size_t slot) const { return active_guards_.armed(slot); }
   /// The guard reached zero without an event: it waits again, and is an event only once it is below -`level`.
   void wait(std::size_t slot, double level);
   /// Depth below zero that this guard of the contact may reach before it is an event: 0 once it is armed.
   [[nodiscard]] double leeway(std::size_t contact, const GuardForm& guard) const;
   /// All downward zero crossings in the part [0, limit] of the last step; scalars 0.. of the history are the guards.
   /// Arms guards that have risen enough.
-  [[nodiscard]] std::vector<Fall> check(const StepHistory& history, double limit);
+  [[nodiscard]] std::vector<ZeroCrossing> check(const StepHistory& history, double limit);
 
  private:
-  Arming arming_;
-  GuardForms forms_;
+  ActiveGuards active_guards_;
+  decide::GuardForms forms_;
   std::vector<double> levels_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::events

@@ -10,7 +10,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::events {
 namespace {
 
 constexpr double binomial[max_degree + 1][max_degree + 1] = {{1, 0, 0, 0, 0, 0}, {1, 1, 0, 0, 0, 0},
@@ -110,7 +110,7 @@ std::optional<double> first_reach(const Bernstein& p, double level, double resol
   return first_nonpositive(shifted(p, -1.0, level), 0.0, 1.0, resolution);
 }
 
-std::optional<double> first_fall(const Bernstein& p, double resolution) {
+std::optional<double> first_root(const Bernstein& p, double resolution) {
   return first_nonpositive(p, 0.0, 1.0, resolution);
 }
 
@@ -201,11 +201,11 @@ void halve(std::size_t n, Interval& left, Interval& right) {
 
 }  // namespace
 
-FirstFall first_fall(const double* a, std::size_t degree, double slack) {
+FirstRoot first_root(const double* a, std::size_t degree, double slack) {
   double rest = 0.0;
   for (std::size_t k = 1; k <= degree; ++k) rest += std::abs(a[k]);
   if (!std::isfinite(a[0]) || !std::isfinite(rest) || !std::isfinite(slack))
-    return {FirstFall::Kind::lost};  // a NaN would be halved endlessly
+    return {FirstRoot::Kind::lost};  // a NaN would be halved endlessly
   if (a[0] - rest > slack) return {};
 
   // Intervals not yet settled, the leftmost on top; each halving leaves one behind.
@@ -218,10 +218,10 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
   for (std::size_t k = 0; k <= degree; row += degree + 1 - k, ++k)
     for (std::size_t i = k; i <= degree; ++i) stack[0].b[i] += a[k] * row[i - k];
 
-  FirstFall result;  // none, or the first touch
-  const auto falls_at = [&](double x) { return FirstFall{FirstFall::Kind::fall, x, result.intervals}; };
+  FirstRoot result;  // none, or the first touch
+  const auto falls_at = [&](double x) { return FirstRoot{FirstRoot::Kind::crossing, x, result.intervals}; };
   const auto touch = [&](double x) {
-    if (result.kind == FirstFall::Kind::none) result = {FirstFall::Kind::touch, x, result.intervals};
+    if (result.kind == FirstRoot::Kind::none) result = {FirstRoot::Kind::touch, x, result.intervals};
   };
   while (count > 0) {
     Interval& now = stack[count - 1];
@@ -300,4 +300,4 @@ double root_between(const std::function<double(double)>& f, double lo, double hi
   return gsl_root_fsolver_root(solver.get());
 }
 
-}  // namespace signorini
+}  // namespace signorini::events

@@ -15,7 +15,7 @@
 #include <functional>
 #include <optional>
 
-namespace signorini {
+namespace signorini::events {
 
 // Polynomials on the unit interval, and proofs that they stay positive.
 //
@@ -45,16 +45,16 @@ struct Bernstein {
 };
 
 /// The smallest x in [0, 1] with p(x) <= 0 to within `resolution`, if any; p is positive before it.
-[[nodiscard]] std::optional<double> first_fall(const Bernstein& p, double resolution);
+[[nodiscard]] std::optional<double> first_root(const Bernstein& p, double resolution);
 /// The smallest x in [0, 1] with p(x) >= level to within `resolution`, if any.
 [[nodiscard]] std::optional<double> first_reach(const Bernstein& p, double level, double resolution);
 
-struct FirstFall {
+struct FirstRoot {
   enum class Kind {
-    none,   ///< p > 0 on [0, 1], up to slack
-    fall,   ///< p > 0 before x, p < 0 after it
-    touch,  ///< like none, but |p| <= slack around x: a crossing there cannot be decided
-    lost,   ///< coefficients or slack are not finite: no statement is possible
+    none,      ///< p > 0 on [0, 1], up to slack
+    crossing,  ///< p > 0 before x, p < 0 after it
+    touch,     ///< like none, but |p| <= slack around x: a crossing there cannot be decided
+    lost,      ///< coefficients or slack are not finite: no statement is possible
   } kind = Kind::none;
   double x = 0.0;
   std::size_t intervals = 0;  ///< number of intervals examined: the cost
@@ -63,7 +63,7 @@ struct FirstFall {
 inline constexpr std::size_t most_fall_degree = 32;
 
 /// a: degree + 1 coefficients, degree <= most_fall_degree; p(0) is positive up to slack.
-[[nodiscard]] FirstFall first_fall(const double* a, std::size_t degree, double slack);
+[[nodiscard]] FirstRoot first_root(const double* a, std::size_t degree, double slack);
 
 // Downward zero crossing of a function, bracketed (GSL, Brent's method).
 //
@@ -73,4 +73,4 @@ inline constexpr std::size_t most_fall_degree = 32;
 /// else hi. Every f(t) must be finite.
 [[nodiscard]] double root_between(const std::function<double(double)>& f, double lo, double hi, double width);
 
-}  // namespace signorini
+}  // namespace signorini::events

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace signorini {
+namespace signorini::events {
 
 struct Graze {
   double t = 0.0;
@@ -20,4 +20,4 @@ struct NearHit {
   double bend = 0.0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::events

@@ -18,7 +18,7 @@
 #include "engine/events/graze.hpp"
 #include "engine/events/step_history.hpp"
 
-namespace signorini {
+namespace signorini::events {
 
 /// Part of the level by which a guard has to sink: a tenth of a local tolerance. Chosen: guards that rise from zero
 /// sink by less than a thousandth of it, 35 by up to a hundredth, 11 by more (30,581 in 300 random scenes); changing it
@@ -34,7 +34,7 @@ class Grazes {
   };
 
   /// levels: one for each slot, as for Watch.
-  void start(const std::vector<GuardStart>& guards, const std::vector<double>& levels);
+  void start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels);
   /// Examines the part [0, limit] of the last step; scalars 0.. of the history are the guards.
   void see(const StepHistory& history, double limit);
   /// The segment ends because these guards reached zero.
@@ -67,27 +67,27 @@ class Grazes {
 class NearHits {
  public:
   /// levels: one for each slot, as for Watch.
-  void start(const std::vector<GuardStart>& guards, const std::vector<double>& levels);
+  void start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels);
   /// Examines the part [0, limit] of the last step; scalars 0.. of the history are the guards.
   void see(const StepHistory& history, double limit);
   /// Near hits of the run so far, in the order of time except for those of the same step.
   [[nodiscard]] const std::vector<NearHit>& list() const { return list_; }
 
  private:
-  struct Look {
+  struct Check {
     double t = 0.0, gap = 0.0;
   };
   struct Watched {
     std::size_t slot = 0;
     double level = 0.0;
     double high = 0.0;  // greatest gap since the last least gap
-    int looks = 0;      // number of last samples that are kept
-    Look before, last;
+    int checks = 0;     // number of last samples that are kept
+    Check before, last;
   };
-  void look(Watched& gap, const Look& now);
+  void look(Watched& gap, const Check& now);
 
   std::vector<Watched> gaps_;
   std::vector<NearHit> list_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::events

@@ -5,7 +5,7 @@
 
 #include "base/wide_lanes.hpp"
 
-namespace signorini {
+namespace signorini::events {
 namespace {
 
 using Kept = std::array<const double*, max_degree + 1>;  // values for each number of steps back
@@ -13,22 +13,22 @@ using Kept = std::array<const double*, max_degree + 1>;  // values for each numb
 template <class T>
 [[gnu::always_inline]] inline void look_at(const Kept& rows, int order, double twice_bend, int degree,
                                            const double* weights, std::size_t s, double* bent, double* mean) {
-  const T last = lanes_at<T>(rows[0] + s).v;
+  const T last = base::lanes_at<T>(rows[0] + s).v;
   T change{}, sum{};
   for (int b = 1; b <= order; ++b) {
-    const T off = lanes_at<T>(rows[z(b)] + s).v - last, far = off < 0.0 ? -off : off;
+    const T off = base::lanes_at<T>(rows[z(b)] + s).v - last, far = off < 0.0 ? -off : off;
     change = change < far ? far : change;
   }
-  for (int b = 0; b <= degree; ++b) sum += weights[b] * lanes_at<T>(rows[z(b)] + s).v;
-  lanes_at<T>(bent + s).v = twice_bend * change;
-  lanes_at<T>(mean + s).v = sum;
+  for (int b = 0; b <= degree; ++b) sum += weights[b] * base::lanes_at<T>(rows[z(b)] + s).v;
+  base::lanes_at<T>(bent + s).v = twice_bend * change;
+  base::lanes_at<T>(mean + s).v = sum;
 }
 
 /// bent = 2 bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b  of n scalars
 SIGNORINI_WIDE_LANES void look_at_all(const Kept& rows, int order, double twice_bend, int degree,
                                       const double* weights, std::size_t n, double* bent, double* mean) {
   std::size_t s = 0;
-  for (; s + 3 < n; s += 4) look_at<Four>(rows, order, twice_bend, degree, weights, s, bent, mean);
+  for (; s + 3 < n; s += 4) look_at<base::Four>(rows, order, twice_bend, degree, weights, s, bent, mean);
   for (; s < n; ++s) look_at<double>(rows, order, twice_bend, degree, weights, s, bent, mean);
 }
 
@@ -118,7 +118,7 @@ Bernstein StepHistory::through(const Basis& basis, std::size_t s) const {
   return p;
 }
 
-std::optional<GuardPath::Fall> GuardPath::fall() const {
+std::optional<GuardPath::ZeroCrossing> GuardPath::crossing() const {
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
   double lo = 0.0, hi = 1.0, x = linear(), slope = 0.0;
   constexpr int most_steps = 8;  // limit of Newton steps, within the bracket: the first guess needs no more
@@ -130,7 +130,7 @@ std::optional<GuardPath::Fall> GuardPath::fall() const {
     x = next >= lo && next <= hi ? next : 0.5 * (lo + hi);
   }
   if (!(x > 0.0 && x < 1.0) || !(slope < 0.0)) return std::nullopt;
-  return Fall{x, slope};
+  return ZeroCrossing{x, slope};
 }
 
 std::optional<double> GuardPath::dip() const {
@@ -155,4 +155,4 @@ void rates_from_values(GuardPath& path, double h, double before, double h_before
   path.r1 += bend;
 }
 
-}  // namespace signorini
+}  // namespace signorini::events

@@ -14,7 +14,7 @@
 
 #include "engine/events/first_root.hpp"
 
-namespace signorini {
+namespace signorini::events {
 
 class StepHistory {
  public:
@@ -102,11 +102,11 @@ struct GuardPath {
 
   /// Place where the straight line between the ends reaches zero; g0 > 0 >= g1.
   [[nodiscard]] double linear() const { return g0 / (g0 - g1); }
-  struct Fall {
+  struct ZeroCrossing {
     double x = 0.0, slope = 0.0;  ///< slope: derivative by x
   };
   /// Place where the cubic reaches zero, g0 > 0 >= g1. nullopt: the cubic rises there, or is not a number.
-  [[nodiscard]] std::optional<Fall> fall() const;
+  [[nodiscard]] std::optional<ZeroCrossing> crossing() const;
   /// For a path that is positive at both ends: the place of its least value inside, if that value is not positive.
   [[nodiscard]] std::optional<double> dip() const;
 };
@@ -114,4 +114,4 @@ struct GuardPath {
 /// Sets the rates from the value `before` at a distance h_before ahead of the step (0: a straight line).
 void rates_from_values(GuardPath& path, double h, double before, double h_before);
 
-}  // namespace signorini
+}  // namespace signorini::events

@@ -6,7 +6,7 @@
 #include "base/rounding.hpp"
 #include "engine/events/first_root.hpp"
 
-namespace signorini {
+namespace signorini::events {
 namespace {
 
 /// The slope of a polynomial, and the slope's slope.
@@ -54,7 +54,7 @@ double turned_beside(const double* a, std::size_t degree, double end, double nex
 
 }  // namespace
 
-void TurningPoints::start(const Decision& decision) {
+void TurningPoints::start(const decide::Decision& decision) {
   values_.resize(ranges_.size());
   for (std::size_t c = 0; c < decision.after.size(); ++c) {
     const ContactMotion& m = decision.after[c];
@@ -63,7 +63,7 @@ void TurningPoints::start(const Decision& decision) {
       Range& range = ranges_[watched.size() * c + i];
       values_[watched.size() * c + i] = now[i];
       // Each landing has a separate peak.
-      const bool lands = watched[i] == ContactSeries::N && began_ && decision.before[c].N == 0.0;
+      const bool lands = watched[i] == motion::ContactSeries::N && began_ && decision.before[c].N == 0.0;
       if (lands) range = {now[i], now[i]};
       range.least = began_ ? std::min(range.least, now[i]) : now[i];
       range.greatest = began_ ? std::max(range.greatest, now[i]) : now[i];
@@ -88,8 +88,8 @@ void TurningPoints::close() {
   std::sort(times_.begin(), times_.end());
 }
 
-void TurningPoints::find(const std::vector<ContactSeries>& contacts, const Series& series, double x_begin,
-                         double x_end, Ends ends) {
+void TurningPoints::find(const std::vector<motion::ContactSeries>& contacts, const motion::Series& series,
+                         double x_begin, double x_end, Ends ends) {
   open();
   double origin = 0.0;
   Samples x = samples_of(x_begin, x_end);
@@ -114,13 +114,14 @@ void TurningPoints::find(const std::vector<ContactSeries>& contacts, const Serie
   close();
 }
 
-void TurningPoints::find(std::size_t contact, ContactSeries::Field field, const double* a, std::size_t degree,
-                         double x_end, double begin, double scale) {
+void TurningPoints::find(std::size_t contact, motion::ContactSeries::Field field, const double* a,
+                         std::size_t degree, double x_end, double begin, double scale) {
   find_of({a, degree, begin, scale}, place_of(contact, field), samples_of(0.0, x_end), Ends::observed);
 }
 
-std::optional<TurningPoints::Turn> TurningPoints::begins(std::size_t contact, ContactSeries::Field field,
-                                                         double value, double rate, double time) {
+std::optional<TurningPoints::Turn> TurningPoints::begins(std::size_t contact,
+                                                         motion::ContactSeries::Field field, double value,
+                                                         double rate, double time) {
   const std::size_t place = place_of(contact, field);
   Range& range = ranges_[place];
   const bool above = value > range.greatest, below = value < range.least;
@@ -138,7 +139,7 @@ TurningPoints::Samples TurningPoints::samples_of(double x_begin, double x_end) {
 
 void TurningPoints::record(const Path& path, std::size_t place, double at) {
   Range& range = ranges_[place];
-  const double turn = value_at(path.a, path.degree, at);
+  const double turn = motion::value_at(path.a, path.degree, at);
   if (turn >= range.least && turn <= range.greatest) return;
   turns_.push_back({2 * place + (turn > range.greatest ? 1 : 0), path.begin + at * path.scale});
   range.see(turn);
@@ -186,7 +187,7 @@ bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x
     slope += static_cast<double>(k) * std::abs(path.a[k]) * power;
     power *= x_end;
   }
-  const double middle = value_at(path.a, path.degree, 0.5 * (x[0] + x_end));
+  const double middle = motion::value_at(path.a, path.degree, 0.5 * (x[0] + x_end));
   return range.holds(middle, 0.5 * (x_end - x[0]) * slope, rounding);
 }
 
@@ -209,11 +210,11 @@ void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& 
     if (turn >= range.least && turn <= range.greatest) continue;
     const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
     const double at = Slope(path.a, path.degree).zero_from(guess, x[i - 1], x[i + 1]);
-    const double there = value_at(path.a, path.degree, at);
+    const double there = motion::value_at(path.a, path.degree, at);
     // The Newton steps may have led away from the turning point.
     record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
   }
   find_beside(turn_samples, path, place, x, value, ends);
 }
 
-}  // namespace signorini
+}  // namespace signorini::events

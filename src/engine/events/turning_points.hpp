@@ -13,23 +13,23 @@
 #include "decide/decision.hpp"
 #include "motion/contact_series.hpp"
 
-namespace signorini {
+namespace signorini::events {
 
 class TurningPoints {
  public:
   explicit TurningPoints(std::size_t contacts) : ranges_(watched.size() * contacts) {}
 
   /// Called after an instant at which the values may have jumped.
-  void start(const Decision& decision);
+  void start(const decide::Decision& decision);
   /// observed: an observer sees the values at the ends of a step. The ends of a part of a step are not observed, except
   /// the beginning of the first part.
   enum class Ends : unsigned char { observed, first_part, part };
   /// Finds turning points on [x_begin, x_end] of a series of degree most_fall_degree at most.
-  void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_begin, double x_end,
-            Ends ends = Ends::observed);
+  void find(const std::vector<motion::ContactSeries>& contacts, const motion::Series& series, double x_begin,
+            double x_end, Ends ends = Ends::observed);
   /// Same, for one quantity: a_0 + a_1 x + ... on [0, x_end], t = begin + scale x. Called between open() and close().
   void open();
-  void find(std::size_t contact, ContactSeries::Field field, const double* a, std::size_t degree,
+  void find(std::size_t contact, motion::ContactSeries::Field field, const double* a, std::size_t degree,
             double x_end, double begin, double scale);
   void close();
   struct Range {
@@ -50,17 +50,18 @@ class TurningPoints {
     }
   };
   /// Range so far of a watched field.
-  [[nodiscard]] const Range& range(std::size_t contact, ContactSeries::Field field) const {
+  [[nodiscard]] const Range& range(std::size_t contact, motion::ContactSeries::Field field) const {
     return ranges_[place_of(contact, field)];
   }
   /// Ranges of all contacts, field by field in the order of `watched`.
   [[nodiscard]] const Range* ranges() const { return ranges_.data(); }
   /// Takes the value at the end of a step without a turning point.
-  void see(std::size_t contact, ContactSeries::Field field, double value) {
+  void see(std::size_t contact, motion::ContactSeries::Field field, double value) {
     ranges_[place_of(contact, field)].see(value);
   }
-  static constexpr std::array<ContactSeries::Field, 4> watched{ContactSeries::N, ContactSeries::T,
-                                                               ContactSeries::gap, ContactSeries::slide};
+  static constexpr std::array<motion::ContactSeries::Field, 4> watched{
+      motion::ContactSeries::N, motion::ContactSeries::T, motion::ContactSeries::gap,
+      motion::ContactSeries::slide};
   /// Turning points of the last step: quantity and contact, upwards or downwards, and time. Those of the same kind
   /// exceed each other, so the last one counts.
   struct Turn {
@@ -73,13 +74,13 @@ class TurningPoints {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   /// A part of a step begins with this value and rate: a turning point if the value exceeds the earlier range and the
   /// rate points back.
-  std::optional<Turn> begins(std::size_t contact, ContactSeries::Field field, double value, double rate,
-                             double time);
+  std::optional<Turn> begins(std::size_t contact, motion::ContactSeries::Field field, double value,
+                             double rate, double time);
 
  private:
   static constexpr std::size_t turn_samples = 8;  // a step turns by less than 4 rad of any mode that matters
   using Samples = std::array<double, turn_samples + 1>;
-  [[nodiscard]] static std::size_t place_of(std::size_t contact, ContactSeries::Field field) {
+  [[nodiscard]] static std::size_t place_of(std::size_t contact, motion::ContactSeries::Field field) {
     const auto place = std::find(watched.begin(), watched.end(), field) - watched.begin();
     return watched.size() * contact + static_cast<std::size_t>(place);
   }
@@ -105,4 +106,4 @@ class TurningPoints {
   bool began_ = false;
 };
 
-}  // namespace signorini
+}  // namespace signorini::events

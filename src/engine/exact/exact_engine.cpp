@@ -13,7 +13,7 @@
 #include "motion/point.hpp"
 #include "motion/state_systems.hpp"
 
-namespace signorini {
+namespace signorini::exact {
 namespace {
 
 constexpr int fewest_levels = 12, more_levels = 3;
@@ -37,8 +37,8 @@ constexpr char overflow[] = "the motion leaves the range of numbers";
 
 }  // namespace
 
-ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-                         const SeriesUse& use)
+ExactEngine::ExactEngine(const Model& model, const linear::SystemMatrices& structure,
+                         motion::StateSystems& systems, double t_end, const SeriesUse& use)
     : model_(model),
       structure_(structure),
       taylor_(systems),
@@ -47,49 +47,51 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
       growth_(model, taylor_, norm_, scales_, t_end),
       motion_(model),
       reached_(model.contacts.size()),
-      falls_(guard_count(model.contacts.size())),
+      crossings_(contact::guard_count(model.contacts.size())),
       sizes_(most_levels + 3),
-      guard_(std::max<std::size_t>(most_levels, most_fall_degree) + 1),
+      guard_(std::max<std::size_t>(most_levels, events::most_fall_degree) + 1),
       works_(model, structure),
       turns_(model.contacts.size()) {
   for (const Dof& dof : model.dofs)
     scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
   weights_ = scales_;
-  if (use.pieces && model.size() >= large_structure && follows_from_motion(model)) beside_.emplace(systems);
+  if (use.pieces && model.size() >= motion::large_structure && motion::follows_from_motion(model))
+    beside_.emplace(systems);
   if (use.step_seed != 0) chance_.emplace(use.step_seed);
   knows_low_flights = true;
 }
 
-void ExactEngine::start(const Segment& segment) {
+void ExactEngine::start(const engine::Segment& segment) {
   segment_ = segment;
-  const Decision& decision = *segment.decision;
+  const decide::Decision& decision = *segment.decision;
   const bool same_motion = goes_on(decision, segment.same_forcing);
-  const Mode before = beside_ ? std::exchange(mode_, decision.mode) : Mode();
+  const contact::ContactStates before =
+      beside_ ? std::exchange(mode_, decision.mode) : contact::ContactStates();
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ =
       std::max({growth_.of(decision.system), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
   choose_first_step();
   polynomial_ = segment.forcing->greatest_degree();
-  arming_.start(decision.guards);
+  active_guards_.start(decision.guards);
   turns_.start(decision);
   went_on_ = same_motion && go_on(before);
   ++counters.restarts;
 }
 
 /// True if the motion begins at the end of the last step, within its series.
-bool ExactEngine::goes_on(const Decision& decision, bool same_forcing) const {
+bool ExactEngine::goes_on(const decide::Decision& decision, bool same_forcing) const {
   return beside_ && beside_->possible() && same_forcing && decision.jet.t == t_ && end_x_ < reach_ &&
          decision.u == end_.u && decision.v == end_.v;
 }
 
 /// Continues the series of the last step with the changes by the event. False: the series must be made anew.
-bool ExactEngine::go_on(const Mode& before) {
+bool ExactEngine::go_on(const contact::ContactStates& before) {
   std::vector<std::size_t> changed;
   for (std::size_t c = 0; c < mode_.size(); ++c)
     if (mode_[c] != before[c]) changed.push_back(c);
   const double rest = reach_ - end_x_;
-  std::optional<NearSeries::Made> near;
+  std::optional<motion::LocalSeries::Made> near;
   if (!changed.empty()) {
     near =
         beside_->expand(changed, segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v,
@@ -107,7 +109,8 @@ bool ExactEngine::go_on(const Mode& before) {
     const Reached reached{rest_near(*near, reach), reach};
     for (const std::size_t c : near->where->contacts) {
       reached_[c] = reached;
-      for (std::size_t slot = guard_slot(c, 0); slot < guard_slot(c + 1, 0); ++slot) falls_[slot] = {};
+      for (std::size_t slot = contact::guard_slot(c, 0); slot < contact::guard_slot(c + 1, 0); ++slot)
+        crossings_[slot] = {};
     }
   }
   begin_x_ = end_x_;
@@ -115,10 +118,11 @@ bool ExactEngine::go_on(const Mode& before) {
 }
 
 void ExactEngine::choose_first_step() {
-  if (counters.restarts > 0) pace_ += (pace_ > 0.0 ? fresh : 1.0) * (t_ - begun_ - pace_);
+  if (counters.restarts > 0)
+    fast_mode_cutoff_ += (fast_mode_cutoff_ > 0.0 ? fresh : 1.0) * (t_ - begun_ - fast_mode_cutoff_);
   begun_ = t_;
   const double flights = few_flights();
-  paced_ = !(flights > 0.0) && pace_ > 0.0;
+  paced_ = !(flights > 0.0) && fast_mode_cutoff_ > 0.0;
   next_ = flights > 0.0 ? longer * flights
           : paced_      ? paced_length()
                         : std::numeric_limits<double>::infinity();
@@ -126,9 +130,9 @@ void ExactEngine::choose_first_step() {
 
 double ExactEngine::paced_length() const {
   const double shortest = shortest_turn / growth_now_, longest = longest_turn / growth_now_;
-  if (beside_ && beside_->possible() && pace_ < longest)
-    return std::clamp(events_a_series * pace_, shortest, longest);
-  return std::max(times_pace * pace_, shortest);
+  if (beside_ && beside_->possible() && fast_mode_cutoff_ < longest)
+    return std::clamp(events_a_series * fast_mode_cutoff_, shortest, longest);
+  return std::max(times_pace * fast_mode_cutoff_, shortest);
 }
 
 /// Random share of the possible length of a step; 1 without a step_seed. Steps of equal length multiply the motion by
@@ -145,14 +149,14 @@ double ExactEngine::share_of_step() {
 /// A few times the shortest flight ahead; 0: none. The rounding of a gap grows with the motion of the whole step, and
 /// must stay small beside the flight's height.
 double ExactEngine::few_flights() const {
-  const Decision& decision = *segment_.decision;
+  const decide::Decision& decision = *segment_.decision;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < decision.mode.size(); ++c) {
     const ContactMotion& m = decision.after[c];
     if (!model_.contacts[c].takes_impulses() || !decision.mode[c].is_open() || !(m.an < 0.0)) continue;
     // A contact that leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight computed
     // from it.
-    const GuardStart& closing = decision.guards[guard_slot(c, 0)];
+    const decide::GuardStart& closing = decision.guards[contact::guard_slot(c, 0)];
     if (closing.leading < 0 || closing.leading > 1) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
@@ -208,9 +212,9 @@ bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
 }
 
 /// Checks the series of the motion and of its forcing: in a block that sticks, T follows its load alone.
-bool ExactEngine::stands(const std::vector<double>& sizes, const ForcingSeries& f, double x) const {
+bool ExactEngine::stands(const std::vector<double>& sizes, const motion::ForcingSeries& f, double x) const {
   if (!stands(sizes.data(), degree_ + 2, x)) return false;
-  for (const std::vector<double>* rows : {&f.loads, &f.pressing, &f.surface})
+  for (const std::vector<double>* rows : {&f.loads, &f.applied_normal_force, &f.surface})
     for (std::size_t i = 0; i + f.count <= rows->size(); i += f.count)
       if (!stands(rows->data() + i, f.count - 1, x)) return false;
   return true;
@@ -219,7 +223,7 @@ bool ExactEngine::stands(const std::vector<double>& sizes, const ForcingSeries& 
 /// Expands to the number of levels that a step of the given scale needs, limited by most_levels; returns the part of
 /// the step that the series reaches.
 double ExactEngine::expand(double scale) {
-  Series& series = motion_.whole;
+  motion::Series& series = motion_.whole;
   const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
   taylor_.begin(segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v, most_levels, scale, series);
   std::size_t measured = 0;
@@ -250,7 +254,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
   const State state = segment_.decision->mode[c].state;
   if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
-    T = slipping_friction(contact, state) * N;
+    T = contact::slipping_friction(contact, state) * N;
   else if (contact.tangential_stiffness)
     T = *contact.tangential_stiffness * ut;
   else if (state == State::stick && norm_.tangent(c) > 0.0)
@@ -263,7 +267,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
 /// |a b - p q| <= |p| db + (|q| + db) da where p, q are the polynomials of a, b
 double ExactEngine::rest_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
   double sum = rest_of(guard.form, c, x, rest);
-  const ContactSeries& contact = motion_.contacts()[c];
+  const motion::ContactSeries& contact = motion_.contacts()[c];
   for (std::size_t i = 0; !guard.is_linear() && i < guard.products->size(); ++i) {
     const auto& [a, b] = (*guard.products)[i];
     const double reach = reach_ - contact.origin(), da = rest_of(a, c, x, rest), db = rest_of(b, c, x, rest);
@@ -273,24 +277,24 @@ double ExactEngine::rest_of(const GuardForm& guard, std::size_t c, double x, dou
 }
 
 /// GuardStart::drift up to the place x of the step.
-double ExactEngine::drift_of(const GuardStart& guard, double x) const {
+double ExactEngine::drift_of(const decide::GuardStart& guard, double x) const {
   return guard.drift(t_ + x * motion_.whole.scale - segment_.decision->jet.t);
 }
 
 /// First zero crossing on the remaining series; x: 1 at its end.
-FirstFall ExactEngine::fall_of(std::size_t slot) {
-  const GuardStart& guard = segment_.decision->guards[slot];
-  const std::size_t c = contact_of_guard(slot);
-  const ContactSeries& contact = motion_.contacts()[c];
+events::FirstRoot ExactEngine::fall_of(std::size_t slot) {
+  const decide::GuardStart& guard = segment_.decision->guards[slot];
+  const std::size_t c = contact::contact_of_guard(slot);
+  const motion::ContactSeries& contact = motion_.contacts()[c];
   const GuardForm& form = segment_.decision->guard(slot);
   const auto [degree, cut, products] =
-      contact.expand(form, reach_ - contact.origin(), most_fall_degree, guard_.data());
+      contact.expand(form, reach_ - contact.origin(), events::most_fall_degree, guard_.data());
   const double from = begin_x_ - contact.origin(), x = reach_ - begin_x_;
   double power = 1.0, terms = products;
   if (from > 0.0) {  // terms about the origin bound those about the step's beginning
     for (std::size_t k = 0; k <= degree; ++k, power *= reach_ - contact.origin())
       terms += std::abs(guard_[k]) * power;
-    shift(guard_.data(), degree, from);
+    motion::shift(guard_.data(), degree, from);
     power = 1.0;
     for (std::size_t k = 0; k <= degree; ++k, power *= x) guard_[k] *= power;
   } else {
@@ -302,16 +306,17 @@ FirstFall ExactEngine::fall_of(std::size_t slot) {
   const double rounding = (from > 0.0 ? rounding::of_many : rounding::of_few) * terms;
   const double slack =
       rest_of(form, c, reached_[c].x, reached_[c].rest) + cut + rounding + rounding_of_guard * guard.noise;
-  if (arming_.armed(slot)) return first_fall(guard_.data(), degree, slack);
-  if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found the lower orders to be zero
-    return first_fall(guard_.data() + m, degree - m, rounding::of_few * std::abs(guard_[m]));
+  if (active_guards_.armed(slot)) return events::first_root(guard_.data(), degree, slack);
+  if (const std::size_t m = active_guards_.leading(slot);
+      m > 0)  // the decision found the lower orders to be zero
+    return events::first_root(guard_.data() + m, degree - m, rounding::of_few * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack + drift_of(guard, x);
-  return first_fall(guard_.data(), degree, 0.0);
+  return events::first_root(guard_.data(), degree, 0.0);
 }
 
-Step ExactEngine::failed(std::string reason) {
+engine::Step ExactEngine::failed(std::string reason) {
   step_ = {};
-  step_.kind = Step::Kind::failed;
+  step_.kind = engine::Step::Kind::failed;
   step_.begin = step_.end = t_;
   step_.reason = std::move(reason);
   return step_;
@@ -319,10 +324,10 @@ Step ExactEngine::failed(std::string reason) {
 
 /// Reason why no step of this length can be made from here; empty: none.
 std::string ExactEngine::hindrance(double scale) const {
-  if (growth_now_ * resolution_at(t_, 0.0) > 1.0)
+  if (growth_now_ * motion::resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
         "the fastest motion, {:.3g} rad per unit of time, is too fast for the resolution of time here",
-        said(model_, growth_now_ / FlowGrowth::margin, unit::rate));
+        model::in_scene_units(model_, growth_now_ / FlowGrowth::margin, unit::rate));
   if (!end_.u.allFinite()) return overflow;
   if (!(scale > 0.0)) return "the step has fallen below the resolution of time";
   return {};
@@ -341,7 +346,7 @@ double ExactEngine::rest_of_series(double x) {
 }
 
 /// Same for a locally updated part; the rest of the structure is bounded elsewhere.
-double ExactEngine::rest_near(const NearSeries::Made& near, double x) {
+double ExactEngine::rest_near(const motion::LocalSeries::Made& near, double x) {
   double rest = 0.0;
   near_column_.setZero(model_.size());
   for (int k = 1; k <= 2; ++k) {
@@ -353,7 +358,7 @@ double ExactEngine::rest_near(const NearSeries::Made& near, double x) {
 }
 
 /// Validity of a locally updated part, x at most: by the criteria of weigh(), measure() and expand() for the whole.
-double ExactEngine::reach_near(const NearSeries::Made& near, double x) {
+double ExactEngine::reach_near(const motion::LocalSeries::Made& near, double x) {
   const std::vector<int>& dofs = near.where->dofs;
   const Eigen::MatrixXd& u = near.series->u;
   near_sizes_.assign(degree_ + 3, 0.0);
@@ -376,29 +381,31 @@ double ExactEngine::reach_near(const NearSeries::Made& near, double x) {
 ExactEngine::Earliest ExactEngine::earliest_fall() {
   Earliest first;
   first.at = reach_;
-  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
-    if (arming_.idle(slot)) continue;
-    Fall& known = falls_[slot];
+  for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
+    if (active_guards_.idle(slot)) continue;
+    ZeroCrossing& known = crossings_[slot];
     // A later decision has excluded the crossing found before.
-    const bool past = known.kind != FirstFall::Kind::none && known.at <= begin_x_;
-    if (!known.stands || !arming_.armed(slot) || past) {
-      const FirstFall fall = fall_of(slot);
-      if (fall.kind == FirstFall::Kind::lost) {
+    const bool past = known.kind != events::FirstRoot::Kind::none && known.at <= begin_x_;
+    if (!known.stands || !active_guards_.armed(slot) || past) {
+      const events::FirstRoot fall = fall_of(slot);
+      if (fall.kind == events::FirstRoot::Kind::lost) {
         first.lost = true;
         return first;
       }
-      known = {fall.kind, arming_.armed(slot), begin_x_ + fall.x * (reach_ - begin_x_)};
+      known = {fall.kind, active_guards_.armed(slot), begin_x_ + fall.x * (reach_ - begin_x_)};
     }
-    if (known.kind == FirstFall::Kind::fall && known.at <= reach_ && (!first.slot || known.at < first.at)) {
+    if (known.kind == events::FirstRoot::Kind::crossing && known.at <= reach_ &&
+        (!first.slot || known.at < first.at)) {
       first.slot = slot;
       first.at = known.at;
     }
   }
-  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
-    Fall& known = falls_[slot];
-    if (known.kind != FirstFall::Kind::touch || arming_.idle(slot) || !(known.at < first.at)) continue;
-    if (arming_.armed(slot)) warn_of_touch(slot, motion_.whole.t + known.at * motion_.whole.scale);
-    known.kind = FirstFall::Kind::none;  // the warning has been issued
+  for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
+    ZeroCrossing& known = crossings_[slot];
+    if (known.kind != events::FirstRoot::Kind::touch || active_guards_.idle(slot) || !(known.at < first.at))
+      continue;
+    if (active_guards_.armed(slot)) warn_of_touch(slot, motion_.whole.t + known.at * motion_.whole.scale);
+    known.kind = events::FirstRoot::Kind::none;  // the warning has been issued
   }
   return first;
 }
@@ -406,25 +413,25 @@ ExactEngine::Earliest ExactEngine::earliest_fall() {
 void ExactEngine::warn_of_touch(std::size_t slot, double t) {
   ++touches_;
   if (touches_ <= most_touches)
-    warnings.push_back(
-        fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
-                    "at this precision; it counts as not fallen",
-                    model_.contacts[contact_of_guard(slot)].name,
-                    to_string(segment_.decision->guards[slot].kind), said_time(model_, t)));
+    warnings.push_back(fmt::format(
+        "contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
+        "at this precision; it counts as not fallen",
+        model_.contacts[contact::contact_of_guard(slot)].name,
+        contact::to_string(segment_.decision->guards[slot].kind), model::time_in_scene_units(model_, t)));
   else if (touches_ == most_touches + 1)
     warnings.emplace_back("more guards touch zero; these are not listed");
 }
 
 /// Updates guards that were zero when the segment began, at the end of a step without an event.
 void ExactEngine::see_unarmed(double x) {
-  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
-    if (arming_.idle(slot) || arming_.armed(slot)) continue;
-    const GuardStart& guard = segment_.decision->guards[slot];
-    const ContactSeries& contact = motion_.contacts()[contact_of_guard(slot)];
-    const auto polynomial =
-        contact.expand(segment_.decision->guard(slot), x - contact.origin(), most_fall_degree, guard_.data());
-    arming_.see(slot, value_at(guard_.data(), polynomial.degree, x - contact.origin()),
-                4.0 * (guard.noise + drift_of(guard, x)));
+  for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
+    if (active_guards_.idle(slot) || active_guards_.armed(slot)) continue;
+    const decide::GuardStart& guard = segment_.decision->guards[slot];
+    const motion::ContactSeries& contact = motion_.contacts()[contact::contact_of_guard(slot)];
+    const auto polynomial = contact.expand(segment_.decision->guard(slot), x - contact.origin(),
+                                           events::most_fall_degree, guard_.data());
+    active_guards_.see(slot, motion::value_at(guard_.data(), polynomial.degree, x - contact.origin()),
+                       4.0 * (guard.noise + drift_of(guard, x)));
   }
 }
 
@@ -440,10 +447,10 @@ void ExactEngine::begin_series(double scale) {
   motion_.taken(degree_);
   if (beside_) motion_.bound_rates(reach_);
   reached_.assign(reached_.size(), {rest_of_series(reach_), reach_});
-  falls_.assign(falls_.size(), {});
+  crossings_.assign(crossings_.size(), {});
 }
 
-Step ExactEngine::advance() {
+engine::Step ExactEngine::advance() {
   if (!std::exchange(went_on_, false)) {
     const double remaining = segment_.end - t_;
     const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
@@ -459,32 +466,32 @@ Step ExactEngine::advance() {
   const double x = first.at;
   double end = reach_time_;
   if (first.slot) {
-    step_.kind = Step::Kind::event;
-    step_.fired = {{contact_of_guard(*first.slot), segment_.decision->guards[*first.slot].kind,
-                    !arming_.armed(*first.slot)}};
+    step_.kind = engine::Step::Kind::event;
+    step_.triggered = {{contact::contact_of_guard(*first.slot), segment_.decision->guards[*first.slot].kind,
+                        !active_guards_.armed(*first.slot)}};
     end = motion_.whole.t + motion_.whole.scale * x;
   } else {
     see_unarmed(x);
   }
   step_.end = end;
-  step_.resolution = resolution_at(end, end - t_);
+  step_.resolution = motion::resolution_at(end, end - t_);
   turns_.find(motion_.contacts(), motion_.whole, begin_x_, x);
   end_x_ = x;
   motion_.evaluate_at(x, end_);  // more accurate than at the rounded time
   t_ = end;
   // Rounding in g'' is integrated twice over a long contact phase.
-  if (!beside_) hold(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
+  if (!beside_) motion::hold(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
   return step_;
 }
 
-void ExactEngine::evaluate(double t, Point& point) {
+void ExactEngine::evaluate(double t, motion::Point& point) {
   if (t == t_ && end_.u.size() > 0)
     point = end_;
   else
     motion_.evaluate_at(x_of(t), point);
 }
 
-void ExactEngine::evaluate_watched(double t, std::optional<std::size_t> contact, Point& point) {
+void ExactEngine::evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) {
   if (t == t_ && end_.u.size() > 0) return evaluate(t, point);
   point.a.resize(0);
   if (contact)
@@ -493,8 +500,8 @@ void ExactEngine::evaluate_watched(double t, std::optional<std::size_t> contact,
     motion_.place_at(x_of(t), point);
 }
 
-StepFacts ExactEngine::facts() const {
-  StepFacts facts;
+engine::StepFacts ExactEngine::facts() const {
+  engine::StepFacts facts;
   facts.turning_points = turns_.times();
   facts.contact_turns = &turns_.turns();
   facts.expansion = {&motion_.whole, motion_.degree(), end_x_, taylor_.system().get()};
@@ -502,10 +509,10 @@ StepFacts ExactEngine::facts() const {
   return facts;
 }
 
-void ExactEngine::integrate(double from, double to, Works& works) {
+void ExactEngine::integrate(double from, double to, motion::WorkIntegrals& works) {
   works_.add(segment_.decision->mode, *segment_.forcing, motion_, growth_now_, from, to, works);
 }
 
-double ExactEngine::residual() { return imbalance(model_, structure_, *segment_.forcing, t_, end_); }
+double ExactEngine::residual() { return motion::imbalance(model_, structure_, *segment_.forcing, t_, end_); }
 
-}  // namespace signorini
+}  // namespace signorini::exact

@@ -25,7 +25,7 @@
 #include "engine/stepper.hpp"
 #include "motion/contact_series.hpp"
 
-namespace signorini {
+namespace signorini::exact {
 
 /// Greatest number of terms of a series.
 inline constexpr int most_levels = 30;
@@ -36,25 +36,25 @@ struct SeriesUse {
   std::uint64_t step_seed = 0;  ///< not 0: steps have random lengths (share_of_step)
 };
 
-class ExactEngine final : public Stepper, public DenseOutput {
+class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
  public:
   /// All arguments except t_end must outlive the object.
-  ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-              const SeriesUse& use = {});
+  ExactEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
+              double t_end, const SeriesUse& use = {});
 
-  void start(const Segment& segment) override;
-  [[nodiscard]] Step advance() override;
-  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
-  void evaluate(double t, Point& point) override;
+  void start(const engine::Segment& segment) override;
+  [[nodiscard]] engine::Step advance() override;
+  [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
+  void evaluate(double t, motion::Point& point) override;
   /// Evaluates without accelerations.
-  void evaluate_watched(double t, std::optional<std::size_t> contact, Point& point) override;
-  void integrate(double from, double to, Works& works) override;
+  void evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) override;
+  void integrate(double from, double to, motion::WorkIntegrals& works) override;
   [[nodiscard]] double residual() override;
   /// The guard is exact up to rounding, which the decision knows.
   [[nodiscard]] double guard_error(const GuardForm&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
-  [[nodiscard]] StepFacts facts() const override;
+  [[nodiscard]] engine::StepFacts facts() const override;
 
  private:
   [[nodiscard]] double few_flights() const;
@@ -64,18 +64,19 @@ class ExactEngine final : public Stepper, public DenseOutput {
   void weigh();
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
-  [[nodiscard]] bool stands(const std::vector<double>& sizes, const ForcingSeries& forcing, double x) const;
+  [[nodiscard]] bool stands(const std::vector<double>& sizes, const motion::ForcingSeries& forcing,
+                            double x) const;
   [[nodiscard]] double expand(double scale);
   void begin_series(double scale);
-  [[nodiscard]] bool goes_on(const Decision& decision, bool same_forcing) const;
-  [[nodiscard]] bool go_on(const Mode& before);
-  [[nodiscard]] double reach_near(const NearSeries::Made& near, double x);
-  [[nodiscard]] double rest_near(const NearSeries::Made& near, double x);
+  [[nodiscard]] bool goes_on(const decide::Decision& decision, bool same_forcing) const;
+  [[nodiscard]] bool go_on(const contact::ContactStates& before);
+  [[nodiscard]] double reach_near(const motion::LocalSeries::Made& near, double x);
+  [[nodiscard]] double rest_near(const motion::LocalSeries::Made& near, double x);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double rest_of(const GuardForm& guard, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double rest_of_series(double x);
-  [[nodiscard]] double drift_of(const GuardStart& guard, double x) const;
-  [[nodiscard]] FirstFall fall_of(std::size_t slot);
+  [[nodiscard]] double drift_of(const decide::GuardStart& guard, double x) const;
+  [[nodiscard]] events::FirstRoot fall_of(std::size_t slot);
   /// The guard that reaches zero first among all guards, and the place in the series.
   struct Earliest {
     std::optional<std::size_t> slot;
@@ -86,53 +87,54 @@ class ExactEngine final : public Stepper, public DenseOutput {
   void warn_of_touch(std::size_t slot, double t);
   void see_unarmed(double x);
   [[nodiscard]] std::string hindrance(double scale) const;
-  [[nodiscard]] Step failed(std::string reason);
+  [[nodiscard]] engine::Step failed(std::string reason);
   [[nodiscard]] double x_of(double t) const { return (t - motion_.whole.t) / motion_.whole.scale; }
 
   const Model& model_;
-  const Structure& structure_;
-  Taylor taylor_;
+  const linear::SystemMatrices& structure_;
+  motion::Taylor taylor_;
   const double t_end_;
   FlowNorm norm_;
   FlowGrowth growth_;
   std::size_t degree_ = 0;  // degree of all polynomials on the last step
-  Segment segment_;
-  PiecedSeries motion_;
-  std::optional<NearSeries> beside_;  // nullopt: each event makes the series of the whole structure anew
-  Mode mode_;                         // states of the segment, if beside_ is used
-  bool went_on_ = false;              // the segment begins within motion_
-  double begin_x_ = 0.0;              // beginning of the step in motion_
-  double reach_ = 0.0;                // end of the validity of motion_
-  double reach_time_ = 0.0;           // time of reach_
+  engine::Segment segment_;
+  PatchedSeries motion_;
+  std::optional<motion::LocalSeries>
+      beside_;                   // nullopt: each event makes the series of the whole structure anew
+  contact::ContactStates mode_;  // states of the segment, if beside_ is used
+  bool went_on_ = false;         // the segment begins within motion_
+  double begin_x_ = 0.0;         // beginning of the step in motion_
+  double reach_ = 0.0;           // end of the validity of motion_
+  double reach_time_ = 0.0;      // time of reach_
   /// Remainder of a contact's polynomials in displacements, in norm_, and their reach from their origin.
   struct Reached {
     double rest = 0.0, x = 0.0;
   };
   std::vector<Reached> reached_;
   /// The first zero crossing of a guard in motion_, once found.
-  struct Fall {
-    FirstFall::Kind kind = FirstFall::Kind::none;
+  struct ZeroCrossing {
+    events::FirstRoot::Kind kind = events::FirstRoot::Kind::none;
     bool stands = false;  // the search was made for this guard, which was positive
     double at = 0.0;
   };
-  std::vector<Fall> falls_;
-  Arming arming_;
+  std::vector<ZeroCrossing> crossings_;
+  events::ActiveGuards active_guards_;
   std::vector<double> scales_, weights_, sizes_, guard_, near_sizes_;
   Vector near_column_;
   double greatest_ = 0.0;       // greatest motion, by scales_
   std::size_t polynomial_ = 0;  // greatest degree in the forcing
   int touches_ = 0;
   std::optional<std::mt19937_64> chance_;  // random lengths of steps
-  Point end_;                              // end of the last step
+  motion::Point end_;                      // end of the last step
   double t_ = 0.0, growth_now_ = 0.0;
-  double next_ = 0.0;   // greatest length of the segment's next step
-  double begun_ = 0.0;  // beginning of the segment
-  double pace_ = 0.0;   // recent time between events; 0: none
-  bool paced_ = false;  // no series so far was too short for a step that pace_ allows
-  double end_x_ = 0.0;  // end of the last step in its series
-  Step step_;
-  SeriesWorks works_;
-  TurningPoints turns_;
+  double next_ = 0.0;              // greatest length of the segment's next step
+  double begun_ = 0.0;             // beginning of the segment
+  double fast_mode_cutoff_ = 0.0;  // recent time between events; 0: none
+  bool paced_ = false;             // no series so far was too short for a step that pace_ allows
+  double end_x_ = 0.0;             // end of the last step in its series
+  engine::Step step_;
+  SeriesWorkIntegrals works_;
+  events::TurningPoints turns_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::exact

@@ -8,7 +8,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/slip_growth.hpp"
 
-namespace signorini {
+namespace signorini::exact {
 namespace {
 
 constexpr int probe_levels = 20;
@@ -17,18 +17,18 @@ constexpr double most_beside =
 
 }  // namespace
 
-FlowGrowth::FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, const std::vector<double>& scales,
-                       double t_end)
+FlowGrowth::FlowGrowth(const Model& model, motion::Taylor& taylor, FlowNorm& norm,
+                       const std::vector<double>& scales, double t_end)
     : model_(model),
       taylor_(taylor),
       norm_(norm),
       scales_(scales),
-      fastest_(std::max(
-          {model.omega_max, 1.0 / t_end,
-           diagonal_decay(model.mass.diagonal(), model.damping.diagonal(), model.stiffness.diagonal())})) {}
+      fastest_(std::max({model.omega_max, 1.0 / t_end,
+                         model::diagonal_decay(model.mass.diagonal(), model.damping.diagonal(),
+                                               model.stiffness.diagonal())})) {}
 
-double FlowGrowth::of(const ModeSystemPtr& system) {
-  std::vector<State> states = states_of(system->mode());
+double FlowGrowth::of(const motion::StateSystemPtr& system) {
+  std::vector<State> states = contact::states_of(system->mode());
   if (const double* known = known_.find(states)) return *known;
   if (const auto near = beside(*system)) return *near;
   nearest_ = probed(system);
@@ -38,7 +38,7 @@ double FlowGrowth::of(const ModeSystemPtr& system) {
 }
 
 /// Upper limit of a contact's contribution to the square of the growth, by closing, sticking or slipping.
-double FlowGrowth::stiffening(const ModeSystem& system, std::size_t c) {
+double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) {
   double& known = stiffenings_[c];
   if (known >= 0.0) return known;
   const Contact& contact = model_.contacts[c];
@@ -51,12 +51,12 @@ double FlowGrowth::stiffening(const ModeSystem& system, std::size_t c) {
   };
   const double n = effect(contact.normal), t = effect(contact.tangent);
   const double kn = contact.normal_stiffness, kt = contact.tangential_stiffness.value_or(0.0);
-  const double friction = std::max(static_friction(contact), kinetic_friction(contact));
+  const double friction = std::max(contact::static_friction(contact), contact::kinetic_friction(contact));
   return known = kn * (n + friction * t) * norm_.normal(c) + kt * t * norm_.tangent(c);
 }
 
 /// Growth of states that differ from the nearest known ones in few soft contacts. nullopt: they differ in too many.
-std::optional<double> FlowGrowth::beside(const ModeSystem& system) {
+std::optional<double> FlowGrowth::beside(const motion::StateSystem& system) {
   if (near_.empty() || !system.factorised().by_mass) return std::nullopt;
   stiffenings_.resize(near_.size(), -1.0);
   const double square = nearest_ * nearest_;
@@ -75,7 +75,7 @@ std::optional<double> FlowGrowth::beside(const ModeSystem& system) {
 }
 
 /// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
-double FlowGrowth::probed(const ModeSystemPtr& system) {
+double FlowGrowth::probed(const motion::StateSystemPtr& system) {
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
   std::mt19937_64 random(1);  // the same motion in every run
@@ -84,8 +84,8 @@ double FlowGrowth::probed(const ModeSystemPtr& system) {
     u[i] = uniform(random) / scales_[static_cast<std::size_t>(i)];
     v[i] = fastest_ * uniform(random) / scales_[static_cast<std::size_t>(i)];
   }
-  Series series;
-  taylor_.expand(system, Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
+  motion::Series series;
+  taylor_.expand(system, motion::Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
   double greatest = 0.0;
   for (Eigen::Index k = probe_levels / 2; k + 2 <= probe_levels - 2; ++k) {
     const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
@@ -99,15 +99,16 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   const double w = model.omega_max > 0.0 ? model.omega_max : 1.0;
   const int n = model.size();
   const SparseMatrix damping = 0.5 * (model.damping + SparseMatrix(model.damping.transpose()));
-  g_ = model.mass + damping / w + with_springs(model.stiffness, contact_springs(model.contacts)) / (w * w);
-  SymmetricSolver solver(g_);
+  g_ = model.mass + damping / w +
+       assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts)) / (w * w);
+  assembly::SymmetricSolver solver(g_);
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) {
     // If a stiffness or damping is not positive, the magnitudes of the diagonal form a norm as well.
     std::vector<Eigen::Triplet<double>> diagonal;
     for (int i = 0; i < n; ++i) diagonal.emplace_back(i, i, std::max(std::abs(g_.coeff(i, i)), 1e-300));
     g_.setZero();
     g_.setFromTriplets(diagonal.begin(), diagonal.end());
-    solver = SymmetricSolver(g_);
+    solver = assembly::SymmetricSolver(g_);
   }
   const auto greatest = [&](const Combination& form) {
     Vector x = Vector::Zero(n);
@@ -127,4 +128,4 @@ double FlowNorm::of(const Eigen::Ref<const Vector>& x) {
   return size * std::sqrt(std::max(0.0, x.dot(product_) / size));
 }
 
-}  // namespace signorini
+}  // namespace signorini::exact

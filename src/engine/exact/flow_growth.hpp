@@ -12,7 +12,7 @@
 #include "motion/taylor.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::exact {
 
 // A norm for Taylor coefficients that bounds the remainder of a series.
 //
@@ -37,7 +37,7 @@ class FlowNorm {
 };
 
 /// Growth rates of states are kept longer than their systems: a rate takes a series to compute and 8 bytes to keep.
-inline constexpr CacheBounds most_growths{16384, std::size_t{1} << 20};
+inline constexpr base::CacheBounds most_growths{16384, std::size_t{1} << 20};
 
 class FlowGrowth {
  public:
@@ -45,26 +45,26 @@ class FlowGrowth {
 
   /// scales: weights that make the degrees of freedom comparable, filled before of() is called. All arguments except
   /// t_end must outlive the object.
-  FlowGrowth(const Model& model, Taylor& taylor, FlowNorm& norm, const std::vector<double>& scales,
+  FlowGrowth(const Model& model, motion::Taylor& taylor, FlowNorm& norm, const std::vector<double>& scales,
              double t_end);
 
   /// W with its margin. Unit: 1/time.
-  [[nodiscard]] double of(const ModeSystemPtr& system);
+  [[nodiscard]] double of(const motion::StateSystemPtr& system);
 
  private:
-  [[nodiscard]] double probed(const ModeSystemPtr& system);
-  [[nodiscard]] std::optional<double> beside(const ModeSystem& system);
-  [[nodiscard]] double stiffening(const ModeSystem& system, std::size_t contact);
+  [[nodiscard]] double probed(const motion::StateSystemPtr& system);
+  [[nodiscard]] std::optional<double> beside(const motion::StateSystem& system);
+  [[nodiscard]] double stiffening(const motion::StateSystem& system, std::size_t contact);
 
   const Model& model_;
-  Taylor& taylor_;
+  motion::Taylor& taylor_;
   FlowNorm& norm_;
   const std::vector<double>& scales_;
   const double fastest_;  // bound on all rates of the structure, for scaling
-  BoundedCache<std::vector<State>, double> known_{most_growths};
+  base::BoundedCache<std::vector<State>, double> known_{most_growths};
   std::vector<State> near_;          // last states whose growth was computed from a series; empty: none
   double nearest_ = 0.0;             // growth of near_
   std::vector<double> stiffenings_;  // one for each contact; negative: unknown
 };
 
-}  // namespace signorini
+}  // namespace signorini::exact

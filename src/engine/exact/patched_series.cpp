@@ -5,7 +5,7 @@
 
 #include "base/wide_lanes.hpp"
 
-namespace signorini {
+namespace signorini::exact {
 namespace {
 
 /// sum := sum x + factor a, by entries.
@@ -13,8 +13,9 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
                                  std::size_t n) {
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4)
-    lanes_at<Four>(sum + i).v =
-        lanes_at<Four>(sum + i).v * lanes_at<Four>(x + i).v + factor * lanes_at<Four>(a + i).v;
+    base::lanes_at<base::Four>(sum + i).v =
+        base::lanes_at<base::Four>(sum + i).v * base::lanes_at<base::Four>(x + i).v +
+        factor * base::lanes_at<base::Four>(a + i).v;
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
 }
 
@@ -36,14 +37,14 @@ double sum_at(double x, const double* a, std::size_t stride, std::size_t degree)
 
 void copy_shifted(const Eigen::MatrixXd& from, Eigen::Index row, std::size_t count, double x, double* out) {
   for (std::size_t k = 0; k < count; ++k) out[k] = from(row, static_cast<Eigen::Index>(k));
-  if (x != 0.0) shift(out, count - 1, x);
+  if (x != 0.0) motion::shift(out, count - 1, x);
 }
 
 }  // namespace
 
-PiecedSeries::PiecedSeries(const Model& model) : model_(model), contacts_(model.contacts.size()) {}
+PatchedSeries::PatchedSeries(const Model& model) : model_(model), contacts_(model.contacts.size()) {}
 
-void PiecedSeries::taken(std::size_t degree) {
+void PatchedSeries::taken(std::size_t degree) {
   degree_ = degree;
   for (std::size_t k = 0; k <= degree_; ++k) {
     to_rate_[k] = static_cast<double>(k + 1) / whole.scale;
@@ -57,7 +58,7 @@ void PiecedSeries::taken(std::size_t degree) {
   }
 }
 
-void PiecedSeries::take_over(const NearSeries::Made& near, double x, double reach) {
+void PatchedSeries::take_over(const motion::LocalSeries::Made& near, double x, double reach) {
   origins_.resize(static_cast<std::size_t>(whole.u.rows()), 0.0);
   force_origins_.resize(static_cast<std::size_t>(whole.forces.rows()), 0.0);
   const std::vector<int>& dofs = near.where->dofs;
@@ -77,8 +78,8 @@ void PiecedSeries::take_over(const NearSeries::Made& near, double x, double reac
           near.series->forces.row(static_cast<Eigen::Index>(from));
       force_origins_[slot] = x;
     }
-    std::copy_n(near.series->forcing.pressing.data() + i * known, known,
-                whole.forcing.pressing.data() + c * count);
+    std::copy_n(near.series->forcing.applied_normal_force.data() + i * known, known,
+                whole.forcing.applied_normal_force.data() + c * count);
     std::copy_n(near.series->forcing.surface.data() + i * known, known,
                 whole.forcing.surface.data() + c * count);
     contacts_[c].fill(model_.contacts[c], c, whole, degree_);
@@ -87,17 +88,17 @@ void PiecedSeries::take_over(const NearSeries::Made& near, double x, double reac
   }
 }
 
-void PiecedSeries::displacement(int dof, double x, double* out) const {
+void PatchedSeries::displacement(int dof, double x, double* out) const {
   copy_shifted(whole.u, dof, static_cast<std::size_t>(whole.levels) + 3,
                x - origin_of(static_cast<std::size_t>(dof)), out);
 }
 
-void PiecedSeries::force(std::size_t slot, double x, double* out) const {
+void PatchedSeries::force(std::size_t slot, double x, double* out) const {
   copy_shifted(whole.forces, static_cast<Eigen::Index>(slot), static_cast<std::size_t>(whole.levels) + 1,
                x - (force_origins_.empty() ? 0.0 : force_origins_[slot]), out);
 }
 
-void PiecedSeries::pieces_at(double x, Point& point) const {
+void PatchedSeries::pieces_at(double x, motion::Point& point) const {
   const std::size_t n = origins_.size(), forces = force_origins_.size();
   of_dofs_.resize(n);
   of_forces_.resize(forces);
@@ -111,7 +112,7 @@ void PiecedSeries::pieces_at(double x, Point& point) const {
   }
 }
 
-void PiecedSeries::place_at(double x, Point& point) const {
+void PatchedSeries::place_at(double x, motion::Point& point) const {
   const auto n = static_cast<std::size_t>(whole.u.rows());
   point.u.setZero(whole.u.rows());
   point.v.setZero(whole.u.rows());
@@ -139,7 +140,7 @@ void PiecedSeries::place_at(double x, Point& point) const {
   }
 }
 
-void PiecedSeries::evaluate_at(double x, Point& point) const {
+void PatchedSeries::evaluate_at(double x, motion::Point& point) const {
   place_at(x, point);
   const auto n = static_cast<std::size_t>(whole.u.rows());
   point.a.setZero(whole.u.rows());
@@ -159,7 +160,7 @@ void PiecedSeries::evaluate_at(double x, Point& point) const {
   }
 }
 
-void PiecedSeries::place_at(double x, std::size_t contact, Point& point) const {
+void PatchedSeries::place_at(double x, std::size_t contact, motion::Point& point) const {
   point.u.resize(whole.u.rows());
   point.v.resize(whole.u.rows());
   point.forces.resize(whole.forces.rows());
@@ -178,4 +179,4 @@ void PiecedSeries::place_at(double x, std::size_t contact, Point& point) const {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::exact

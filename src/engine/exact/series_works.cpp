@@ -8,7 +8,7 @@
 #include "contact/curved_surface.hpp"
 #include "contact/law.hpp"
 
-namespace signorini {
+namespace signorini::exact {
 namespace {
 
 GaussRule make_rule(std::size_t count) {
@@ -49,20 +49,22 @@ SIGNORINI_WIDE_LANES void velocities_of_block(const double* a, std::size_t strid
     for (std::size_t j = 0; j < block; ++j) scaled[j] = factor * a[k * stride + j];
     for (std::size_t i = 0; i < times * block; i += block)
       for (std::size_t j = 0; j < block; j += lanes)
-        lanes_at<Four>(v + i + j).v =
-            lanes_at<Four>(v + i + j).v * lanes_at<Four>(at + i + j).v + lanes_at<Four>(scaled + j).v;
+        base::lanes_at<base::Four>(v + i + j).v =
+            base::lanes_at<base::Four>(v + i + j).v * base::lanes_at<base::Four>(at + i + j).v +
+            base::lanes_at<base::Four>(scaled + j).v;
   }
 }
 
 }  // namespace
 
-SeriesWorks::SeriesWorks(const Model& model, const Structure& structure)
+SeriesWorkIntegrals::SeriesWorkIntegrals(const Model& model, const linear::SystemMatrices& structure)
     : model_(model),
       structure_(structure),
       damped_(std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; })) {}
 
 /// Expands each degree of freedom about its own origin.
-void SeriesWorks::velocities_of_pieces(const Nodes& x, std::size_t count, const PiecedSeries& motion) {
+void SeriesWorkIntegrals::velocities_of_pieces(const Nodes& x, std::size_t count,
+                                               const PatchedSeries& motion) {
   const Eigen::MatrixXd& u = motion.whole.u;
   const auto n = static_cast<std::size_t>(u.rows());
   std::array<double, block * nodes> at{}, v{};
@@ -77,10 +79,10 @@ void SeriesWorks::velocities_of_pieces(const Nodes& x, std::size_t count, const 
   }
 }
 
-void SeriesWorks::velocities_at(const Nodes& x, std::size_t times, const PiecedSeries& motion) {
+void SeriesWorkIntegrals::velocities_at(const Nodes& x, std::size_t times, const PatchedSeries& motion) {
   velocities_.resize(motion.whole.u.rows(), nodes);
   if (!motion.origins().empty()) return velocities_of_pieces(x, times, motion);
-  const Series& series = motion.whole;
+  const motion::Series& series = motion.whole;
   const std::size_t degree = motion.degree();
   const auto count = static_cast<Eigen::Index>(degree + 1);
   const Eigen::Index n = series.u.rows();
@@ -105,10 +107,11 @@ void SeriesWorks::velocities_at(const Nodes& x, std::size_t times, const PiecedS
   }
 }
 
-void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const PiecedSeries& motion, double growth,
-                      double from, double to, Works& works) {
-  const Series& series = motion.whole;
-  const std::vector<ContactSeries>& contacts = motion.contacts();
+void SeriesWorkIntegrals::add(const contact::ContactStates& mode, const motion::Forcing& forcing,
+                              const PatchedSeries& motion, double growth, double from, double to,
+                              motion::WorkIntegrals& works) {
+  const motion::Series& series = motion.whole;
+  const std::vector<motion::ContactSeries>& contacts = motion.contacts();
   const std::size_t degree = motion.degree();
   const double h = to - from;
   if (!(h > 0.0)) return;
@@ -134,56 +137,58 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const PiecedSeri
     }
     if (state.state == State::inside) {
       const auto gap = [&](double t) {
-        return contacts[c].value(ContactSeries::gap, (t - series.t) / series.scale);
+        return contacts[c].value(motion::ContactSeries::gap, (t - series.t) / series.scale);
       };
-      works.damping += inside_loss(contact, state.state, gap(from), gap(to));
+      works.damping += contact::inside_loss(contact, state.state, gap(from), gap(to));
     }
     if (state.is_open()) continue;
     if (!contact.normal_force_given()) {
       const auto pressed = [&](double time) {
-        return contacts[c].integral(ContactSeries::N, (time - series.t) / series.scale);
+        return contacts[c].integral(motion::ContactSeries::N, (time - series.t) / series.scale);
       };
-      works.pressing[c] -= series.scale * (pressed(to) - pressed(from));
+      works.applied_normal_force[c] -= series.scale * (pressed(to) - pressed(from));
     }
     const int s = slip_sign(state.state);
     const bool moved = forcing.moves(c);
     if (s == 0 && !moved && contact.normal_damping == 0.0) continue;
     slide_rate_.resize(degree + 1);
-    if (s != 0) contacts[c].combine(slip_rate(contact, s), slide_rate_.data());
+    if (s != 0) contacts[c].combine(contact::slip_rate(contact, s), slide_rate_.data());
     for (std::size_t i = 0; i < rule.count; ++i) {
       const double weight = h * rule.w[i];
       ContactPath path;
       double T = 0.0;
-      if (s != 0 || moved) T = contacts[c].value(ContactSeries::T, x[i]);
-      if (s != 0) path.slip = value_at(slide_rate_.data(), degree, x[i] - contacts[c].origin());
+      if (s != 0 || moved) T = contacts[c].value(motion::ContactSeries::T, x[i]);
+      if (s != 0) path.slip = motion::value_at(slide_rate_.data(), degree, x[i] - contacts[c].origin());
       if (moved) path.surface = forcing.surface(c, from + h * rule.x[i], 1);
       if (contact.normal_damping != 0.0)
-        path.gap = path.gap_rate = contacts[c].value(ContactSeries::vn, x[i]);
-      works.add(c, work_on(contact, state.state, 0.0, T, path), weight);
+        path.gap = path.gap_rate = contacts[c].value(motion::ContactSeries::vn, x[i]);
+      works.add(c, contact::work_on(contact, state.state, 0.0, T, path), weight);
     }
   }
 }
 
 /// A user's law dissipates power in every state.
-void SeriesWorks::add_own(std::size_t c, const Forcing& forcing, const Series& series,
-                          const ContactSeries& contact, double from, double to, Works& works) const {
+void SeriesWorkIntegrals::add_own(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
+                                  const motion::ContactSeries& contact, double from, double to,
+                                  motion::WorkIntegrals& works) const {
   const GaussRule& rule = gauss_rule();
   const double h = to - from;
   for (std::size_t i = 0; i < nodes; ++i) {
     const double t = from + h * rule.x[i], x = (t - series.t) / series.scale;
-    const auto value = [&](ContactSeries::Field field) { return contact.value(field, x); };
-    const double rate = value(ContactSeries::vn);
-    const ContactPath path{value(ContactSeries::vt), forcing.surface(c, t, 1), rate, rate, 1.0};
-    works.add(
-        c, work_on(model_.contacts[c], State::open, value(ContactSeries::N), value(ContactSeries::T), path),
-        h * rule.w[i]);
+    const auto value = [&](motion::ContactSeries::Field field) { return contact.value(field, x); };
+    const double rate = value(motion::ContactSeries::vn);
+    const ContactPath path{value(motion::ContactSeries::vt), forcing.surface(c, t, 1), rate, rate, 1.0};
+    works.add(c,
+              contact::work_on(model_.contacts[c], State::open, value(motion::ContactSeries::N),
+                               value(motion::ContactSeries::T), path),
+              h * rule.w[i]);
   }
 }
 
 /// Work of a curved surface's force in addition to its spring; it counts as work of the loads, also off the surface.
-void SeriesWorks::add_bowl(std::size_t c, const Forcing& forcing, const Series& series,
-                           const ContactSeries& path, std::size_t degree, double from, double to,
-                           Works& works) {
+void SeriesWorkIntegrals::add_bowl(std::size_t c, const motion::Forcing& forcing,
+                                   const motion::Series& series, const motion::ContactSeries& path,
+                                   std::size_t degree, double from, double to, motion::WorkIntegrals& works) {
   const Contact& contact = model_.contacts[c];
   const GaussRule& rule = gauss_rule();
   const double h = to - from;
@@ -193,11 +198,11 @@ void SeriesWorks::add_bowl(std::size_t c, const Forcing& forcing, const Series& 
                      contact.body_tangent().dot(series.u.col(static_cast<Eigen::Index>(k + 1)).data());
   for (std::size_t i = 0; i < nodes; ++i) {
     const double t = from + h * rule.x[i], x = (t - series.t) / series.scale;
-    const double rate = value_at(slide_rate_.data(), degree, x) - forcing.surface(c, t, 1);
-    const double force =
-        bowl_force(contact, path.value(ContactSeries::N, x), path.value(ContactSeries::slide, x));
+    const double rate = motion::value_at(slide_rate_.data(), degree, x) - forcing.surface(c, t, 1);
+    const double force = contact::bowl_force(contact, path.value(motion::ContactSeries::N, x),
+                                             path.value(motion::ContactSeries::slide, x));
     works.loads -= h * rule.w[i] * force * rate;
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::exact

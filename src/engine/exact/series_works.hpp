@@ -9,7 +9,7 @@
 #include "engine/exact/patched_series.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::exact {
 
 // Gauss-Legendre quadrature on [0, 1].
 //
@@ -28,30 +28,32 @@ struct GaussRule {
 [[nodiscard]] const GaussRule& short_gauss_rule();
 inline constexpr double short_turn = 0.5;
 
-class SeriesWorks {
+class SeriesWorkIntegrals {
  public:
-  SeriesWorks(const Model& model, const Structure& structure);
+  SeriesWorkIntegrals(const Model& model, const linear::SystemMatrices& structure);
 
   static constexpr std::size_t nodes = GaussRule::nodes;
 
   /// Adds the integrals over [from, to] of the series. growth: upper limit for the motion's rate, rad per time.
-  void add(const Mode& mode, const Forcing& forcing, const PiecedSeries& motion, double growth, double from,
-           double to, Works& works);
+  void add(const contact::ContactStates& mode, const motion::Forcing& forcing, const PatchedSeries& motion,
+           double growth, double from, double to, motion::WorkIntegrals& works);
 
  private:
   using Nodes = std::array<double, nodes>;
-  void velocities_at(const Nodes& x, std::size_t count, const PiecedSeries& motion);
-  void velocities_of_pieces(const Nodes& x, std::size_t count, const PiecedSeries& motion);
-  void add_own(std::size_t c, const Forcing& forcing, const Series& series, const ContactSeries& contact,
-               double from, double to, Works& works) const;
-  void add_bowl(std::size_t c, const Forcing& forcing, const Series& series, const ContactSeries& path,
-                std::size_t degree, double from, double to, Works& works);
+  void velocities_at(const Nodes& x, std::size_t count, const PatchedSeries& motion);
+  void velocities_of_pieces(const Nodes& x, std::size_t count, const PatchedSeries& motion);
+  void add_own(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
+               const motion::ContactSeries& contact, double from, double to,
+               motion::WorkIntegrals& works) const;
+  void add_bowl(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
+                const motion::ContactSeries& path, std::size_t degree, double from, double to,
+                motion::WorkIntegrals& works);
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   bool damped_;
   Eigen::MatrixXd powers_, velocities_;  // one column for each node
   std::vector<double> slide_rate_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::exact

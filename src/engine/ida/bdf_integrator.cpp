@@ -17,7 +17,7 @@
 #include "engine/ida/step_newton.hpp"
 #include "model/machine_units.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 namespace {
 
 constexpr int most_retries = 4;        // restarts with a tenth of the first step before giving up
@@ -67,8 +67,9 @@ bool in_closed_form(const Model& model) {
 }  // namespace
 
 struct BdfIntegrator::Memory {
-  Memory(const Model& model, const Structure& structure, const Tolerance& tolerance, int max_order)
-      : problem(model, structure, tolerance), unit_of_time(said_time(model, 1.0)) {
+  Memory(const Model& model, const linear::SystemMatrices& structure, const engine::Tolerance& tolerance,
+         int max_order)
+      : problem(model, structure, tolerance), unit_of_time(model::time_in_scene_units(model, 1.0)) {
     SUNContext_Create(nullptr, &context);
     const auto size = static_cast<sunindextype>(problem.layout().size());
     for (N_Vector* v : {&y, &yp, &work}) *v = make_vector(size, context);
@@ -191,22 +192,22 @@ struct BdfIntegrator::Memory {
   /// The rehearsed steps, or none: user functions have no past that a step could rehearse, and steps near the
   /// resolution of time cannot be distinguished from the beginning. Hits of rigid contacts come in sequences that
   /// shrink: their flights need shorter steps than an error test requires, at any order.
-  [[nodiscard]] Rehearsal past() {
+  [[nodiscard]] RestartOrder past() {
     if (rehearses)
-      if (const Rehearsal r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
+      if (const RestartOrder r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
     return {0, first_step()};
   }
-  [[nodiscard]] Rehearsal rehearsal() {
+  [[nodiscard]] RestartOrder rehearsal() {
     problem.fill(*start, 0, NV_DATA_S(y));
     problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
     const double shaking = segment.forcing->surface_omega();
     double h = longest_rehearsed * (segment.end - start->t);
     if (shaking > 0.0) h = std::min(h, surface_step / shaking);
-    constexpr std::size_t order = Rehearsal::order + 1;
+    constexpr std::size_t order = RestartOrder::order + 1;
     problem.fill(*start, order, NV_DATA_S(yp));
     if (const double norm = N_VWrmsNorm(yp, work); norm > 0.0)
       h = std::min(h, rehearsed_part * std::pow(order / norm, 1.0 / order));
-    return {Rehearsal::order, h};
+    return {RestartOrder::order, h};
   }
 
   /// The order-one start has the error h^2 y''/2 + h^3 y'''/6 ...; returns the step that bounds the first of these, or
@@ -217,7 +218,7 @@ struct BdfIntegrator::Memory {
     problem.fill(*start, 0, NV_DATA_S(y));
     problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
     double factorial = 1.0;
-    for (std::size_t order = 2; order <= static_cast<std::size_t>(Jet::orders); ++order) {
+    for (std::size_t order = 2; order <= static_cast<std::size_t>(motion::Jet::orders); ++order) {
       factorial *= static_cast<double>(order);
       problem.fill(*start, order, NV_DATA_S(yp));
       const double norm = N_VWrmsNorm(yp, work);
@@ -290,8 +291,8 @@ struct BdfIntegrator::Memory {
   double start_part = first_step_part;
   double first = 0.0;  // first step of the segment
   std::vector<int> directions;
-  Segment segment;
-  const Jet* start = nullptr;  // the motion at the segment's beginning
+  engine::Segment segment;
+  const motion::Jet* start = nullptr;  // the motion at the segment's beginning
   std::string message;
   double unit_of_time;
   double t_previous = 0.0;    // beginning of the last accepted step
@@ -301,24 +302,25 @@ struct BdfIntegrator::Memory {
   bool rooted = false;        // the last returned step ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
-  std::array<long, max_degree + 1> steps_by_order{};  // since the last count
-  Counters counted;                                   // IDA's counts since its last restart
+  std::array<long, events::max_degree + 1> steps_by_order{};  // since the last count
+  Counters counted;                                           // IDA's counts since its last restart
 };
 
-BdfIntegrator::BdfIntegrator(const Model& model, const Structure& structure, const Tolerance& tolerance,
-                             int max_order, Counters& counters)
+BdfIntegrator::BdfIntegrator(const Model& model, const linear::SystemMatrices& structure,
+                             const engine::Tolerance& tolerance, int max_order, Counters& counters)
     : counters_(counters), m_(std::make_unique<Memory>(model, structure, tolerance, max_order)) {}
 
 BdfIntegrator::~BdfIntegrator() = default;
 
 void BdfIntegrator::count() { m_->add_counters(counters_); }
 
-Rehearsal BdfIntegrator::start(const Segment& segment, const Jet& jet, const Watch& watch) {
+RestartOrder BdfIntegrator::start(const engine::Segment& segment, const motion::Jet& jet,
+                                  const events::Watch& watch) {
   count();  // IDA resets its counts at a restart
   m_->segment = segment;
   m_->start = &jet;
   m_->problem.start(segment, watch);
-  const Rehearsal past = m_->past();
+  const RestartOrder past = m_->past();
   m_->begin(past.length, past.steps);
   m_->counted = Counters{};
   m_->rooted = false;
@@ -371,12 +373,12 @@ BdfStep BdfIntegrator::advance() {
     IDAGetRootInfo(m_->ida, found.data());
     for (std::size_t slot = 0; slot < found.size(); ++slot)
       if (found[slot] != 0)
-        step.fired.push_back({contact_of_guard(slot), m_->segment.decision->guards[slot].kind});
+        step.triggered.push_back({contact::contact_of_guard(slot), m_->segment.decision->guards[slot].kind});
   }
   return step;
 }
 
-void BdfIntegrator::evaluate(double t, Point& point) {
+void BdfIntegrator::evaluate(double t, motion::Point& point) {
   if (t != m_->held_time) {
     check(IDAGetDky(m_->ida, t, 0, m_->y), "IDAGetDky");
     if (m_->massless()) {
@@ -411,4 +413,4 @@ double BdfIntegrator::residual() {
   return m_->problem.imbalance(end, NV_DATA_S(m_->y), NV_DATA_S(m_->yp));
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -16,33 +16,33 @@
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
 /// A step of IDA; its inside has not yet been examined.
 struct BdfStep {
   enum class Kind { accepted, root, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;  ///< ends of the accepted step
   double root = 0.0;              ///< Kind::root: time at which a guard reached zero, begin < root <= end
-  std::vector<Fired> fired;       ///< Kind::root
-  double length = 0.0;            ///< length of the step, free of the rounding of its ends
-  int order = 1;                  ///< degree of the solution's polynomial on the step
-  std::string reason;             ///< Kind::failed
+  std::vector<decide::TriggeredGuard> triggered;  ///< Kind::root
+  double length = 0.0;                            ///< length of the step, free of the rounding of its ends
+  int order = 1;                                  ///< degree of the solution's polynomial on the step
+  std::string reason;                             ///< Kind::failed
 };
 
 class BdfIntegrator {
  public:
   /// counters: receives the counts; complete after count().
-  BdfIntegrator(const Model& model, const Structure& structure, const Tolerance& tolerance, int max_order,
-                Counters& counters);
+  BdfIntegrator(const Model& model, const linear::SystemMatrices& structure,
+                const engine::Tolerance& tolerance, int max_order, Counters& counters);
   ~BdfIntegrator();
   BdfIntegrator(const BdfIntegrator&) = delete;
   BdfIntegrator& operator=(const BdfIntegrator&) = delete;
 
   /// jet: whole jet at the segment's beginning; watch: armed guards. Both must outlive the segment. Returns the past
   /// that IDA was given.
-  Rehearsal start(const Segment& segment, const Jet& jet, const Watch& watch);
+  RestartOrder start(const engine::Segment& segment, const motion::Jet& jet, const events::Watch& watch);
   [[nodiscard]] BdfStep advance();
-  void evaluate(double t, Point& point);
+  void evaluate(double t, motion::Point& point);
   /// Keeps the correction of the last step: solution minus prediction. IDA estimates the local error from it; with
   /// equal steps of order k the error is 1/(k + 1) of it.
   void keep_correction();
@@ -57,4 +57,4 @@ class BdfIntegrator {
   std::unique_ptr<Memory> m_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -9,7 +9,7 @@
 
 #include "base/wide_lanes.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 namespace {
 
 constexpr int most = 6;  // vectors of a linear combination: order 5 has six differences
@@ -19,13 +19,13 @@ using Index = sunindextype;
 /// T: Four, or double for the remaining entries. z_j = sum_i f_i x_ij. z may be x_0; later ones are distinct from it.
 template <class T, int count>
 [[gnu::always_inline]] inline void combined(const double* f, const double* const* x, Index j, double* z) {
-  T sum = f[0] * lanes_at<T>(x[0] + j).v;
-  if constexpr (count > 1) sum += f[1] * lanes_at<T>(x[1] + j).v;
-  if constexpr (count > 2) sum += f[2] * lanes_at<T>(x[2] + j).v;
-  if constexpr (count > 3) sum += f[3] * lanes_at<T>(x[3] + j).v;
-  if constexpr (count > 4) sum += f[4] * lanes_at<T>(x[4] + j).v;
-  if constexpr (count > 5) sum += f[5] * lanes_at<T>(x[5] + j).v;
-  lanes_at<T>(z + j).v = sum;
+  T sum = f[0] * base::lanes_at<T>(x[0] + j).v;
+  if constexpr (count > 1) sum += f[1] * base::lanes_at<T>(x[1] + j).v;
+  if constexpr (count > 2) sum += f[2] * base::lanes_at<T>(x[2] + j).v;
+  if constexpr (count > 3) sum += f[3] * base::lanes_at<T>(x[3] + j).v;
+  if constexpr (count > 4) sum += f[4] * base::lanes_at<T>(x[4] + j).v;
+  if constexpr (count > 5) sum += f[5] * base::lanes_at<T>(x[5] + j).v;
+  base::lanes_at<T>(z + j).v = sum;
 }
 
 template <int count>
@@ -37,7 +37,7 @@ template <int count>
     f[static_cast<std::size_t>(i)] = c[i];
   }
   Index j = 0;
-  for (; j + 3 < n; j += 4) combined<Four, count>(f.data(), x.data(), j, z);
+  for (; j + 3 < n; j += 4) combined<base::Four, count>(f.data(), x.data(), j, z);
   for (; j < n; ++j) combined<double, count>(f.data(), x.data(), j, z);
 }
 
@@ -79,12 +79,15 @@ SIGNORINI_WIDE_LANES void linear_sum(double a, N_Vector x_vector, double b, N_Ve
   double* z = NV_DATA_S(z_vector);
   Index j = 0;
   if (a == 1.0) {  // every sum of IDA's steps
-    for (; j + 3 < n; j += 4) lanes_at<Four>(z + j).v = lanes_at<Four>(x + j).v + b * lanes_at<Four>(y + j).v;
+    for (; j + 3 < n; j += 4)
+      base::lanes_at<base::Four>(z + j).v =
+          base::lanes_at<base::Four>(x + j).v + b * base::lanes_at<base::Four>(y + j).v;
     for (; j < n; ++j) z[j] = x[j] + b * y[j];
     return;
   }
   for (; j + 3 < n; j += 4)
-    lanes_at<Four>(z + j).v = a * lanes_at<Four>(x + j).v + b * lanes_at<Four>(y + j).v;
+    base::lanes_at<base::Four>(z + j).v =
+        a * base::lanes_at<base::Four>(x + j).v + b * base::lanes_at<base::Four>(y + j).v;
   for (; j < n; ++j) z[j] = a * x[j] + b * y[j];
 }
 
@@ -97,7 +100,7 @@ SIGNORINI_WIDE_LANES void scale(double c, N_Vector x_vector, N_Vector z_vector) 
     return;
   }
   Index j = 0;
-  for (; j + 3 < n; j += 4) lanes_at<Four>(z + j).v = c * lanes_at<Four>(x + j).v;
+  for (; j + 3 < n; j += 4) base::lanes_at<base::Four>(z + j).v = c * base::lanes_at<base::Four>(x + j).v;
   for (; j < n; ++j) z[j] = c * x[j];
 }
 
@@ -109,13 +112,13 @@ void constant(double c, N_Vector z_vector) {
 /// x_0j += e_j, then x_ij += x_(i-1)j.
 template <class T, int count>
 [[gnu::always_inline]] inline void cascaded(const double* e, double* const* x, Index j) {
-  T sum = lanes_at<T>(e + j).v + lanes_at<T>(x[0] + j).v;
-  lanes_at<T>(x[0] + j).v = sum;
-  if constexpr (count > 1) lanes_at<T>(x[1] + j).v = sum += lanes_at<T>(x[1] + j).v;
-  if constexpr (count > 2) lanes_at<T>(x[2] + j).v = sum += lanes_at<T>(x[2] + j).v;
-  if constexpr (count > 3) lanes_at<T>(x[3] + j).v = sum += lanes_at<T>(x[3] + j).v;
-  if constexpr (count > 4) lanes_at<T>(x[4] + j).v = sum += lanes_at<T>(x[4] + j).v;
-  if constexpr (count > 5) lanes_at<T>(x[5] + j).v = sum += lanes_at<T>(x[5] + j).v;
+  T sum = base::lanes_at<T>(e + j).v + base::lanes_at<T>(x[0] + j).v;
+  base::lanes_at<T>(x[0] + j).v = sum;
+  if constexpr (count > 1) base::lanes_at<T>(x[1] + j).v = sum += base::lanes_at<T>(x[1] + j).v;
+  if constexpr (count > 2) base::lanes_at<T>(x[2] + j).v = sum += base::lanes_at<T>(x[2] + j).v;
+  if constexpr (count > 3) base::lanes_at<T>(x[3] + j).v = sum += base::lanes_at<T>(x[3] + j).v;
+  if constexpr (count > 4) base::lanes_at<T>(x[4] + j).v = sum += base::lanes_at<T>(x[4] + j).v;
+  if constexpr (count > 5) base::lanes_at<T>(x[5] + j).v = sum += base::lanes_at<T>(x[5] + j).v;
 }
 
 /// IDA's x = [phi_q, ..., phi_0], z = [e, phi_q, ..., phi_1].
@@ -124,7 +127,7 @@ template <int count>
   std::array<double*, count> x{};
   for (int i = 0; i < count; ++i) x[static_cast<std::size_t>(i)] = NV_DATA_S(vectors[i]);
   Index j = 0;
-  for (; j + 3 < n; j += 4) cascaded<Four, count>(e, x.data(), j);
+  for (; j + 3 < n; j += 4) cascaded<base::Four, count>(e, x.data(), j);
   for (; j < n; ++j) cascaded<double, count>(e, x.data(), j);
 }
 
@@ -163,25 +166,25 @@ SIGNORINI_WIDE_LANES double wrms_norm(N_Vector x_vector, N_Vector w_vector) {
   const Index n = NV_LENGTH_S(x_vector);
   const double *x = NV_DATA_S(x_vector), *w = NV_DATA_S(w_vector);
   // Four sums of four lanes: with a single sum each addition would wait for the previous one.
-  Four s0{}, s1{}, s2{}, s3{};
+  base::Four s0{}, s1{}, s2{}, s3{};
   Index j = 0;
   for (; j + 15 < n; j += 16) {
-    const Four p0 = lanes_at<Four>(x + j).v * lanes_at<Four>(w + j).v,
-               p1 = lanes_at<Four>(x + j + 4).v * lanes_at<Four>(w + j + 4).v,
-               p2 = lanes_at<Four>(x + j + 8).v * lanes_at<Four>(w + j + 8).v,
-               p3 = lanes_at<Four>(x + j + 12).v * lanes_at<Four>(w + j + 12).v;
+    const base::Four p0 = base::lanes_at<base::Four>(x + j).v * base::lanes_at<base::Four>(w + j).v,
+                     p1 = base::lanes_at<base::Four>(x + j + 4).v * base::lanes_at<base::Four>(w + j + 4).v,
+                     p2 = base::lanes_at<base::Four>(x + j + 8).v * base::lanes_at<base::Four>(w + j + 8).v,
+                     p3 = base::lanes_at<base::Four>(x + j + 12).v * base::lanes_at<base::Four>(w + j + 12).v;
     s0 += p0 * p0;
     s1 += p1 * p1;
     s2 += p2 * p2;
     s3 += p3 * p3;
   }
   for (; j + 3 < n; j += 4) {
-    const Four p = lanes_at<Four>(x + j).v * lanes_at<Four>(w + j).v;
+    const base::Four p = base::lanes_at<base::Four>(x + j).v * base::lanes_at<base::Four>(w + j).v;
     s0 += p * p;
   }
   double rest = 0.0;
   for (; j < n; ++j) rest += (x[j] * w[j]) * (x[j] * w[j]);
-  const Four s = (s0 + s1) + (s2 + s3);
+  const base::Four s = (s0 + s1) + (s2 + s3);
   return std::sqrt(((s[0] + s[1]) + (s[2] + s[3]) + rest) / static_cast<double>(n));
 }
 
@@ -198,4 +201,4 @@ N_Vector make_vector(sunindextype size, SUNContext context) {
   return v;
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -9,9 +9,9 @@
 
 #include <sundials/sundials_nvector.h>
 
-namespace signorini {
+namespace signorini::ida {
 
 /// A new serial vector whose clones inherit the operations; free with N_VDestroy.
 [[nodiscard]] N_Vector make_vector(sunindextype size, SUNContext context);
 
-}  // namespace signorini
+}  // namespace signorini::ida

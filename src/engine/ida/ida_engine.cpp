@@ -14,13 +14,13 @@
 #include "model/machine_units.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 namespace {
 
 /// "run.atol.velocity (1e-09 m/s here)": the tolerance of a guard's value, in the units of the scene.
-std::string tolerance_in_force(Guard guard, const Tolerance& tolerance, const Model& model) {
+std::string tolerance_in_force(Guard guard, const engine::Tolerance& tolerance, const Model& model) {
   const auto as_key = [&](const char* key, double value, const Unit& unit, const std::string& name) {
-    return fmt::format("run.atol.{} ({:.2g} {} here)", key, said(model, value, unit), name);
+    return fmt::format("run.atol.{} ({:.2g} {} here)", key, model::in_scene_units(model, value, unit), name);
   };
   const Units& units = model.units;
   if (guard == Guard::sliding)
@@ -32,8 +32,9 @@ std::string tolerance_in_force(Guard guard, const Tolerance& tolerance, const Mo
 
 }  // namespace
 
-IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems,
-                     const Tolerance& tolerance, int max_order, double t_end, double flight_tolerances)
+IdaEngine::IdaEngine(const Model& model, const linear::SystemMatrices& structure,
+                     motion::StateSystems& systems, const engine::Tolerance& tolerance, int max_order,
+                     double t_end, double flight_tolerances)
     : model_(model),
       consistent_(systems),
       jets_(systems),
@@ -41,8 +42,8 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems
       flight_tolerances_(flight_tolerances),
       powers_(model, structure),
       bdf_(model, structure, tolerance, max_order, counters),
-      turns_(model.contacts.size(), guard_count(model.contacts.size()) + powers_.count()),
-      history_(guard_count(model.contacts.size()) + powers_.count() + turns_.count()),
+      turns_(model.contacts.size(), contact::guard_count(model.contacts.size()) + powers_.count()),
+      history_(contact::guard_count(model.contacts.size()) + powers_.count() + turns_.count()),
       flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
@@ -51,21 +52,21 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems
 }
 
 bool IdaEngine::follows_low_flights(const Model& model) {
-  return std::none_of(model.contacts.begin(), model.contacts.end(), friction_varies);
+  return std::none_of(model.contacts.begin(), model.contacts.end(), contact::friction_varies);
 }
 
 /// Writes guards, powers, and the contacts' quantities at the end of a step, for its polynomials.
-void IdaEngine::fill(double t, const Point& point, double* out) {
-  const Decision& decision = *segment_.decision;
-  double* shown = out + guard_count(model_.contacts.size()) + powers_.count();
+void IdaEngine::fill(double t, const motion::Point& point, double* out) {
+  const decide::Decision& decision = *segment_.decision;
+  double* shown = out + contact::guard_count(model_.contacts.size()) + powers_.count();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const ContactMotion m = motion_of(contact, k, *segment_.forcing, t, point);
+    const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t, point);
     const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
     const double ut = contact.body_tangent().dot(point.u) - still;      // locate.hpp
     for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // order: TurningPoints::watched
     for (const GuardForm& guard : decision.forms[k])
-      *out++ = guard.is_linear() ? QuickForm(guard.form).value(m) : guard.value(m);
+      *out++ = guard.is_linear() ? decide::QuickForm(guard.form).value(m) : guard.value(m);
   }
   powers_.at(*segment_.forcing, t, decision.mode, point, out);
 }
@@ -77,7 +78,7 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
   for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
   const double tolerance = flight_tolerances_ * (tolerance_.rtol * size + absolute * tolerance_.displacement);
   size = std::max(size, absolute * model_.scales.displacement);
-  return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
+  return std::max(std::sqrt(tolerance * size), 2.0 * events::re_arm_tolerances * tolerance);
 }
 
 /// True if there are massless parts and no damper acts on one. Their velocities follow from K v = P' - ...; the
@@ -85,25 +86,26 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
 /// velocities in a short step. If dampers act, C v = P - K u - ... would amplify errors of u by K/C (BdfIntegrator).
 bool IdaEngine::follows_at_once() const {
   if (!consistent_.massless()) return false;
-  const std::vector<DofKind>& kinds = segment_.decision->system->kinds();
-  return std::find(kinds.begin(), kinds.end(), DofKind::damped) == kinds.end();
+  const std::vector<linear::DofKind>& kinds = segment_.decision->system->kinds();
+  return std::find(kinds.begin(), kinds.end(), linear::DofKind::damped) == kinds.end();
 }
 
-void IdaEngine::start(const Segment& segment) {
+void IdaEngine::start(const engine::Segment& segment) {
   grazes_.end(fallen_);
   fallen_.clear();
   segment_ = segment;
   touchable_.clear();
-  const Decision& decision = *segment.decision;
+  const decide::Decision& decision = *segment.decision;
   consistently_ = accelerations_ || follows_at_once();
   flight_ =
       flights_.take(segment, [&](const Contact& contact) { return lowest_flight(contact, decision.u); });
   if (flight_) return;
   std::vector<double> levels;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
-    const GuardStart& guard = decision.guards[slot];
-    const ContactMotion& motion = decision.after[contact_of_guard(slot)];
-    double level = guard.noise + re_arm_tolerances * tolerance(decision.guard(slot), motion, tolerance_);
+    const decide::GuardStart& guard = decision.guards[slot];
+    const ContactMotion& motion = decision.after[contact::contact_of_guard(slot)];
+    double level =
+        guard.noise + events::re_arm_tolerances * engine::tolerance(decision.guard(slot), motion, tolerance_);
     // The decision's zero is limited by the resolution of time, which a stiff contact turns into a force above the
     // tolerance.
     if (guard.at_zero) level += 2.0 * std::abs(decision.guard(slot).value(motion));
@@ -116,13 +118,13 @@ void IdaEngine::start(const Segment& segment) {
   watch_.start(decision.guards, decision.forms, std::move(levels));
   if (!decision.jet.whole())
     jet_ = jets_.expand(decision.system, *segment.forcing, decision.jet.t, decision.u, decision.v);
-  const Jet& jet = decision.jet.whole() ? decision.jet : jet_;
+  const motion::Jet& jet = decision.jet.whole() ? decision.jet : jet_;
   remember(jet, bdf_.start(segment, jet, watch_));
 }
 
 /// Stores the past that IDA was given, and the beginning, for the polynomials of the first steps.
-void IdaEngine::remember(const Jet& jet, const Rehearsal& past) {
-  const Decision& decision = *segment_.decision;
+void IdaEngine::remember(const motion::Jet& jet, const RestartOrder& past) {
+  const decide::Decision& decision = *segment_.decision;
   const double t = jet.t;
   for (int i = past.steps; i > 0; --i) {
     const double x = -i * past.length;
@@ -136,14 +138,14 @@ void IdaEngine::remember(const Jet& jet, const Rehearsal& past) {
     along(1, point_.v);
     along(2, point_.a);
     point_.forces.resize(jet.forces.rows());
-    on_polynomials(jet.forces, Jet::orders, 0, x, point_.forces);
+    on_polynomials(jet.forces, motion::Jet::orders, 0, x, point_.forces);
     fill(t + x, point_, i == past.steps ? history_.restart(t + x) : history_.push(t + x, past.length));
   }
-  const Point point{decision.u, decision.v, jet.forces.col(0), jet.a()};
+  const motion::Point point{decision.u, decision.v, jet.forces.col(0), jet.a()};
   fill(t, point, past.steps > 0 ? history_.push(t, past.length) : history_.restart(t));
 }
 
-void IdaEngine::evaluate(double t, Point& point) {
+void IdaEngine::evaluate(double t, motion::Point& point) {
   if (flight_) return flights_.motion().evaluate(t, point);
   bdf_.evaluate(t, point);
   if (consistently_)
@@ -153,16 +155,16 @@ void IdaEngine::evaluate(double t, Point& point) {
 }
 
 /// From the equation of motion at the point's own u and v, which remain unchanged.
-void IdaEngine::accelerate(double t, Point& point) {
+void IdaEngine::accelerate(double t, motion::Point& point) {
   if (flight_ || (point.a.size() > 0 && !consistent_.massless())) return;
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
 }
 
 /// BDF's polynomials have at most degree 5.
-StepFacts IdaEngine::facts() const {
-  StepFacts facts;
+engine::StepFacts IdaEngine::facts() const {
+  engine::StepFacts facts;
   if (flight_) {
-    const StepFacts flight = flights_.motion().facts();
+    const engine::StepFacts flight = flights_.motion().facts();
     facts.turning_points = flight.turning_points;
     facts.radians = flight.radians;
     return facts;
@@ -175,23 +177,23 @@ StepFacts IdaEngine::facts() const {
 
 double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }
 
-Step IdaEngine::advance() {
+engine::Step IdaEngine::advance() {
   if (flight_) {
     ++counters.restarts;
     ++counters.steps;
     return *flight_;
   }
   BdfStep bdf = bdf_.advance();
-  Step step;
+  engine::Step step;
   step.begin = bdf.begin;
   step.end = bdf.end;
   if (bdf.kind == BdfStep::Kind::failed) {
-    step.kind = Step::Kind::failed;
+    step.kind = engine::Step::Kind::failed;
     step.reason = std::move(bdf.reason);
     return step;
   }
   if (!(bdf.end > bdf.begin)) {
-    step.kind = Step::Kind::failed;
+    step.kind = engine::Step::Kind::failed;
     step.reason = "the step size has fallen below the resolution of time; the tolerance cannot be met";
     return step;
   }
@@ -200,17 +202,17 @@ Step IdaEngine::advance() {
   fill(bdf.end, point_, history_.push(bdf.end, bdf.length));
   history_.prepare(bdf.order);
   add_errors();
-  step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
+  step.resolution = motion::resolution_at(bdf.end, bdf.end - bdf.begin);
   const auto event = first_event(bdf, step.resolution);
   const double part = event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0;
   grazes_.see(history_, part);
   near_hits_.see(history_, part);
   if (event) {
     fallen_ = {event->slot};
-    step.kind = Step::Kind::event;
+    step.kind = engine::Step::Kind::event;
     step.end = event->time;
-    step.fired = {{contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind,
-                   !watch_.armed(event->slot)}};
+    step.triggered = {{contact::contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind,
+                       !watch_.armed(event->slot)}};
   }
   turns_.find(history_, event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0);
   return step;
@@ -219,13 +221,13 @@ Step IdaEngine::advance() {
 /// The first downward zero crossing of a guard in the last step, refined.
 std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, double resolution) {
   const double h = step.end - step.begin;
-  const std::vector<GuardStart>& guards = segment_.decision->guards;
+  const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
   std::vector<Located> candidates;
-  for (const Fall& fall : watch_.check(history_, 1.0))
+  for (const events::ZeroCrossing& fall : watch_.check(history_, 1.0))
     candidates.push_back({fall.slot, step.begin + fall.x * h});
-  for (const Fired& fired : step.fired)
-    for (std::size_t i = 0; i < guards_per_contact; ++i) {
-      const std::size_t slot = guard_slot(fired.contact, i);
+  for (const decide::TriggeredGuard& fired : step.triggered)
+    for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
+      const std::size_t slot = contact::guard_slot(fired.contact, i);
       if (guards[slot].kind != fired.guard) continue;
       const auto same = std::find_if(candidates.begin(), candidates.end(),
                                      [&](const Located& c) { return c.slot == slot; });
@@ -240,8 +242,9 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
           "off; "
           "it counts as not fallen, there and where this happens again; a smaller {}, or engine "
           "exact, decides whether it falls",
-          model_.contacts[contact_of_guard(c.slot)].name, to_string(guards[c.slot].kind),
-          said_time(model_, c.time), tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
+          model_.contacts[contact::contact_of_guard(c.slot)].name, contact::to_string(guards[c.slot].kind),
+          model::time_in_scene_units(model_, c.time),
+          tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
     return true;
   });
   if (candidates.empty()) return std::nullopt;
@@ -259,14 +262,14 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
 /// sticking contact exceeds the limit before the contact opens. If the limit's own error covers the time between the
 /// two, the contact opens from stick: the slip before is no more than this error.
 bool IdaEngine::opens_instead(const Located& slip, const Located& opening, double x, double h) const {
-  const std::size_t contact = contact_of_guard(slip.slot);
-  const std::vector<GuardStart>& guards = segment_.decision->guards;
-  if (contact != contact_of_guard(opening.slot) || guards[opening.slot].kind != Guard::separation ||
-      !is_friction_limit(guards[slip.slot].kind))
+  const std::size_t contact = contact::contact_of_guard(slip.slot);
+  const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
+  if (contact != contact::contact_of_guard(opening.slot) || guards[opening.slot].kind != Guard::separation ||
+      !contact::is_friction_limit(guards[slip.slot].kind))
     return false;
   const double rate = -history_.polynomial(slip.slot).derivative().value(x) / h;
   return (opening.time - slip.time) * rate <=
-         tolerance(segment_.decision->guard(slip.slot), ContactMotion{}, tolerance_);
+         engine::tolerance(segment_.decision->guard(slip.slot), ContactMotion{}, tolerance_);
 }
 
 /// A guard that started at zero returns to zero if the motion conserves energy (a contact that sticks at its limit, on
@@ -274,12 +277,12 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
 /// landing, however short its flight was. If friction rises with the slip rate, a sinking guard continues against
 /// reversed friction, and no force brings it back.
 bool IdaEngine::only_touches(std::size_t slot, double x) const {
-  const GuardStart& guard = segment_.decision->guards[slot];
+  const decide::GuardStart& guard = segment_.decision->guards[slot];
   if (guard.kind == Guard::closing || !guard.at_zero || !watch_.armed(slot)) return false;
-  const std::size_t contact = contact_of_guard(slot);
+  const std::size_t contact = contact::contact_of_guard(slot);
   if (model_.contacts[contact].friction.rises() && slip_sign(segment_.decision->mode[contact].state) != 0)
     return false;
-  const Bernstein p = history_.polynomial(slot), slope = p.derivative();
+  const events::Bernstein p = history_.polynomial(slot), slope = p.derivative();
   const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
   if (!(bend > 0.0)) return false;
   const double depth = (rate < 0.0 ? rate * rate / (2.0 * bend) : 0.0) - value;
@@ -287,14 +290,15 @@ bool IdaEngine::only_touches(std::size_t slot, double x) const {
 }
 
 void IdaEngine::add_touchable(std::size_t slot) {
-  const Decision& decision = *segment_.decision;
-  const std::size_t contact = contact_of_guard(slot);
+  const decide::Decision& decision = *segment_.decision;
+  const std::size_t contact = contact::contact_of_guard(slot);
   const GuardForm& guard = decision.guard(slot);
   const Form& form = guard.form;
   const bool by_velocity = form.vn != 0.0 || form.vt != 0.0;
   const bool known = guard.is_linear() && form.limit == 0.0 && form.limit_rate == 0.0 && form.an == 0.0 &&
-                     form.at == 0.0 && !(by_velocity && carries_massless(model_, model_.contacts[contact]));
-  touchable_.push_back({slot, tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
+                     form.at == 0.0 &&
+                     !(by_velocity && decide::carries_massless(model_, model_.contacts[contact]));
+  touchable_.push_back({slot, engine::tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
 
 /// Adds the correction of each guard that began at zero. A step keeps its tolerance, so one tolerance is the upper
@@ -303,11 +307,10 @@ void IdaEngine::add_errors() {
   if (touchable_.empty()) return;
   bdf_.keep_correction();
   for (Touchable& guard : touchable_) {
-    const double change =
-        guard.known
-            ? std::abs(
-                  segment_.decision->form(guard.slot).rate(bdf_.correction(contact_of_guard(guard.slot))))
-            : guard.tolerance;
+    const double change = guard.known
+                              ? std::abs(segment_.decision->form(guard.slot)
+                                             .rate(bdf_.correction(contact::contact_of_guard(guard.slot))))
+                              : guard.tolerance;
     guard.off += std::min(change, guard.tolerance);
   }
 }
@@ -319,7 +322,7 @@ double IdaEngine::allowance(std::size_t slot) const {
   return guard->off + guard->tolerance;
 }
 
-void IdaEngine::integrate(double from, double to, Works& works) {
+void IdaEngine::integrate(double from, double to, motion::WorkIntegrals& works) {
   if (flight_) return flights_.motion().integrate(from, to, works);
   const double h = history_.end() - history_.begin();
   const double a = (from - history_.begin()) / h, b = (to - history_.begin()) / h;
@@ -328,35 +331,37 @@ void IdaEngine::integrate(double from, double to, Works& works) {
     if (a == 0.0 && b == 1.0) {
       integrals_[i] = history_.integral(offset + i);
     } else {
-      const Bernstein p = history_.power(offset + i);
+      const events::Bernstein p = history_.power(offset + i);
       integrals_[i] = h * (p.integral(b) - (a > 0.0 ? p.integral(a) : 0.0));
     }
   }
   powers_.add(integrals_.data(), 1.0, works);
-  const Mode& mode = segment_.decision->mode;
+  const contact::ContactStates& mode = segment_.decision->mode;
   if (std::none_of(mode.begin(), mode.end(), [](const ContactState& s) { return s.state == State::inside; }))
     return;
-  Point first, last;
+  motion::Point first, last;
   bdf_.evaluate(from, first);
   bdf_.evaluate(to, last);
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    works.damping += inside_loss(contact, mode[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
+    works.damping +=
+        contact::inside_loss(contact, mode[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
   }
 }
 
-StepperReport IdaEngine::report() {
+engine::StepperReport IdaEngine::report() {
   bdf_.count();
-  StepperReport report{counters, warnings, {}, near_hits_.list()};
+  engine::StepperReport report{counters, warnings, {}, near_hits_.list()};
   if (const auto& first = grazes_.first())
-    report.graze = {first->t, static_cast<int>(contact_of_guard(first->slot)), to_string(first->guard)};
+    report.graze = {first->t, static_cast<int>(contact::contact_of_guard(first->slot)),
+                    contact::to_string(first->guard)};
   return report;
 }
 
 /// One tolerance; for a guard that started at zero and never clearly rose, the event is triggered at minus its level.
 double IdaEngine::guard_error(const GuardForm& guard, const ContactMotion& motion,
                               std::size_t contact) const {
-  return tolerance(guard, motion, tolerance_) + (flight_ ? 0.0 : watch_.leeway(contact, guard));
+  return engine::tolerance(guard, motion, tolerance_) + (flight_ ? 0.0 : watch_.leeway(contact, guard));
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -15,28 +15,28 @@
 #include "engine/stepper.hpp"
 #include "motion/consistent.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
-class IdaEngine final : public Stepper, public DenseOutput {
+class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
  public:
   /// The first three arguments must outlive the object.
-  IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems, const Tolerance& tolerance,
-            int max_order, double t_end, double flight_tolerances);
+  IdaEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
+            const engine::Tolerance& tolerance, int max_order, double t_end, double flight_tolerances);
 
   /// True if friction is linear during short flights, so that their series can take them.
   [[nodiscard]] static bool follows_low_flights(const Model& model);
 
-  void start(const Segment& segment) override;
-  [[nodiscard]] Step advance() override;
-  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
-  void evaluate(double t, Point& point) override;
-  void accelerate(double t, Point& point) override;
-  void integrate(double from, double to, Works& works) override;
+  void start(const engine::Segment& segment) override;
+  [[nodiscard]] engine::Step advance() override;
+  [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
+  void evaluate(double t, motion::Point& point) override;
+  void accelerate(double t, motion::Point& point) override;
+  void integrate(double from, double to, motion::WorkIntegrals& works) override;
   [[nodiscard]] double residual() override;
   [[nodiscard]] double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                    std::size_t contact) const override;
-  [[nodiscard]] StepFacts facts() const override;
-  [[nodiscard]] StepperReport report() override;
+  [[nodiscard]] engine::StepFacts facts() const override;
+  [[nodiscard]] engine::StepperReport report() override;
 
  private:
   struct Located {
@@ -51,8 +51,8 @@ class IdaEngine final : public Stepper, public DenseOutput {
     double off;        // possible error of the steps so far
   };
   [[nodiscard]] bool follows_at_once() const;
-  void fill(double t, const Point& point, double* out);
-  void remember(const Jet& jet, const Rehearsal& past);
+  void fill(double t, const motion::Point& point, double* out);
+  void remember(const motion::Jet& jet, const RestartOrder& past);
   [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
   [[nodiscard]] bool opens_instead(const Located& slip, const Located& opening, double x, double h) const;
@@ -62,23 +62,23 @@ class IdaEngine final : public Stepper, public DenseOutput {
   [[nodiscard]] double allowance(std::size_t slot) const;
 
   const Model& model_;
-  ConsistentMotion consistent_;
-  JetMaker jets_;
-  const Tolerance tolerance_;
+  motion::ConsistentMotion consistent_;
+  motion::JetMaker jets_;
+  const engine::Tolerance tolerance_;
   const double flight_tolerances_;
-  Powers powers_;
+  motion::Powers powers_;
   BdfIntegrator bdf_;
   HistoryTurns turns_;
-  StepHistory history_;
-  Watch watch_;
-  Grazes grazes_;
-  NearHits near_hits_;
+  events::StepHistory history_;
+  events::Watch watch_;
+  events::Grazes grazes_;
+  events::NearHits near_hits_;
   std::vector<std::size_t> fallen_;  // guards whose zero crossings ended the segment
   ShortFlight flights_;
-  std::optional<Step> flight_;  // the step taken by a short flight
-  Segment segment_;
-  Jet jet_;  // whole jet, if the decision's jet is not
-  Point point_;
+  std::optional<engine::Step> flight_;  // the step taken by a short flight
+  engine::Segment segment_;
+  motion::Jet jet_;  // whole jet, if the decision's jet is not
+  motion::Point point_;
   std::vector<double> integrals_;
   bool accelerations_ = false;        // at least one guard needs accelerations
   bool consistently_ = false;         // points of the segment are made consistent
@@ -86,4 +86,4 @@ class IdaEngine final : public Stepper, public DenseOutput {
   bool touched_ = false;              // the warning has been issued
 };
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -4,29 +4,30 @@
 
 #include <algorithm>
 
-namespace signorini {
+namespace signorini::ida {
 
 Layout::Layout(const Model& model)
     : dofs(model.size()), forces(static_cast<int>(model.force_count())), contacts(model.layout) {
   for (const Dof& dof : model.dofs) velocity.push_back(dof.massless ? -1 : dofs + massive++);
 }
 
-IdaLinearSolver::IdaLinearSolver(const Model& model, const Structure& structure, const Layout& layout)
+IdaLinearSolver::IdaLinearSolver(const Model& model, const linear::SystemMatrices& structure,
+                                 const Layout& layout)
     : model_(model),
       layout_(layout),
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(layout.dofs)),
       rhs_(static_cast<std::size_t>(matrix_.size())) {
-  if (is_economical(model, structure, matrix_.shared_rows()))
-    condensed_rows_ = CondensedRows::of(model, structure, CondensedMatrix::widest);
+  if (linear::is_economical(model, structure, matrix_.shared_rows()))
+    condensed_rows_ = linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
   if (condensed_rows_) condensed_.emplace(*condensed_rows_);
 }
 
-void IdaLinearSolver::set_mode(const Mode& mode) {
-  rows_ = rows_of(model_, mode);
+void IdaLinearSolver::set_mode(const contact::ContactStates& mode) {
+  rows_ = linear::rows_of(model_, mode);
   fresh_ = true;
   if (condensed_rows_) condensed_rows_->put(rows_);
-  pinned_ = pinned_by(model_, rows_);
+  pinned_ = linear::pinned_by(model_, rows_);
   held_.resize(pinned_.size());
 }
 
@@ -34,7 +35,8 @@ bool IdaLinearSolver::factor() {
   on_band_ = condensed_ && condensed_->set({cj_, 1.0, 1.0 / cj_});
   if (on_band_) return true;
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = layout_.velocity[i] >= 0 ? Weights{cj_, 1.0, 1.0 / cj_} : Weights{0.0, cj_, 1.0};
+    weights_[i] =
+        layout_.velocity[i] >= 0 ? linear::Weights{cj_, 1.0, 1.0 / cj_} : linear::Weights{0.0, cj_, 1.0};
   const bool ok = matrix_.set(rows_, weights_, fresh_);
   fresh_ = !ok;
   return ok;
@@ -49,9 +51,9 @@ void IdaLinearSolver::solve(const double* b, double* x) {
     for (std::size_t i = 0; i < n; ++i) rhs_[i] = layout_.velocity[i] >= 0 ? b[layout_.velocity[i]] : b[i];
     std::copy(b + n + massive, b + massive + rhs_.size(), rhs_.data() + n);
   }
-  const Unknowns at{n, rows_.size(), layout_.contacts};
+  const linear::Unknowns at{n, rows_.size(), layout_.contacts};
   for (std::size_t i = 0; i < held_.size(); ++i) {
-    const Pinned& p = pinned_[i];
+    const linear::Pinned& p = pinned_[i];
     held_[i] =
         (p.normal * rhs_[at.normal(p.contact)] + p.tangent * rhs_[at.tangent(p.contact)]) / (cj_ * p.divisor);
   }
@@ -102,4 +104,4 @@ SUNLinearSolver IdaLinearSolver::make_solver(SUNContext context) {
   return solver;
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

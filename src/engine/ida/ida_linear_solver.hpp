@@ -19,7 +19,7 @@
 #include "linear/undamped_motion.hpp"
 #include "linear/unknowns.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
 /// Places of u, v, N and T in IDA's vector: u of all n degrees of freedom, v of those with mass, then the forces of all
 /// contacts.
@@ -38,16 +38,16 @@ struct Layout {
 
 class IdaLinearSolver {
  public:
-  IdaLinearSolver(const Model& model, const Structure& structure, const Layout& layout);
+  IdaLinearSolver(const Model& model, const linear::SystemMatrices& structure, const Layout& layout);
 
   /// New contact state: the next factorisation chooses new pivots.
-  void set_mode(const Mode& mode);
+  void set_mode(const contact::ContactStates& mode);
   void set_cj(double cj) { cj_ = cj; }
   [[nodiscard]] double cj() const { return cj_; }
   [[nodiscard]] bool factor();
   void solve(const double* b, double* x);
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
-  [[nodiscard]] const SharedRows& shared_rows() const { return matrix_.shared_rows(); }
+  [[nodiscard]] const linear::RedundantRows& shared_rows() const { return matrix_.shared_rows(); }
   /// Replaces a nonlinear row by its tangent.
   void linearise(std::size_t contact, const Form& tangent) {
     rows_[contact].tangent = tangent;
@@ -65,18 +65,18 @@ class IdaLinearSolver {
  private:
   const Model& model_;
   const Layout& layout_;
-  SystemMatrix matrix_;
-  std::optional<CondensedRows> condensed_rows_;  // used if they save time
-  std::optional<CondensedMatrix> condensed_;     // matrix of these rows
-  bool on_band_ = false;                         // the last factors are those of the band
+  linear::SystemMatrix matrix_;
+  std::optional<linear::CondensedRows> condensed_rows_;  // used if they save time
+  std::optional<linear::CondensedMatrix> condensed_;     // matrix of these rows
+  bool on_band_ = false;                                 // the last factors are those of the band
   std::vector<Rows> rows_;
-  std::vector<Weights> weights_;
+  std::vector<linear::Weights> weights_;
   // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
-  std::vector<Pinned> pinned_;
+  std::vector<linear::Pinned> pinned_;
   std::vector<double> held_;  // values of the held accelerations
   std::vector<double> rhs_;
   double cj_ = 1.0;
   bool fresh_ = true;
 };
 
-}  // namespace signorini
+}  // namespace signorini::ida

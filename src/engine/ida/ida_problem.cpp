@@ -11,7 +11,7 @@
 #include "engine/ida/restart_order.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 namespace {
 
 // IDA's error test bounds the error of one step, but a run adds up thousands: a step may use this part of the requested
@@ -30,9 +30,9 @@ SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y
                                      const double* yp, double* r, double* u) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const Four off = lanes_at<Four>(yp + i).v - lanes_at<Four>(v + i).v;
-    lanes_at<Four>(r + i).v = off;
-    lanes_at<Four>(u + i).v = lanes_at<Four>(y + i).v - step * off;
+    const base::Four off = base::lanes_at<base::Four>(yp + i).v - base::lanes_at<base::Four>(v + i).v;
+    base::lanes_at<base::Four>(r + i).v = off;
+    base::lanes_at<base::Four>(u + i).v = base::lanes_at<base::Four>(y + i).v - step * off;
   }
   for (; i < n; ++i) {
     r[i] = yp[i] - v[i];
@@ -45,15 +45,18 @@ SIGNORINI_WIDE_LANES void weigh(std::size_t n, double rtol, const double* factor
                                 const double* y, double* w) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const Four size = lanes_at<Four>(y + i).v < 0.0 ? -lanes_at<Four>(y + i).v : lanes_at<Four>(y + i).v;
-    lanes_at<Four>(w + i).v = lanes_at<Four>(factor + i).v / (rtol * size + lanes_at<Four>(atol + i).v);
+    const base::Four size = base::lanes_at<base::Four>(y + i).v < 0.0 ? -base::lanes_at<base::Four>(y + i).v
+                                                                      : base::lanes_at<base::Four>(y + i).v;
+    base::lanes_at<base::Four>(w + i).v =
+        base::lanes_at<base::Four>(factor + i).v / (rtol * size + base::lanes_at<base::Four>(atol + i).v);
   }
   for (; i < n; ++i) w[i] = factor[i] / (rtol * std::abs(y[i]) + atol[i]);
 }
 
 }  // namespace
 
-IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tolerance& tolerance)
+IdaProblem::IdaProblem(const Model& model, const linear::SystemMatrices& structure,
+                       const engine::Tolerance& tolerance)
     : model_(model),
       structure_(structure),
       layout_(model),
@@ -119,49 +122,51 @@ void IdaProblem::stop(const Combination& form, int force) {
   if (compliance > 0.0) stops_.push_back({&form, force, 1.0 / compliance});
 }
 
-void IdaProblem::start(const Segment& segment, const Watch& watch) {
+void IdaProblem::start(const engine::Segment& segment, const events::Watch& watch) {
   segment_ = segment;
   watch_ = &watch;
   linear_.set_mode(segment.decision->mode);
   shared_ = linear_.shared_rows().in_force(linear_.rows());
   nonlinear_.clear();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (slips_nonlinearly(model_.contacts[k], segment.decision->mode[k].state)) nonlinear_.push_back(k);
+    if (contact::slips_nonlinearly(model_.contacts[k], segment.decision->mode[k].state))
+      nonlinear_.push_back(k);
   knee_ = std::any_of(nonlinear_.begin(), nonlinear_.end(),
                       [&](std::size_t k) { return model_.contacts[k].friction.rises(); });
 }
 
 void IdaProblem::linearise(double t, const double* y, const double* yp) {
   for (const std::size_t k : nonlinear_)
-    linear_.linearise(k, sliding_row_tangent(model_.contacts[k], slip_sign(segment_.decision->mode[k].state),
-                                             motion(k, t, y, yp)));
+    linear_.linearise(
+        k, contact::sliding_row_tangent(model_.contacts[k], slip_sign(segment_.decision->mode[k].state),
+                                        motion(k, t, y, yp)));
 }
 
 ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const double* yp,
                                  double step) const {
   const Contact& contact = model_.contacts[k];
-  const Forcing& forcing = *segment_.forcing;
+  const motion::Forcing& forcing = *segment_.forcing;
   ContactMotion m;
   m.N = y[layout_.normal(k)];
   m.T = y[layout_.tangent(k)];
-  set_place(contact, y, forcing.surface(k, t, 0), m);
+  contact::set_place(contact, y, forcing.surface(k, t, 0), m);
   if (step != 0.0) {
     const auto off = by_dof([&](std::size_t i, int v) { return v >= 0 ? yp[i] - y[v] : 0.0; });
     m.gap -= step * contact.normal.dot(off);
     m.ut -= step * contact.tangent.dot(off);
   }
   const auto velocity = by_dof([&](std::size_t i, int v) { return v >= 0 ? y[v] : yp[i]; });
-  set_velocity(contact, velocity, forcing.surface(k, t, 1), m);
+  contact::set_velocity(contact, velocity, forcing.surface(k, t, 1), m);
   const Rows& rows = linear_.rows()[k];
   if (rows.normal.an != 0.0 || rows.tangent.at != 0.0) {
     const auto acceleration = by_dof([&](std::size_t, int v) { return v >= 0 ? yp[v] : 0.0; });
-    set_acceleration(contact, acceleration, forcing.surface(k, t, 2), m);
+    contact::set_acceleration(contact, acceleration, forcing.surface(k, t, 2), m);
   }
   if (contact.normal_force_given()) {
-    m.pressing = forcing.pressing(k, t, 0);
-    m.pressing_rate = forcing.pressing(k, t, 1);
+    m.applied_normal_force = forcing.applied_normal_force(k, t, 0);
+    m.applied_normal_force_rate = forcing.applied_normal_force(k, t, 1);
   }
-  set_limit(contact, m);
+  contact::set_limit(contact, m);
   return m;
 }
 
@@ -181,7 +186,7 @@ ContactMotion IdaProblem::change(std::size_t k, const double* of) const {
 /// s z z' f: the common part of all shares of the forces would otherwise only be extrapolated from step to step, and
 /// its error would grow like a polynomial from the rounding of its first values.
 void IdaProblem::add_shared(const double* y, double* r) const {
-  for (const SharedForces& shared : shared_)
+  for (const linear::SharedForces& shared : shared_)
     for (std::size_t i = 0; i < shared.rows.size(); ++i)
       for (std::size_t j = 0; j < shared.rows.size(); ++j)
         r[layout_.force(shared.rows[i])] +=
@@ -215,8 +220,8 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     const ContactMotion m = motion(k, t, y, yp, step);
     if (const Contact& contact = model_.contacts[k]; contact.curved_surface())
       contact.body_tangent().add_to(
-          forces,
-          bowl_force(contact, y[in_N], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
+          forces, contact::bowl_force(contact, y[in_N],
+                                      contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
     r[in_N] = linear_.rows()[k].normal.value(m);
     r[in_T] = linear_.rows()[k].tangent.value(m);
   }
@@ -229,7 +234,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
   }
   for (const std::size_t k : nonlinear_) {
     const int s = slip_sign(segment_.decision->mode[k].state);
-    r[layout_.tangent(k)] = sliding_row_value(model_.contacts[k], s, motion(k, t, y, yp));
+    r[layout_.tangent(k)] = contact::sliding_row_value(model_.contacts[k], s, motion(k, t, y, yp));
   }
 }
 
@@ -289,9 +294,9 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
   const Scales& scale = model_.scales;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactMotion m = motion(k, t, y, yp);
-    const GuardsOfState& forms = segment_.decision->forms[k];
-    for (std::size_t i = 0; i < guards_per_contact; ++i) {
-      const std::size_t slot = guard_slot(k, i);
+    const decide::GuardsOfState& forms = segment_.decision->forms[k];
+    for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
+      const std::size_t slot = contact::guard_slot(k, i);
       const Guard kind = segment_.decision->guards[slot].kind;
       const Form& form = forms[i].form;
       // IDA does not interpolate accelerations; the polynomial check examines guards that contain one.
@@ -305,13 +310,13 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
                           : of_rate              ? scale.velocity
                                                  : scale.force;
       g[slot] = forms[i].is_linear()
-                    ? QuickForm(form).value(m) / unit
-                    : forms[i].value(m) * tolerance_.rtol / tolerance(forms[i], m, tolerance_);
+                    ? decide::QuickForm(form).value(m) / unit
+                    : forms[i].value(m) * tolerance_.rtol / engine::tolerance(forms[i], m, tolerance_);
     }
   }
 }
 
-void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
+void IdaProblem::fill(const motion::Jet& jet, std::size_t order, double* y) const {
   const auto o = static_cast<Eigen::Index>(order);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout_.dofs); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
@@ -322,7 +327,7 @@ void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
     y[layout_.force(static_cast<std::size_t>(i))] = jet.forces(i, o);
 }
 
-void IdaProblem::along(const Jet& jet, double x, int derivative, double* y) const {
+void IdaProblem::along(const motion::Jet& jet, double x, int derivative, double* y) const {
   const Eigen::Index p = derivative, n = layout_.dofs;
   const auto is_massless = [&](Eigen::Index i) { return layout_.velocity[static_cast<std::size_t>(i)] < 0; };
   const bool massless = layout_.massive < layout_.dofs;
@@ -332,20 +337,20 @@ void IdaProblem::along(const Jet& jet, double x, int derivative, double* y) cons
   for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
     if (const int v = layout_.velocity[i]; v >= 0) y[v] = rates[static_cast<Eigen::Index>(i)];
   Vector forces(jet.forces.rows());
-  on_polynomials(jet.forces, Jet::orders, p, x, forces);
+  on_polynomials(jet.forces, motion::Jet::orders, p, x, forces);
   for (Eigen::Index i = 0; i < forces.size(); ++i) y[layout_.force(static_cast<std::size_t>(i))] = forces[i];
 }
 
 double IdaProblem::imbalance(double t, const double* y, const double* yp) const {
-  Point point;
+  motion::Point point;
   read(y, yp, point);
   point.a.setZero(layout_.dofs);
   for (Eigen::Index i = 0; i < point.a.size(); ++i)
     if (const int v = layout_.velocity[static_cast<std::size_t>(i)]; v >= 0) point.a[i] = yp[v];
-  return signorini::imbalance(model_, structure_, *segment_.forcing, t, point);
+  return signorini::motion::imbalance(model_, structure_, *segment_.forcing, t, point);
 }
 
-void IdaProblem::read(const double* y, const double* yp, Point& point) const {
+void IdaProblem::read(const double* y, const double* yp, motion::Point& point) const {
   const auto n = static_cast<Eigen::Index>(layout_.dofs);
   point.u = Eigen::Map<const Vector>(y, n);
   point.v.resize(n);
@@ -359,4 +364,4 @@ void IdaProblem::read(const double* y, const double* yp, Point& point) const {
   point.forces = Eigen::Map<const Vector>(y + layout_.force(0), layout_.forces);
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

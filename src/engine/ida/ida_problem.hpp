@@ -12,13 +12,13 @@
 #include "engine/tolerance.hpp"
 #include "linear/system_matrices.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
 class IdaProblem {
  public:
-  IdaProblem(const Model& model, const Structure& structure, const Tolerance& tolerance);
+  IdaProblem(const Model& model, const linear::SystemMatrices& structure, const engine::Tolerance& tolerance);
 
-  void start(const Segment& segment, const Watch& watch);
+  void start(const engine::Segment& segment, const events::Watch& watch);
 
   /// r = F(t, y, y') with rows combined for cj = 1/step; step = 0: the rows themselves.
   void residual(double t, double step, const double* y, const double* yp, double* r);
@@ -31,13 +31,13 @@ class IdaProblem {
   /// Scaled guards, one for each slot; masked guards are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;
   /// y (derivative = 0) or y' (1) on the jet's polynomials, x after the jet's instant.
-  void along(const Jet& jet, double x, int derivative, double* y) const;
+  void along(const motion::Jet& jet, double x, int derivative, double* y) const;
   /// y^(order) from a jet.
-  void fill(const Jet& jet, std::size_t order, double* y) const;
-  void read(const double* y, const double* yp, Point& point) const;
+  void fill(const motion::Jet& jet, std::size_t order, double* y) const;
+  void read(const double* y, const double* yp, motion::Point& point) const;
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
-  [[nodiscard]] std::size_t slots() const { return guard_count(model_.contacts.size()); }
+  [[nodiscard]] std::size_t slots() const { return contact::guard_count(model_.contacts.size()); }
 
   /// True if a contact slips whose friction rises with its slip rate.
   [[nodiscard]] bool has_knee() const { return knee_; }
@@ -76,12 +76,12 @@ class IdaProblem {
   void stop(const Combination& form, int force);
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   Layout layout_;
   IdaLinearSolver linear_;
-  const Tolerance tolerance_;
-  Segment segment_;
-  const Watch* watch_ = nullptr;
+  const engine::Tolerance tolerance_;
+  engine::Segment segment_;
+  const events::Watch* watch_ = nullptr;
   // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of the contact's degrees
   // of freedom another, all others one more, and the mean of every group counts in full: a large structure does not
   // dilute the few contacts.
@@ -103,12 +103,12 @@ class IdaProblem {
     double mass;  ///< moved by the form, from the diagonal of M
   };
   std::vector<Stop> stops_;
-  std::vector<SharedForces> shared_;    // those of this segment
+  std::vector<linear::SharedForces> shared_;  // those of this segment
   std::vector<std::size_t> nonlinear_;  // contacts in this segment that slip with rate-dependent friction
   bool knee_ = false;
-  Momentum momentum_;
+  linear::StructuralForces momentum_;
   std::vector<double> forces_;  // forces on all degrees of freedom, if some have no mass
   std::vector<double> u_;       // displacements in a residual
 };
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -5,18 +5,19 @@
 
 #include "engine/events/first_root.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
-double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& segment, const Model& model,
-              std::size_t slot, double begin, double end, double time, double resolution) {
-  const std::size_t contact = contact_of_guard(slot);
+double locate(BdfIntegrator& bdf, motion::ConsistentMotion& consistent, const engine::Segment& segment,
+              const Model& model, std::size_t slot, double begin, double end, double time,
+              double resolution) {
+  const std::size_t contact = contact::contact_of_guard(slot);
   const GuardForm& guard = segment.decision->guard(slot);
-  const Forcing& forcing = *segment.forcing;
-  Point point;
+  const motion::Forcing& forcing = *segment.forcing;
+  motion::Point point;
   const std::function<double(double)> value = [&](double t) {
     bdf.evaluate(t, point);
     consistent.make(segment.decision->system, forcing, t, point);
-    return guard.value(motion_of(model.contacts[contact], contact, forcing, t, point));
+    return guard.value(motion::motion_of(model.contacts[contact], contact, forcing, t, point));
   };
   const double g = value(time);
   if (g == 0.0) return time;
@@ -24,13 +25,13 @@ double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& s
   if (g > 0.0) {  // the crossing is later
     for (double lo = time; lo < end; width *= 4.0) {
       const double hi = std::min(end, time + width);
-      if (value(hi) <= 0.0) return root_between(value, lo, hi, 0.25 * resolution);
+      if (value(hi) <= 0.0) return events::root_between(value, lo, hi, 0.25 * resolution);
       lo = hi;
     }
   } else {
     for (double hi = time; hi > begin; width *= 4.0) {
       const double lo = std::max(begin, time - width);
-      if (value(lo) > 0.0) return root_between(value, lo, hi, 0.25 * resolution);
+      if (value(lo) > 0.0) return events::root_between(value, lo, hi, 0.25 * resolution);
       hi = lo;
     }
   }
@@ -40,33 +41,34 @@ double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& s
 namespace {
 
 /// a_k = C(n, k) sum_i (-1)^(k-i) C(k, i) b_i: differences of the coefficients.
-std::array<double, max_degree + 1> powers_of(Bernstein p) {
-  std::array<double, max_degree + 1> a{};
+std::array<double, events::max_degree + 1> powers_of(events::Bernstein p) {
+  std::array<double, events::max_degree + 1> a{};
   double choose = 1.0;
   for (int k = 0; k <= p.degree; ++k) {
-    a[z(k)] = choose * p.b[0];
+    a[events::z(k)] = choose * p.b[0];
     choose *= static_cast<double>(p.degree - k) / static_cast<double>(k + 1);
-    for (int i = 0; i < p.degree - k; ++i) p.b[z(i)] = p.b[z(i + 1)] - p.b[z(i)];
+    for (int i = 0; i < p.degree - k; ++i) p.b[events::z(i)] = p.b[events::z(i + 1)] - p.b[events::z(i)];
   }
   return a;
 }
 
-bool goes_one_way(const Bernstein& p) {
+bool goes_one_way(const events::Bernstein& p) {
   bool rises = false, falls = false;
   for (int i = 0; i < p.degree; ++i) {
-    rises = rises || p.b[z(i + 1)] > p.b[z(i)];
-    falls = falls || p.b[z(i + 1)] < p.b[z(i)];
+    rises = rises || p.b[events::z(i + 1)] > p.b[events::z(i)];
+    falls = falls || p.b[events::z(i + 1)] < p.b[events::z(i)];
   }
   return !(rises && falls);
 }
 
-constexpr std::size_t slide_place = static_cast<std::size_t>(
-    std::find(TurningPoints::watched.begin(), TurningPoints::watched.end(), ContactSeries::slide) -
-    TurningPoints::watched.begin());
+constexpr std::size_t slide_place =
+    static_cast<std::size_t>(std::find(events::TurningPoints::watched.begin(),
+                                       events::TurningPoints::watched.end(), motion::ContactSeries::slide) -
+                             events::TurningPoints::watched.begin());
 
 }  // namespace
 
-void HistoryTurns::start(const Decision& decision, const Forcing& forcing) {
+void HistoryTurns::start(const decide::Decision& decision, const motion::Forcing& forcing) {
   turns_.start(decision);
   forcing_ = &forcing;
   carried_.clear();
@@ -74,11 +76,11 @@ void HistoryTurns::start(const Decision& decision, const Forcing& forcing) {
     if (forcing.moves(c)) carried_.push_back(c);
 }
 
-void HistoryTurns::find(const StepHistory& history, double x_end) {
+void HistoryTurns::find(const events::StepHistory& history, double x_end) {
   turns_.open();
   // Nearly always all values stay within their earlier ranges.
   const double *last = history.lasts() + first_, *bend = history.bends() + first_;
-  const TurningPoints::Range* seen = turns_.ranges();
+  const events::TurningPoints::Range* seen = turns_.ranges();
   const std::size_t shown = count();
   for (std::size_t i = 0; i < shown; ++i)
     if (!(last[i] + bend[i] <= seen[i].greatest) || !(last[i] - bend[i] >= seen[i].least))
@@ -87,30 +89,32 @@ void HistoryTurns::find(const StepHistory& history, double x_end) {
   turns_.close();
 }
 
-void HistoryTurns::look_at_slide(std::size_t c, const StepHistory& history, double x_end) {
-  const Bernstein p = history.polynomial(first_ + TurningPoints::watched.size() * c + slide_place);
-  const std::array<double, max_degree + 1> a = powers_of(p);
+void HistoryTurns::look_at_slide(std::size_t c, const events::StepHistory& history, double x_end) {
+  const events::Bernstein p =
+      history.polynomial(first_ + events::TurningPoints::watched.size() * c + slide_place);
+  const std::array<double, events::max_degree + 1> a = powers_of(p);
   const double h = history.end() - history.begin();
   const std::size_t count = forcing_->surface_terms(c);
   of_surface_.resize(count);
   forcing_->expand_surface(c, history.begin(), h, count, of_surface_.data());
-  series_.assign(std::max(count, z(p.degree) + 1), 0.0);
-  std::copy_n(a.begin(), z(p.degree) + 1, series_.begin());
+  series_.assign(std::max(count, events::z(p.degree) + 1), 0.0);
+  std::copy_n(a.begin(), events::z(p.degree) + 1, series_.begin());
   for (std::size_t k = 0; k < count; ++k) series_[k] -= of_surface_[k];
-  turns_.find(c, ContactSeries::slide, series_.data(), series_.size() - 1, x_end, history.begin(), h);
+  turns_.find(c, motion::ContactSeries::slide, series_.data(), series_.size() - 1, x_end, history.begin(), h);
 }
 
-void HistoryTurns::look_at(std::size_t shown, const StepHistory& history, double x_end) {
-  const std::size_t i = first_ + shown, c = shown / TurningPoints::watched.size();
-  const ContactSeries::Field field = TurningPoints::watched[shown % TurningPoints::watched.size()];
-  if (field == ContactSeries::slide && forcing_->moves(c)) return;
+void HistoryTurns::look_at(std::size_t shown, const events::StepHistory& history, double x_end) {
+  const std::size_t i = first_ + shown, c = shown / events::TurningPoints::watched.size();
+  const motion::ContactSeries::Field field =
+      events::TurningPoints::watched[shown % events::TurningPoints::watched.size()];
+  if (field == motion::ContactSeries::slide && forcing_->moves(c)) return;
   const double last = history.last(i);
   if (x_end == 1.0 && history.clearly_goes_one_way(i)) return turns_.see(c, field, last);
-  const Bernstein p = history.polynomial(i);
+  const events::Bernstein p = history.polynomial(i);
   if (goes_one_way(p)) return turns_.see(c, field, x_end == 1.0 ? last : p.value(x_end));
-  const std::array<double, max_degree + 1> a = powers_of(p);
+  const std::array<double, events::max_degree + 1> a = powers_of(p);
   turns_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
               history.end() - history.begin());
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

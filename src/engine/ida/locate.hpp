@@ -15,13 +15,13 @@
 #include "motion/consistent.hpp"
 #include "motion/forcing.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
 /// Refines `time`, a root of guard `slot` found on [begin, end] of the last step; returns it unchanged if the
 /// recomputed guard does not cross zero there. Brackets by doubling, then Brent's method (GSL).
-[[nodiscard]] double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& segment,
-                            const Model& model, std::size_t slot, double begin, double end, double time,
-                            double resolution);
+[[nodiscard]] double locate(BdfIntegrator& bdf, motion::ConsistentMotion& consistent,
+                            const engine::Segment& segment, const Model& model, std::size_t slot,
+                            double begin, double end, double time, double resolution);
 
 // Extreme values of contacts inside a BDF step.
 //
@@ -36,24 +36,24 @@ class HistoryTurns {
   HistoryTurns(std::size_t contacts, std::size_t first)
       : contacts_(contacts), first_(first), turns_(contacts) {}
 
-  [[nodiscard]] std::size_t count() const { return TurningPoints::watched.size() * contacts_; }
+  [[nodiscard]] std::size_t count() const { return events::TurningPoints::watched.size() * contacts_; }
   /// The forcing must outlive the segment.
-  void start(const Decision& decision, const Forcing& forcing);
+  void start(const decide::Decision& decision, const motion::Forcing& forcing);
   /// Examines the part [0, x_end] of the last step. On a moving surface the history contains t.u in place of ut.
-  void find(const StepHistory& history, double x_end);
-  [[nodiscard]] const std::vector<TurningPoints::Turn>& turns() const { return turns_.turns(); }
+  void find(const events::StepHistory& history, double x_end);
+  [[nodiscard]] const std::vector<events::TurningPoints::Turn>& turns() const { return turns_.turns(); }
   /// Times of the turning points of the last step, ascending.
   [[nodiscard]] const std::vector<double>& times() const { return turns_.times(); }
 
  private:
-  void look_at(std::size_t shown, const StepHistory& history, double x_end);
-  void look_at_slide(std::size_t contact, const StepHistory& history, double x_end);
+  void look_at(std::size_t shown, const events::StepHistory& history, double x_end);
+  void look_at_slide(std::size_t contact, const events::StepHistory& history, double x_end);
 
   std::size_t contacts_, first_;
-  TurningPoints turns_;
-  const Forcing* forcing_ = nullptr;
+  events::TurningPoints turns_;
+  const motion::Forcing* forcing_ = nullptr;
   std::vector<std::size_t> carried_;  // contacts whose surface moves
   std::vector<double> series_, of_surface_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::ida

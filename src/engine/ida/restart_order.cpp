@@ -7,7 +7,7 @@
 
 #include "model/slip_growth.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 namespace {
 
 // Orders 3 to 5 are unstable near the imaginary axis. At loose tolerances the error test does not notice growing
@@ -27,7 +27,7 @@ constexpr Stability stability[] = {{5, 51.84}, {4, 73.35}, {3, 86.03}};
 Order choose_order(const Model& model, const RunSpec& run) {
   if (run.max_order) return {*run.max_order, "as given"};
   if (run.rtol <= loose) return {5, "auto: at this tolerance the steps resolve the highest modes"};
-  const double ratio = least_damping_ratio(model);
+  const double ratio = model::least_damping_ratio(model);
   int greatest = 2;
   for (const Stability& s : stability) {
     if (ratio < std::cos(s.angle * std::numbers::pi / 180.0)) continue;
@@ -39,4 +39,4 @@ Order choose_order(const Model& model, const RunSpec& run) {
                                 loose, ratio)};
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -18,7 +18,7 @@
 #include "motion/jet.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
 // The greatest BDF order for a scene, `max_order = "auto"`.
 //
@@ -36,7 +36,7 @@ struct Order {
 };
 [[nodiscard]] Order choose_order(const Model& model, const RunSpec& run);
 
-struct Rehearsal {
+struct RestartOrder {
   int steps = 0;        ///< q; 0: IDA begins at order one
   double length = 0.0;  ///< h
 
@@ -52,8 +52,8 @@ template <class Row>
   return sum;
 }
 /// Highest known derivative of a place: without mass one or two less, so that the forces' derivatives count.
-[[nodiscard]] inline Eigen::Index last_derivative(const Jet& jet, bool massless) {
-  return massless ? Jet::orders : jet.u.cols() - 1;
+[[nodiscard]] inline Eigen::Index last_derivative(const motion::Jet& jet, bool massless) {
+  return massless ? motion::Jet::orders : jet.u.cols() - 1;
 }
 
 /// Same for all rows, where `last` is that of every row.
@@ -66,12 +66,12 @@ inline void on_polynomials(const Eigen::MatrixXd& rows, Eigen::Index last, Eigen
 /// d^p/dx^p of all places, x after the jet's instant. is_massless: called with the degree of freedom of a place that
 /// has one.
 template <class IsMassless>
-void places_along(const Jet& jet, Eigen::Index p, double x, bool any_massless, const IsMassless& is_massless,
-                  Eigen::Ref<Vector> places) {
+void places_along(const motion::Jet& jet, Eigen::Index p, double x, bool any_massless,
+                  const IsMassless& is_massless, Eigen::Ref<Vector> places) {
   on_polynomials(jet.u, last_derivative(jet, false), p, x, places);
   if (!any_massless) return;
   for (Eigen::Index i = 0; i < places.size(); ++i)
     if (is_massless(i)) places[i] = on_polynomial(jet.u.row(i), last_derivative(jet, true), p, x);
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

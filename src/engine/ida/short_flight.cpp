@@ -4,17 +4,17 @@
 
 #include "contact/friction.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 namespace {
 
 constexpr int looks = 16;  // samples of the height of a flight
 
 /// The series of a state whose friction depends on the slip rate has no known radius; the limit of friction that
 /// depends on N is not a polynomial if the contact sticks.
-bool is_linear(const Model& model, const Mode& mode) {
+bool is_linear(const Model& model, const contact::ContactStates& mode) {
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (slips_nonlinearly(contact, mode[c].state)) return false;
+    if (contact::slips_nonlinearly(contact, mode[c].state)) return false;
     if (contact.friction.by_force() && !mode[c].is_open()) return false;
   }
   return true;
@@ -22,29 +22,30 @@ bool is_linear(const Model& model, const Mode& mode) {
 
 }  // namespace
 
-ShortFlight::ShortFlight(const Model& model, const Structure& structure, ModeSystems& systems, double t_end)
-    : model_(model), series_(std::make_unique<ExactEngine>(model, structure, systems, t_end)) {}
+ShortFlight::ShortFlight(const Model& model, const linear::SystemMatrices& structure,
+                         motion::StateSystems& systems, double t_end)
+    : model_(model), series_(std::make_unique<exact::ExactEngine>(model, structure, systems, t_end)) {}
 
-std::optional<Step> ShortFlight::take(const Segment& segment,
-                                      const std::function<double(const Contact&)>& level) {
-  const Decision& decision = *segment.decision;
+std::optional<engine::Step> ShortFlight::take(const engine::Segment& segment,
+                                              const std::function<double(const Contact&)>& level) {
+  const decide::Decision& decision = *segment.decision;
   const auto leaves = [&](std::size_t slot) {
-    const GuardStart& guard = decision.guards[slot];
+    const decide::GuardStart& guard = decision.guards[slot];
     return guard.kind == Guard::closing && guard.at_zero && guard.leading > 0 &&
-           model_.contacts[contact_of_guard(slot)].takes_impulses();
+           model_.contacts[contact::contact_of_guard(slot)].takes_impulses();
   };
   bool any = false;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) any = any || leaves(slot);
   if (!any || !is_linear(model_, decision.mode)) return std::nullopt;
   series_->start(segment);
-  Step step = series_->advance();
-  if (step.kind != Step::Kind::event) return std::nullopt;
+  engine::Step step = series_->advance();
+  if (step.kind != engine::Step::Kind::event) return std::nullopt;
   // Another guard may end the step: a flight that is low up to there has to be followed as well as one that ends there.
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     if (!leaves(slot)) continue;
-    const Contact& contact = model_.contacts[contact_of_guard(slot)];
+    const Contact& contact = model_.contacts[contact::contact_of_guard(slot)];
     const double lowest = level(contact);
-    Point point;
+    motion::Point point;
     for (int i = 1; i <= looks; ++i) {
       series_->evaluate(step.begin + (step.end - step.begin) * i / looks, point);
       if (contact.gap_at(point.u) > lowest) return std::nullopt;
@@ -53,4 +54,4 @@ std::optional<Step> ShortFlight::take(const Segment& segment,
   return step;
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -12,23 +12,24 @@
 
 #include "engine/exact/exact_engine.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
 class ShortFlight {
  public:
-  ShortFlight(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
+  ShortFlight(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
+              double t_end);
 
   /// The step to the hit, or to another event before it, if the segment begins with such a flight. level: gap of a
   /// contact from which on the integrator resolves it.
-  [[nodiscard]] std::optional<Step> take(const Segment& segment,
-                                         const std::function<double(const Contact&)>& level);
+  [[nodiscard]] std::optional<engine::Step> take(const engine::Segment& segment,
+                                                 const std::function<double(const Contact&)>& level);
   /// The motion and the works on the step returned by take().
-  [[nodiscard]] ExactEngine& motion() { return *series_; }
-  [[nodiscard]] const ExactEngine& motion() const { return *series_; }
+  [[nodiscard]] exact::ExactEngine& motion() { return *series_; }
+  [[nodiscard]] const exact::ExactEngine& motion() const { return *series_; }
 
  private:
   const Model& model_;
-  std::unique_ptr<ExactEngine> series_;
+  std::unique_ptr<exact::ExactEngine> series_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::ida

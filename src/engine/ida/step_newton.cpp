@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace signorini {
+namespace signorini::ida {
 namespace {
 
 // Iterations towards the solution along a knee of friction: each one is one scale of slip rates closer, and beyond this
@@ -138,4 +138,4 @@ bool StepNewton::is_rounding(N_Vector weights, double tolerance) const {
   return problem_.has_knee() && N_VWrmsNorm(change_, weights) <= tolerance;
 }
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -17,7 +17,7 @@
 
 #include "engine/ida/ida_problem.hpp"
 
-namespace signorini {
+namespace signorini::ida {
 
 class StepNewton {
  public:
@@ -31,7 +31,7 @@ class StepNewton {
   [[nodiscard]] SUNNonlinearSolver solver() const { return solver_; }
   /// From now on the solutions are those of the jet's polynomials, regardless of the equations; null: solutions of the
   /// equations again, with J computed anew. The jet must outlive the rehearsal.
-  void rehearse(const Jet* jet) {
+  void rehearse(const motion::Jet* jet) {
     if (jet == nullptr) stale_ = true;
     jet_ = jet;
   }
@@ -56,8 +56,8 @@ class StepNewton {
   int most_iterations_ = 4, iteration_ = 0;
   long iterations_ = 0, failures_ = 0;  // counts of the last solve
   long residuals_ = 0;
-  const Jet* jet_ = nullptr;
+  const motion::Jet* jet_ = nullptr;
   bool stale_ = false;  // J belongs to another segment, or does not exist
 };
 
-}  // namespace signorini
+}  // namespace signorini::ida

@@ -13,7 +13,7 @@
 #include "model/machine_units.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 namespace {
 
 constexpr double unchanged = 1e-12;  // relative to the greatest contact force: a bound has converged
@@ -22,8 +22,8 @@ constexpr int stops = 101;           // key: stops within the step, without tang
 
 }  // namespace
 
-FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, ModeSystems& systems,
-                                     const RunSpec& run)
+FrictionIteration::FrictionIteration(const Model& model, const linear::SystemMatrices& structure,
+                                     motion::StateSystems& systems, const RunSpec& run)
     : model_(model),
       structure_(structure),
       dt_(run.dt.value()),
@@ -36,20 +36,20 @@ FrictionIteration::FrictionIteration(const Model& model, const Structure& struct
       sides_(model.contacts.size()),
       key_(model.contacts.size()) {}
 
-void FrictionIteration::start(const Segment& segment) {
+void FrictionIteration::start(const engine::Segment& segment) {
   segment_ = segment;
-  const Decision& decision = *segment.decision;
+  const decide::Decision& decision = *segment.decision;
   t0_ = t1_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   mode_ = decision.mode;
   key_in_force_.clear();
-  step_.set({}, signorini::rows_of(model_, mode_));
+  step_.set({}, signorini::linear::rows_of(model_, mode_));
   within_ = step_within(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
 /// The greatest contact force at a point, and the error of a bound that has converged there.
-FrictionIteration::Known FrictionIteration::known_forces(const Point& point) const {
+FrictionIteration::Known FrictionIteration::known_forces(const motion::Point& point) const {
   Known known;
   double noise = 0.0;
   for (std::size_t k = 0; k < sides_.size(); ++k) {
@@ -68,11 +68,11 @@ void FrictionIteration::begin_sides() {
   bound_error_ = known_forces(begin_).error;
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const ContactMotion m = motion_of(contact, k, *segment_.forcing, t0_, begin_);
+    const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t0_, begin_);
     Side& side = sides_[k];
-    side.state = state_of_rows(mode_[k].state);
+    side.state = contact::state_of_rows(mode_[k].state);
     side.pressed = std::max(0.0, -m.N);
-    side.anchor = side.state == State::stick ? mode_[k].anchor : slip_of(contact, m);
+    side.anchor = side.state == State::stick ? mode_[k].anchor : contact::slip_of(contact, m);
   }
 }
 
@@ -82,12 +82,12 @@ void FrictionIteration::put_in_force() {
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const Side& side = sides_[k];
-    rows[k] = signorini::rows(contact, {side.state, side.anchor});
+    rows[k] = signorini::contact::rows(contact, {side.state, side.anchor});
     key_[k] = static_cast<int>(side.state);
     Form& tangent = rows[k].tangent;
     if (const int s = slip_sign(side.state); s != 0) {
-      tangent = sliding_row(s, 0.0);  // T is a load, from the bound of the last iterate
-      tangent.constant = -s * kinetic_friction(contact) * side.pressed;
+      tangent = contact::sliding_row(s, 0.0);  // T is a load, from the bound of the last iterate
+      tangent.constant = -s * contact::kinetic_friction(contact) * side.pressed;
       key_[k] = slips;
     } else if (side.state == State::stick && !contact.tangential_stiffness &&
                mode_[k].state != State::stick) {
@@ -105,29 +105,30 @@ void FrictionIteration::put_in_force() {
 State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
   const Side& side = sides_[k];
-  const ContactMotion m = motion_of(contact, k, *segment_.forcing, t1_, end_);
+  const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t1_, end_);
   // A dashpot presses while it closes, not while the contact approaches.
   if (contact.normal_force_given()
           ? is_open(side.state)
           : m.gap > 0.0 || contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
     return State::open;
-  if (!contact.has_friction() || is_open(side.state)) return state_at_rest(contact);
+  if (!contact.has_friction() || is_open(side.state)) return contact::state_at_rest(contact);
   const auto& kt = contact.tangential_stiffness;
   if (const int s = slip_sign(side.state); s != 0) {
     if (!kt) return s * m.vt < 0.0 ? State::stick : side.state;
     const double terms = std::abs(m.ut) + std::abs(m.T / *kt) + std::abs(side.anchor);
-    return s * (slip_of(contact, m) - side.anchor) < -rounding::of_many * terms ? State::stick : side.state;
+    return s * (contact::slip_of(contact, m) - side.anchor) < -rounding::of_many * terms ? State::stick
+                                                                                         : side.state;
   }
   // A slipping contact keeps slipping; static friction holds all others.
   const double friction =
-      slip_sign(mode_[k].state) != 0 ? kinetic_friction(contact) : static_friction(contact);
+      slip_sign(mode_[k].state) != 0 ? contact::kinetic_friction(contact) : contact::static_friction(contact);
   const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
   // A contact that rests at its limit keeps resting, whatever the rounding of both forces; one that reaches the limit
   // slips.
   const double loose = bound_error_ + rounding::of_many * terms;
   const bool rests = std::abs(m.T - begin_.T(model_.layout, k)) <= loose;
   if (std::abs(m.T) <= friction * side.pressed + (rests ? loose : 0.0)) return State::stick;
-  return slip_along(m.T);
+  return contact::slip_along(m.T);
 }
 
 /// Adopts the states that follow from the iterate. False: they equal the states used to compute it.
@@ -163,8 +164,8 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       const Contact& contact = model_.contacts[k];
       Side& side = sides_[k];
       const double by = std::max(0.0, -end_.N(model_.layout, k)) - side.pressed;
-      if (slip_sign(side.state) != 0 && kinetic_friction(contact) * std::abs(by) > change) {
-        change = kinetic_friction(contact) * std::abs(by);
+      if (slip_sign(side.state) != 0 && contact::kinetic_friction(contact) * std::abs(by) > change) {
+        change = contact::kinetic_friction(contact) * std::abs(by);
         worst = k;
       }
       // Only the bound of a slipping contact acts in the next iterate; the bound of a sticking contact takes its final
@@ -177,7 +178,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
   }
   std::vector<std::string> what;
   for (std::size_t k = 0; k < sides_.size(); ++k)
-    if (sides_[k].state != state_of_rows(mode_[k].state) || k == worst)
+    if (sides_[k].state != contact::state_of_rows(mode_[k].state) || k == worst)
       what.push_back(model_.contacts[k].name);
   return fmt::format(
       "the friction iteration did not converge: after {} iterations {} (contacts {}); a smaller dt, more "
@@ -186,17 +187,17 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       switching
           ? "states still change"
           : fmt::format("a friction limit still changes by {:.3g} {}, {:.2g} % of the greatest contact force",
-                        said(model_, change, unit::force), model_.units.force,
+                        model::in_scene_units(model_, change, unit::force), model_.units.force,
                         force > 0.0 ? 100.0 * change / force : 0.0),
-      listed(what), relaxation_);
+      base::listed(what), relaxation_);
 }
 
-Step FrictionIteration::advance() {
+engine::Step FrictionIteration::advance() {
   std::swap(begin_, end_);
   t0_ = t1_;
-  Step step;
+  engine::Step step;
   step.begin = step.end = t0_;
-  step.resolution = resolution_at(t0_, 0.0);
+  step.resolution = motion::resolution_at(t0_, 0.0);
   changed_ = false;
   if (t0_ >= segment_.end) {  // states were adopted at a break of the forcing
     std::swap(begin_, end_);
@@ -213,22 +214,22 @@ Step FrictionIteration::advance() {
   std::string failure = t1_ > t0_ ? iterate(h, whole) : "the step is below the resolution of time";
   step_.count(counters);
   if (!failure.empty()) {
-    step.kind = Step::Kind::failed;
-    step.reason = fmt::format("at t = {:.9g}: {}", said_time(model_, t1_), failure);
+    step.kind = engine::Step::Kind::failed;
+    step.reason = fmt::format("at t = {:.9g}: {}", model::time_in_scene_units(model_, t1_), failure);
     return step;
   }
   step.end = t1_;
-  step.resolution = resolution_at(t1_, h);
+  step.resolution = motion::resolution_at(t1_, h);
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const Side& side = sides_[k];
-    changed_ = changed_ || side.state != state_of_rows(mode_[k].state);
+    changed_ = changed_ || side.state != contact::state_of_rows(mode_[k].state);
     mode_[k] = {side.state, side.state == State::stick ? side.anchor : 0.0};
-    if (is_open(side.state)) mode_[k].state = let_go(contact, contact.gap_at(end_.u));
+    if (is_open(side.state)) mode_[k].state = contact::let_go(contact, contact.gap_at(end_.u));
   }
   settle_massless();
   if (changed_) {
-    step.kind = Step::Kind::event;
+    step.kind = engine::Step::Kind::event;
     step.adopted = mode_;
   }
   return step;
@@ -238,9 +239,9 @@ Step FrictionIteration::advance() {
 /// the step's own velocities oscillate about them from end to end.
 void FrictionIteration::settle_massless() {
   if (!consistent_.massless()) return;
-  const ModeSystemPtr system = systems_.of(mode_);
+  const motion::StateSystemPtr system = systems_.of(mode_);
   if (!system) return;
-  Point settled = end_;
+  motion::Point settled = end_;
   consistent_.make(system, *segment_.forcing, t1_, settled);
   for (Eigen::Index i = 0; i < end_.v.size(); ++i)
     if (model_.dofs[static_cast<std::size_t>(i)].massless) end_.v[i] = settled.v[i];
@@ -248,9 +249,9 @@ void FrictionIteration::settle_massless() {
 
 /// Accelerations of massless degrees of freedom; the step itself knows those of masses. Inside the step the states are
 /// those of its beginning.
-void FrictionIteration::accelerate(double t, Point& point) {
+void FrictionIteration::accelerate(double t, motion::Point& point) {
   if (!consistent_.massless()) return;
-  const ModeSystemPtr system = t == t1_ && changed_ ? systems_.of(mode_) : segment_.decision->system;
+  const motion::StateSystemPtr system = t == t1_ && changed_ ? systems_.of(mode_) : segment_.decision->system;
   if (!system) return;
   const Vector of_step = point.a;
   consistent_.accelerate(system, *segment_.forcing, t, point);
@@ -260,19 +261,19 @@ void FrictionIteration::accelerate(double t, Point& point) {
 
 /// Interpolates linearly between the ends of the step, which keeps |T| <= -f N; forces of a state that is about to
 /// change belong to that state.
-void FrictionIteration::evaluate(double t, Point& point) {
+void FrictionIteration::evaluate(double t, motion::Point& point) {
   if (t == t1_ || !(t1_ > t0_)) {
     point = end_;
     return;
   }
-  point = between(begin_, end_, (t - t0_) / (t1_ - t0_));
+  point = motion::between(begin_, end_, (t - t0_) / (t1_ - t0_));
   if (changed_) point.forces = begin_.forces;
 }
 
 /// Integrates over the whole step, in the states at its end.
-void FrictionIteration::integrate(double from, double to, Works& works) {
+void FrictionIteration::integrate(double from, double to, motion::WorkIntegrals& works) {
   if (!(t1_ > t0_)) return;
   works_.add(*segment_.forcing, mode_, begin_, t0_, end_, t1_, (to - from) / (t1_ - t0_), works);
 }
 
-}  // namespace signorini
+}  // namespace signorini::newmark

@@ -19,27 +19,28 @@
 #include "motion/consistent.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 
-class FrictionIteration final : public Stepper, public DenseOutput {
+class FrictionIteration final : public engine::Stepper, public engine::DenseOutput {
  public:
   /// The first three arguments must outlive the object. run.dt must be given.
-  FrictionIteration(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run);
+  FrictionIteration(const Model& model, const linear::SystemMatrices& structure,
+                    motion::StateSystems& systems, const RunSpec& run);
 
-  void start(const Segment& segment) override;
-  [[nodiscard]] Step advance() override;
-  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
-  void evaluate(double t, Point& point) override;
-  void accelerate(double t, Point& point) override;
-  void integrate(double from, double to, Works& works) override;
+  void start(const engine::Segment& segment) override;
+  [[nodiscard]] engine::Step advance() override;
+  [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
+  void evaluate(double t, motion::Point& point) override;
+  void accelerate(double t, motion::Point& point) override;
+  void integrate(double from, double to, motion::WorkIntegrals& works) override;
   /// The motion is a parabola on the step.
-  [[nodiscard]] StepFacts facts() const override {
-    StepFacts facts;
+  [[nodiscard]] engine::StepFacts facts() const override {
+    engine::StepFacts facts;
     facts.radians = 2.0 * std::numbers::pi;
     return facts;
   }
   [[nodiscard]] double residual() override {
-    return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
+    return motion::imbalance(model_, structure_, *segment_.forcing, t1_, end_);
   }
   [[nodiscard]] double guard_error(const GuardForm&, const ContactMotion&, std::size_t) const override {
     return 0.0;
@@ -55,7 +56,7 @@ class FrictionIteration final : public Stepper, public DenseOutput {
   struct Known {
     double greatest = 0.0, error = 0.0;  // forces
   };
-  [[nodiscard]] Known known_forces(const Point& point) const;
+  [[nodiscard]] Known known_forces(const motion::Point& point) const;
   void begin_sides();
   void put_in_force();
   [[nodiscard]] State state_of(std::size_t k) const;
@@ -64,22 +65,22 @@ class FrictionIteration final : public Stepper, public DenseOutput {
   void settle_massless();
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   const double dt_, relaxation_;
   const int most_;
   NewmarkStep step_;
-  NewmarkWorks works_;
-  ModeSystems& systems_;
-  ConsistentMotion consistent_;
-  Segment segment_;
+  NewmarkWorkIntegrals works_;
+  motion::StateSystems& systems_;
+  motion::ConsistentMotion consistent_;
+  engine::Segment segment_;
   std::vector<Side> sides_;
   NewmarkStep::Key key_, key_in_force_;
-  Mode mode_;  // states at the end of the last step
+  contact::ContactStates mode_;  // states at the end of the last step
   bool changed_ = false;
   double bound_error_ = 0.0;  // error of |T| <= f |N|, force
-  Point begin_, end_;
+  motion::Point begin_, end_;
   double t0_ = 0.0, t1_ = 0.0;
   double within_ = 0.0;  // length of whole steps: dt, or the length that a short pulse requires
 };
 
-}  // namespace signorini
+}  // namespace signorini::newmark

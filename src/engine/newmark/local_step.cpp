@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace signorini {
+namespace signorini::newmark {
 namespace {
 
 /// Number of band widths. M^-1 of beams with a consistent mass matrix decays by 2 - sqrt(3) per element, and an element
@@ -14,7 +14,7 @@ constexpr std::size_t least_parts = 4;    // limit: W is at most this part of th
 
 }  // namespace
 
-NearStep::NearStep(const Model& model, const CondensedRows& rows)
+LocalStep::LocalStep(const Model& model, const linear::CondensedRows& rows)
     : model_(model),
       rows_(rows),
       radius_(first_radius * std::max<std::size_t>(1, rows.width())),
@@ -33,7 +33,7 @@ NearStep::NearStep(const Model& model, const CondensedRows& rows)
   end_ = {load_, load_, Vector::Zero(model.force_count()), load_};
 }
 
-std::optional<NearStep::Window> NearStep::window(std::size_t contact) const {
+std::optional<LocalStep::Window> LocalStep::window(std::size_t contact) const {
   const std::size_t n = rows_.size();
   Window w{n, 0, 0, 0};
   for (std::size_t i = rows_.first_touch(contact); i < rows_.end_of_touches(contact); ++i) {
@@ -49,7 +49,7 @@ std::optional<NearStep::Window> NearStep::window(std::size_t contact) const {
   return w;
 }
 
-void NearStep::know_motion(const Window& w, const Point& from, double h) {
+void LocalStep::know_motion(const Window& w, const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t place = w.first; place < w.last; ++place) {
     const std::size_t i = rows_.dof_at(place);
@@ -59,7 +59,8 @@ void NearStep::know_motion(const Window& w, const Point& from, double h) {
 }
 
 /// Computes b_W and adds the contact terms to the matrix there.
-void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Rows>& rows, double t1) {
+void LocalStep::act(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows,
+                    double t1) {
   for (std::size_t place = w.begin; place < w.end; ++place) {
     const std::size_t i = rows_.dof_at(place);
     load_.data()[i] = forcing.standing_load(i);
@@ -71,7 +72,7 @@ void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Ro
   contacts_.clear();
   for (std::size_t place = w.begin; place < w.end; ++place) {
     double sum = load_.data()[rows_.dof_at(place)];
-    for (const CondensedRows::Entry& e : rows_.entries(place))
+    for (const linear::CondensedRows::Entry& e : rows_.entries(place))
       sum -= e.c * end_.v.data()[e.dof] + e.k * end_.u.data()[e.dof];
     b_.data()[place - w.begin] = sum;
     for (const std::uint32_t i : rows_.touches_at(place)) contacts_.push_back(rows_.touch(i).contact);
@@ -80,24 +81,25 @@ void NearStep::act(const Window& w, const Forcing& forcing, const std::vector<Ro
   contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
   for (const std::size_t k : contacts_) {
     const Contact& contact = model_.contacts[k];
-    const CondensedRows::Held& held = rows_.held(k);
+    const linear::CondensedRows::Held& held = rows_.held(k);
     ContactMotion m;  // known part only
-    set_place(contact, end_.u, forcing.surface(k, t1, 0), m);
-    set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
-    m.pressing = forcing.pressing(k, t1, 0);
+    contact::set_place(contact, end_.u, forcing.surface(k, t1, 0), m);
+    contact::set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
+    m.applied_normal_force = forcing.applied_normal_force(k, t1, 0);
     double &N = end_.forces.data()[model_.layout.normal(k)],
            &T = end_.forces.data()[model_.layout.tangent(k)];
     N = -rows[k].normal.value(m) / held.normal_N;
     T = (-rows[k].tangent.value(m) - held.tangent_N * N) / held.tangent_T;
     if (held.on_motion) rows_.share(k, weights_, by_N_.data(), by_T_.data());
     for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i)
-      if (const CondensedRows::Touch& at = rows_.touch(i); at.place >= w.begin && at.place < w.end)
+      if (const linear::CondensedRows::Touch& at = rows_.touch(i); at.place >= w.begin && at.place < w.end)
         b_.data()[at.place - w.begin] -= at.n * N + at.t * T;
   }
 }
 
 /// b_ := x_W
-bool NearStep::solve(const Window& w, const Point& from, double h, const Point& whole, double longer) {
+bool LocalStep::solve(const Window& w, const motion::Point& from, double h, const motion::Point& whole,
+                      double longer) {
   const std::size_t size = w.end - w.begin, width = rows_.width();
   if (!band_ || band_->size() != size) band_.emplace(size, width);
   band_->clear(0, size);
@@ -122,7 +124,7 @@ bool NearStep::solve(const Window& w, const Point& from, double h, const Point& 
 }
 
 /// Writes the motion of the contact's degrees of freedom and its forces into the point.
-void NearStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
+void LocalStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
   double &N = end_.forces.data()[model_.layout.normal(k)], &T = end_.forces.data()[model_.layout.tangent(k)];
   for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i) {
     const std::size_t dof = rows_.touch(i).dof;
@@ -136,8 +138,9 @@ void NearStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
   if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0) T = -tangent.N * N;
 }
 
-const Point* NearStep::end(std::size_t contact, const Forcing& forcing, const std::vector<Rows>& rows,
-                           const Point& from, double t1, double h, const Point& whole, double longer) {
+const motion::Point* LocalStep::end(std::size_t contact, const motion::Forcing& forcing,
+                                    const std::vector<Rows>& rows, const motion::Point& from, double t1,
+                                    double h, const motion::Point& whole, double longer) {
   const auto w = window(contact);
   if (!w) return nullptr;
   weights_ = {1.0, 0.5 * h, 0.25 * h * h};
@@ -150,4 +153,4 @@ const Point* NearStep::end(std::size_t contact, const Forcing& forcing, const st
   return &end_;
 }
 
-}  // namespace signorini
+}  // namespace signorini::newmark

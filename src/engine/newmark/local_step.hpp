@@ -12,18 +12,19 @@
 #include "linear/condensed_matrix.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 
-class NearStep {
+class LocalStep {
  public:
   /// Both arguments must outlive the object.
-  NearStep(const Model& model, const CondensedRows& rows);
+  LocalStep(const Model& model, const linear::CondensedRows& rows);
 
   /// End of the step from `from` at t1 - h to t1, valid only at the contact. rows: in force, with the matrix pattern of
   /// the constructor's rows; whole: the end of the step of length `longer`. Null: W is too large a part of the
   /// structure, or elimination loses digits.
-  [[nodiscard]] const Point* end(std::size_t contact, const Forcing& forcing, const std::vector<Rows>& rows,
-                                 const Point& from, double t1, double h, const Point& whole, double longer);
+  [[nodiscard]] const motion::Point* end(std::size_t contact, const motion::Forcing& forcing,
+                                         const std::vector<Rows>& rows, const motion::Point& from, double t1,
+                                         double h, const motion::Point& whole, double longer);
   /// Doubles the radius.
   void look_farther() { radius_ *= 2; }
 
@@ -36,21 +37,22 @@ class NearStep {
     std::size_t begin = 0, end = 0;
   };
   [[nodiscard]] std::optional<Window> window(std::size_t contact) const;
-  void know_motion(const Window& w, const Point& from, double h);
-  void act(const Window& w, const Forcing& forcing, const std::vector<Rows>& rows, double t1);
-  [[nodiscard]] bool solve(const Window& w, const Point& from, double h, const Point& whole, double longer);
+  void know_motion(const Window& w, const motion::Point& from, double h);
+  void act(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows, double t1);
+  [[nodiscard]] bool solve(const Window& w, const motion::Point& from, double h, const motion::Point& whole,
+                           double longer);
   void read(std::size_t contact, const std::vector<Rows>& rows, double h);
 
   const Model& model_;
-  const CondensedRows& rows_;
+  const linear::CondensedRows& rows_;
   std::size_t radius_;
-  std::optional<BandFactors> band_;  // sized for the last window
-  Weights weights_;
+  std::optional<linear::BandFactors> band_;  // sized for the last window
+  linear::Weights weights_;
   Vector load_, b_;                    // by degree of freedom, valid in W only; by place of W
   std::vector<Places> loads_;          // range of degrees of freedom on which each load acts
   std::vector<double> by_N_, by_T_;    // one entry for each touch
   std::vector<std::size_t> contacts_;  // contacts in the window
-  Point end_;                          // u, v: their known parts, until read
+  motion::Point end_;                  // u, v: their known parts, until read
 };
 
-}  // namespace signorini
+}  // namespace signorini::newmark

@@ -12,7 +12,7 @@
 #include "engine/newmark/newmark_step.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -26,8 +26,9 @@ constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
 
 }  // namespace
 
-NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems,
-                             const RunSpec& run, const Tolerance& tolerance)
+NewmarkEngine::NewmarkEngine(const Model& model, const linear::SystemMatrices& structure,
+                             motion::StateSystems& systems, const RunSpec& run,
+                             const engine::Tolerance& tolerance)
     : model_(model),
       structure_(structure),
       consistent_(systems),
@@ -38,17 +39,18 @@ NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, Mod
       step_(model, structure),
       works_(model, structure),
       guards_(model),
-      settles_(has_massless(model)),
+      settles_(linear::has_massless(model)),
       regular_(dt_) {}
 
-void NewmarkEngine::start(const Segment& segment) {
+void NewmarkEngine::start(const engine::Segment& segment) {
   segment_ = segment;
-  const Decision& decision = *segment.decision;
+  const decide::Decision& decision = *segment.decision;
   t0_ = t1_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   NewmarkStep::Key key;
   key.reserve(decision.mode.size());
-  for (const ContactState& s : decision.mode) key.push_back(static_cast<int>(state_of_rows(s.state)));
+  for (const ContactState& s : decision.mode)
+    key.push_back(static_cast<int>(contact::state_of_rows(s.state)));
   step_.set(std::move(key),
             std::shared_ptr<const std::vector<Rows>>(decision.system, &decision.system->rows()));
   inner_time_ = nan;
@@ -68,11 +70,11 @@ void NewmarkEngine::start(const Segment& segment) {
 /// Place where a guard that is positive at both ends may reach zero between them, if it is not at the beginning.
 std::optional<double> NewmarkEngine::dip_of(std::size_t slot, double h) const {
   const std::optional<double> x = guards_.dip(slot, h, h_before_);
-  return x && *x * h > resolution_at(t0_, h) ? x : std::nullopt;
+  return x && *x * h > motion::resolution_at(t0_, h) ? x : std::nullopt;
 }
 
 /// Takes a step of length h from the beginning of this one, to t.
-bool NewmarkEngine::take(double h, double t, bool kept, Point& to) {
+bool NewmarkEngine::take(double h, double t, bool kept, motion::Point& to) {
   if (!step_.take(*segment_.forcing, begin_, t, h, kept, to)) return false;
   if (settles_) consistent_.make(segment_.decision->system, *segment_.forcing, t, to);
   return true;
@@ -90,7 +92,8 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
 
 /// Same, from the contact's neighbourhood; end_: end of the step of length `longer`. NaN: no neighbourhood result.
 double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
-  const Point* near = step_.near(contact_of_guard(slot), *segment_.forcing, begin_, t0_ + h, h, end_, longer);
+  const motion::Point* near =
+      step_.near(contact::contact_of_guard(slot), *segment_.forcing, begin_, t0_ + h, h, end_, longer);
   if (near == nullptr) return nan;
   ++counters.guard_evaluations;
   return guards_.value(slot, t0_ + h, *near);
@@ -100,7 +103,7 @@ double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
 /// the remainder of their gap, slip rate or force at once: modes above the step keep that impulse, and such impulses
 /// cause the next events.
 bool NewmarkEngine::is_soft(std::size_t slot) const {
-  const Contact& contact = model_.contacts[contact_of_guard(slot)];
+  const Contact& contact = model_.contacts[contact::contact_of_guard(slot)];
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
@@ -109,8 +112,8 @@ double NewmarkEngine::zero_of(std::size_t slot) const {
   return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
 
-double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
-                                   double floor) {
+double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
+                                       double floor) {
   double last = g_lo - floor;  // a singular matrix on the way must not reach the root finder
   const auto value = [&](double h) {
     if (h == lo) return g_lo - floor;
@@ -119,7 +122,7 @@ double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, dou
     if (std::abs(g) <= zero_of(slot)) return 0.0;
     return last = std::isfinite(g) ? g : last;
   };
-  return root_between(value, lo, hi, 0.25 * resolution_at(t0_ + hi, hi));
+  return events::root_between(value, lo, hi, 0.25 * motion::resolution_at(t0_ + hi, hi));
 }
 
 /// Follows tangents and secants to the zero crossing, from the contact's neighbourhood; a whole step has to confirm the
@@ -132,7 +135,7 @@ std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t sl
     const double g = value_near(slot, next.at, h);
     if (!std::isfinite(g)) return std::nullopt;
     if (i > 0) next.slope = (g - g_before) / (next.at - before);
-    if (std::abs(g) <= zero_of(slot) || std::abs(g / next.slope) <= 0.25 * resolution_at(t0_ + h, h))
+    if (std::abs(g) <= zero_of(slot) || std::abs(g / next.slope) <= 0.25 * motion::resolution_at(t0_ + h, h))
       return next.slope < 0.0 ? std::optional(next) : std::nullopt;
     (g > 0.0 ? lo : hi) = before = next.at;
     g_before = g;
@@ -143,8 +146,8 @@ std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t sl
 
 /// Zero crossing of a guard that is positive at the beginning of the step and not at its end: first searched at the
 /// root of the Hermite cubic, from there along tangents and secants.
-double NewmarkEngine::fall_near(std::size_t slot, double h) {
-  const GuardPath path = guards_.path(slot, h);
+double NewmarkEngine::crossing_near(std::size_t slot, double h) {
+  const events::GuardPath path = guards_.path(slot, h);
   double lo = 0.0, g_lo = path.g0, hi = h, g_hi = path.g1;
   const auto narrow = [&](double at) {
     if (!(at > lo && at < hi)) return std::numeric_limits<double>::quiet_NaN();
@@ -158,7 +161,7 @@ double NewmarkEngine::fall_near(std::size_t slot, double h) {
     }
     return g;
   };
-  const auto fall = guards_.has_rate(slot) ? path.fall() : std::nullopt;
+  const auto fall = guards_.has_rate(slot) ? path.crossing() : std::nullopt;
   Tangent next = fall ? Tangent{fall->x * h, fall->slope / h} : Tangent{nan, nan};
   const auto near = is_soft(slot) && fall ? tangent_near(slot, h, next) : std::nullopt;
   if (near) next = *near;
@@ -168,7 +171,7 @@ double NewmarkEngine::fall_near(std::size_t slot, double h) {
     const double g = narrow(next.at);
     if (std::abs(g) <= zero_of(slot)) return next.at;
     if (i > 0 && !near) next.slope = (g - g_before) / (next.at - before);
-    if (is_soft(slot) && std::abs(g / next.slope) <= 0.25 * resolution_at(t0_ + h, h)) return next.at;
+    if (is_soft(slot) && std::abs(g / next.slope) <= 0.25 * motion::resolution_at(t0_ + h, h)) return next.at;
     if (i == 0 && near) step_.look_farther();
     before = next.at;
     g_before = g;
@@ -176,7 +179,7 @@ double NewmarkEngine::fall_near(std::size_t slot, double h) {
   }
   if (next.slope < 0.0 && g_before != 0.0)
     (void)narrow(before - 2.0 * g_before / next.slope);  // to the other side of the root
-  return fall_between(slot, lo, g_lo, hi, g_hi);
+  return crossing_between(slot, lo, g_lo, hi, g_hi);
 }
 
 bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
@@ -184,12 +187,12 @@ bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_
 /// The paper's single interpolation. If the guard has not reached zero there, the event would not be triggered: the
 /// step grows by twice the next interpolation until it has.
 double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
-  const GuardPath path = guards_.path(slot, hi);
+  const events::GuardPath path = guards_.path(slot, hi);
   const double g_hi = path.g1;
   double h = hi * path.linear();
   double g = value_after(slot, h);
   for (int i = 0; i < most_halvings && g > 0.0 && h < hi; ++i) {
-    h = std::min(hi, h + 2.0 * (hi - h) * g / (g - g_hi) + resolution_at(t0_ + h, 0.0));
+    h = std::min(hi, h + 2.0 * (hi - h) * g / (g - g_hi) + motion::resolution_at(t0_ + h, 0.0));
     g = h < hi ? value_after(slot, h) : g_hi;
   }
   return h;
@@ -204,11 +207,11 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
   };
   for (const std::size_t s : guards_.noticed(h, h_before_)) {
     if (located && s == slot) continue;
-    const GuardPath path = guards_.path(s, h);
-    if (!guards_.arming().armed(s)) {
+    const events::GuardPath path = guards_.path(s, h);
+    if (!guards_.active_guards().armed(s)) {
       if (path.g1 < -level(s)) consider(Candidate::Kind::sink, s, 0.0);
     } else if (path.g1 <= (located ? -level(s) : 0.0)) {
-      consider(Candidate::Kind::fall, s, path.linear());
+      consider(Candidate::Kind::crossing, s, path.linear());
     } else if (path.g1 > 0.0) {
       if (const auto x = dip_of(s, h)) consider(Candidate::Kind::dip, s, *x);
     }
@@ -219,17 +222,17 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
 /// True if the same guard caused the decision at the beginning of this step, and its state did not change.
 bool NewmarkEngine::has_sunk(std::size_t slot) const {
   return sunk_ && sunk_->slot == slot && sunk_->guard == segment_.decision->guards[slot].kind &&
-         std::abs(t0_ - sunk_->t) <= resolution_at(t0_, 0.0);
+         std::abs(t0_ - sunk_->t) <= motion::resolution_at(t0_, 0.0);
 }
 
 bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
   const std::size_t slot = candidate.slot;
-  const GuardPath path = guards_.path(slot, h);
+  const events::GuardPath path = guards_.path(slot, h);
   switch (candidate.kind) {
     case Candidate::Kind::none:
       return false;
-    case Candidate::Kind::fall:
-      h = interpolates(slot) ? linear_fall(slot, h) : fall_near(slot, h);
+    case Candidate::Kind::crossing:
+      h = interpolates(slot) ? linear_fall(slot, h) : crossing_near(slot, h);
       return true;
     case Candidate::Kind::dip: {
       // Down and up again within the step: the step redone to the least value decides.
@@ -240,7 +243,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         guards_.dismiss(slot);
         return false;
       }
-      h = interpolates(slot) ? x : fall_between(slot, 0.0, path.g0, x, g);
+      h = interpolates(slot) ? x : crossing_between(slot, 0.0, path.g0, x, g);
       return true;
     }
     case Candidate::Kind::sink: {
@@ -250,11 +253,11 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       double hi = h, g_hi = path.g1;
       for (int i = 0; i < most_halvings; ++i) {
         const double lo = 0.5 * hi;
-        if (!(lo > resolution_at(t0_, 0.0))) break;
+        if (!(lo > motion::resolution_at(t0_, 0.0))) break;
         const double g = value_after(slot, lo);
         if (!std::isfinite(g)) break;
         if (g > floor) {
-          h = interpolates(slot) ? hi : fall_between(slot, lo, g, hi, g_hi, floor);
+          h = interpolates(slot) ? hi : crossing_between(slot, lo, g, hi, g_hi, floor);
           return true;
         }
         hi = lo;
@@ -268,9 +271,9 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
   return false;
 }
 
-Step NewmarkEngine::failed(std::string reason) const {
-  Step step;
-  step.kind = Step::Kind::failed;
+engine::Step NewmarkEngine::failed(std::string reason) const {
+  engine::Step step;
+  step.kind = engine::Step::Kind::failed;
   step.begin = step.end = t0_;
   step.reason = std::move(reason);
   return step;
@@ -319,7 +322,7 @@ bool NewmarkEngine::end_after(double h) {
   return true;
 }
 
-Step NewmarkEngine::advance() {
+engine::Step NewmarkEngine::advance() {
   // The beginning of the last step becomes the previous one; its vectors take the new end.
   std::swap(a_before_, begin_.a);
   if (h_ == 0.0) a_before_.resize(0);
@@ -344,7 +347,7 @@ Step NewmarkEngine::advance() {
   if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows");
   guards_.weigh(end_, t1_);
 
-  Step step;
+  engine::Step step;
   step.begin = t0_;
   std::size_t slot = 0;
   bool event = false;
@@ -355,16 +358,16 @@ Step NewmarkEngine::advance() {
     slot = c.slot;
     counted_length_ = 0.0;
     if (h < longer && !end_after(h)) return failed(singular);
-    if (known && longer - h <= resolution_at(t1_, h)) break;  // the same instant
+    if (known && longer - h <= motion::resolution_at(t1_, h)) break;  // the same instant
   }
   h_ = h;
   ++counters.steps;
   step_.count(counters);
   step.end = t1_;
-  step.resolution = resolution_at(t1_, h);
+  step.resolution = motion::resolution_at(t1_, h);
   if (event) {
-    step.kind = Step::Kind::event;
-    step.fired = {{contact_of_guard(slot), segment_.decision->guards[slot].kind}};
+    step.kind = engine::Step::Kind::event;
+    step.triggered = {{contact::contact_of_guard(slot), segment_.decision->guards[slot].kind}};
   }
   guards_.see(t1_, end_);
   return step;
@@ -372,29 +375,29 @@ Step NewmarkEngine::advance() {
 
 /// True if a guard that is positive at both ends is negative at t. If a step is far longer than the periods of the
 /// highest modes, the redone step need not follow the step itself.
-bool NewmarkEngine::strays(double t, const Point& point) const {
-  for (std::size_t s = 0; s < guards_.arming().size(); ++s)
-    if (!guards_.arming().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
+bool NewmarkEngine::strays(double t, const motion::Point& point) const {
+  for (std::size_t s = 0; s < guards_.active_guards().size(); ++s)
+    if (!guards_.active_guards().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
   return false;
 }
 
 /// The solution inside the last step: the step redone to t. If it strays, the straight line between the ends, on which
 /// every law holds, since all are linear or cones.
-const Point& NewmarkEngine::inside(double t) {
+const motion::Point& NewmarkEngine::inside(double t) {
   if (t == t1_) return end_;
   if (t == t0_) return begin_;
   if (t != inner_time_) {
     inner_time_ = t;
     if (!take(t - t0_, t, false, inner_) || strays(t, inner_))
-      inner_ = between(begin_, end_, (t - t0_) / (t1_ - t0_));
+      inner_ = motion::between(begin_, end_, (t - t0_) / (t1_ - t0_));
   }
   return inner_;
 }
 
-void NewmarkEngine::evaluate(double t, Point& point) { point = inside(t); }
+void NewmarkEngine::evaluate(double t, motion::Point& point) { point = inside(t); }
 
 /// Accelerations of massless degrees of freedom; the step itself knows those of masses.
-void NewmarkEngine::accelerate(double t, Point& point) {
+void NewmarkEngine::accelerate(double t, motion::Point& point) {
   if (!settles_) return;
   const Vector of_step = point.a;
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
@@ -404,19 +407,19 @@ void NewmarkEngine::accelerate(double t, Point& point) {
 
 /// Average acceleration from end to end; forces, and what has no mass, along straight lines. Of the curves
 /// through both ends this is the step's own, and costs no factorisation as the step redone does.
-void NewmarkEngine::interpolate(double t, Point& point) {
+void NewmarkEngine::interpolate(double t, motion::Point& point) {
   if (t == t1_ || t == t0_ || !(t1_ > t0_)) {
     point = t == t0_ && t1_ > t0_ ? begin_ : end_;
     return;
   }
   const double h = t1_ - t0_, x = (t - t0_) / h;
-  point = between(begin_, end_, x);
+  point = motion::between(begin_, end_, x);
   for (Eigen::Index i = 0; i < point.u.size(); ++i)
     if (!model_.dofs[static_cast<std::size_t>(i)].massless)
       point.u[i] = begin_.u[i] + x * (h * begin_.v[i] + x * (end_.u[i] - begin_.u[i] - h * begin_.v[i]));
 }
 
-void NewmarkEngine::integrate(double from, double to, Works& works) {
+void NewmarkEngine::integrate(double from, double to, motion::WorkIntegrals& works) {
   const auto until = [&](double t, double factor) {
     works_.add(*segment_.forcing, segment_.decision->mode, begin_, t0_, inside(t), t, factor, works);
   };
@@ -443,4 +446,4 @@ double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, 
   return form.magnitude(e);
 }
 
-}  // namespace signorini
+}  // namespace signorini::newmark

@@ -22,29 +22,29 @@
 #include "motion/consistent.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 
-class NewmarkEngine final : public Stepper, public DenseOutput {
+class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
  public:
   /// The first three arguments must outlive the object. run.dt must be given.
-  NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run,
-                const Tolerance& tolerance);
+  NewmarkEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
+                const RunSpec& run, const engine::Tolerance& tolerance);
 
-  void start(const Segment& segment) override;
-  [[nodiscard]] Step advance() override;
-  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
-  void evaluate(double t, Point& point) override;
-  void accelerate(double t, Point& point) override;
-  void interpolate(double t, Point& point) override;
-  void integrate(double from, double to, Works& works) override;
+  void start(const engine::Segment& segment) override;
+  [[nodiscard]] engine::Step advance() override;
+  [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
+  void evaluate(double t, motion::Point& point) override;
+  void accelerate(double t, motion::Point& point) override;
+  void interpolate(double t, motion::Point& point) override;
+  void integrate(double from, double to, motion::WorkIntegrals& works) override;
   /// The motion is a parabola on the step.
-  [[nodiscard]] StepFacts facts() const override {
-    StepFacts facts;
+  [[nodiscard]] engine::StepFacts facts() const override {
+    engine::StepFacts facts;
     facts.radians = 2.0 * std::numbers::pi;
     return facts;
   }
   [[nodiscard]] double residual() override {
-    return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
+    return motion::imbalance(model_, structure_, *segment_.forcing, t1_, end_);
   }
   [[nodiscard]] double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                    std::size_t contact) const override;
@@ -52,14 +52,14 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
  private:
   /// A guard that may reach zero in the step, not yet located.
   struct Candidate {
-    enum class Kind { none, fall, dip, sink } kind = Kind::none;
+    enum class Kind { none, crossing, dip, sink } kind = Kind::none;
     std::size_t slot = 0;
     double x = 2.0;  // approximate place in the step
   };
 
-  [[nodiscard]] bool take(double h, double t, bool kept, Point& to);
-  [[nodiscard]] bool strays(double t, const Point& point) const;
-  [[nodiscard]] const Point& inside(double t);
+  [[nodiscard]] bool take(double h, double t, bool kept, motion::Point& to);
+  [[nodiscard]] bool strays(double t, const motion::Point& point) const;
+  [[nodiscard]] const motion::Point& inside(double t);
   [[nodiscard]] std::optional<double> dip_of(std::size_t slot, double h) const;
   /// Below this value at the end of the step the sign of a guard is rounding.
   [[nodiscard]] double level(std::size_t slot) const { return guards_.level(slot, t1_, end_); }
@@ -68,14 +68,14 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot);
   [[nodiscard]] bool is_soft(std::size_t slot) const;
   [[nodiscard]] double zero_of(std::size_t slot) const;
-  [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
-                                    double floor = 0.0);
+  [[nodiscard]] double crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
+                                        double floor = 0.0);
   /// Estimated root of a guard: its value and slope at a place away from the root.
   struct Tangent {
     double at = 0.0, slope = 0.0;
   };
   [[nodiscard]] std::optional<Tangent> tangent_near(std::size_t slot, double h, Tangent first);
-  [[nodiscard]] double fall_near(std::size_t slot, double h);
+  [[nodiscard]] double crossing_near(std::size_t slot, double h);
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
   [[nodiscard]] bool has_sunk(std::size_t slot) const;
@@ -83,20 +83,20 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool end_after(double h);
   [[nodiscard]] double doubled(double remaining);
-  Step failed(std::string reason) const;
+  engine::Step failed(std::string reason) const;
 
   const Model& model_;
-  const Structure& structure_;
-  ConsistentMotion consistent_;
-  const Tolerance tolerance_;
+  const linear::SystemMatrices& structure_;
+  motion::ConsistentMotion consistent_;
+  const engine::Tolerance tolerance_;
   const double dt_;
   const bool linear_, doubling_;
   NewmarkStep step_;
-  NewmarkWorks works_;
-  Segment segment_;
+  NewmarkWorkIntegrals works_;
+  engine::Segment segment_;
   StepGuards guards_;
   bool settles_ = false;  // massless parts: their velocities follow from the equations
-  Point begin_, end_, inner_, fine_, coarse_;
+  motion::Point begin_, end_, inner_, fine_, coarse_;
   Vector a_before_;                  // at the beginning of the previous step; empty: none
   double inner_time_ = 0.0;          // time of inner_; NaN: not set
   double tried_ = 0.0;               // length of the step that ends at inner_; 0: none
@@ -117,4 +117,4 @@ class NewmarkEngine final : public Stepper, public DenseOutput {
   bool second_ = false;       // doubling: the second step of a pair
 };
 
-}  // namespace signorini
+}  // namespace signorini::newmark

@@ -9,12 +9,12 @@
 #include "decide/guard_signs.hpp"
 #include "linear/mass_factors.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 namespace {
 
 // Two lengths (dt, and what doubling compares it with) for each of 16 modes that a cycle comes back to; in
 // bytes as much as mode systems may take (motion/state_systems.hpp).
-constexpr CacheBounds most_kept{32, std::size_t{8} << 20};
+constexpr base::CacheBounds most_kept{32, std::size_t{8} << 20};
 
 // Cost ratio of a factorisation of a banded matrix, with the preparation of its factors, to a solve: 0.64 + 0.3 ms to
 // 0.045 ms at 3000 unknowns.
@@ -27,22 +27,22 @@ constexpr double left_of_rounding = rounding::eps / 16.0;  // relative error of 
 
 }  // namespace
 
-NewmarkStep::NewmarkStep(const Model& model, const Structure& structure, std::size_t widest_band)
+NewmarkStep::NewmarkStep(const Model& model, const linear::SystemMatrices& structure, std::size_t widest_band)
     : model_(model),
       structure_(structure),
-      own_kinds_(dof_kinds(model, structure)),
-      massless_(has_massless(model)),
+      own_kinds_(linear::dof_kinds(model, structure)),
+      massless_(linear::has_massless(model)),
       in_rows_{own_kinds_, {}},
-      workshop_(model, structure),
+      workspace_(model, structure),
       kept_(most_kept),
       odd_(model, structure),
-      economical_(is_economical(model, structure, odd_.shared_rows())),
+      economical_(linear::is_economical(model, structure, odd_.shared_rows())),
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = u_;
   x_.setZero(structure.size + model.force_count());
   work_ = x_;
-  if (economical_) condensed_ = CondensedRows::of(model, structure, widest_band);
+  if (economical_) condensed_ = linear::CondensedRows::of(model, structure, widest_band);
   if (!condensed_) return;
   kept_band_.emplace(*condensed_);
   odd_band_.emplace(*condensed_);
@@ -62,7 +62,7 @@ void NewmarkStep::set(Key key, std::shared_ptr<const std::vector<Rows>> rows) {
       if (!beside || key[k] != key_[k]) condensed_->put(k, (*rows_)[k]);
   }
   key_ = std::move(key);
-  if (massless_) in_rows_ = kinds_in_mode(own_kinds_, model_, *rows_);
+  if (massless_) in_rows_ = linear::kinds_in_mode(own_kinds_, model_, *rows_);
   last_ = nullptr;
   updates_ = false;
   spent_ = 0.0;
@@ -70,37 +70,39 @@ void NewmarkStep::set(Key key, std::shared_ptr<const std::vector<Rows>> rows) {
 
 void NewmarkStep::weigh(double h) {
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = in_rows_.kinds[i] == DofKind::massive  ? Weights{1.0, 0.5 * h, 0.25 * h * h}
-                  : in_rows_.kinds[i] == DofKind::damped ? Weights{0.0, 1.0, 0.5 * h}
-                                                         : Weights{0.0, 0.0, 1.0};
+    weights_[i] = in_rows_.kinds[i] == linear::DofKind::massive  ? linear::Weights{1.0, 0.5 * h, 0.25 * h * h}
+                  : in_rows_.kinds[i] == linear::DofKind::damped ? linear::Weights{0.0, 1.0, 0.5 * h}
+                                                                 : linear::Weights{0.0, 0.0, 1.0};
 }
 
 /// Pivots of other states can be reused if each contact's forces are their own pivots.
-bool NewmarkStep::factor(SystemMatrix& matrix, double h, bool fresh) {
+bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
   weigh(h);
-  return matrix.set(*rows_, weights_, fresh && !(economical_ && !own_forces(*rows_).empty()),
+  return matrix.set(*rows_, weights_, fresh && !(economical_ && !linear::own_forces(*rows_).empty()),
                     in_rows_.undamped);
 }
 
 /// Differences between the rows in force and the base rows, in the columns of the matrix at its length.
-std::vector<ChangedRow> NewmarkStep::changed_rows() const {
-  std::vector<ChangedRow> changed;
+std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
+  std::vector<linear::ChangedRow> changed;
   const auto n = static_cast<std::size_t>(structure_.size);
   const auto difference = [](const Form& a, const Form& b) {
     return Form{a.N - b.N,   a.T - b.T,   a.gap - b.gap, a.ut - b.ut,
                 a.vn - b.vn, a.vt - b.vt, a.an - b.an,   a.at - b.at};
   };
   const std::vector<Rows>& rows = *rows_;
-  for (std::size_t k = 0; k < rows.size() && changed.size() <= UpdatedFactors::most_rows; ++k)
+  for (std::size_t k = 0; k < rows.size() && changed.size() <= linear::UpdatedFactors::most_rows; ++k)
     for (const bool normal : {true, false}) {
       const Form d = normal ? difference(rows[k].normal, base_rows_[k].normal)
                             : difference(rows[k].tangent, base_rows_[k].tangent);
       if (d == Form{}) continue;
-      ChangedRow row{n + (normal ? model_.layout.normal(k) : model_.layout.tangent(k)), {}};
+      linear::ChangedRow row{n + (normal ? model_.layout.normal(k) : model_.layout.tangent(k)), {}};
       for (const auto& [dof, factor] : model_.contacts[k].normal.terms)
-        row.entries.emplace_back(dof, entry_of(d, factor, 0.0, weights_[static_cast<std::size_t>(dof)]));
+        row.entries.emplace_back(dof,
+                                 linear::entry_of(d, factor, 0.0, weights_[static_cast<std::size_t>(dof)]));
       for (const auto& [dof, factor] : model_.contacts[k].tangent.terms)
-        row.entries.emplace_back(dof, entry_of(d, 0.0, factor, weights_[static_cast<std::size_t>(dof)]));
+        row.entries.emplace_back(dof,
+                                 linear::entry_of(d, 0.0, factor, weights_[static_cast<std::size_t>(dof)]));
       row.entries.emplace_back(n + model_.layout.normal(k), d.N);
       row.entries.emplace_back(n + model_.layout.tangent(k), d.T);
       changed.push_back(std::move(row));
@@ -124,8 +126,8 @@ bool NewmarkStep::update(double h) {
 /// x_ := A^-1 x_ by factors of a band. False: there are none, and x_ is unchanged.
 bool NewmarkStep::solve_condensed(double h, bool kept) {
   if (!condensed_) return false;
-  const Weights weights{1.0, 0.5 * h, 0.25 * h * h};
-  CondensedMatrix& band =
+  const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
+  linear::CondensedMatrix& band =
       kept_band_->is_at(weights) || (kept && !odd_band_->is_at(weights)) ? *kept_band_ : *odd_band_;
   if (!band.set(weights)) return false;
   band.solve(x_.data());
@@ -133,9 +135,10 @@ bool NewmarkStep::solve_condensed(double h, bool kept) {
   return true;
 }
 
-const Point* NewmarkStep::near(std::size_t contact, const Forcing& forcing, const Point& from, double t1,
-                               double h, const Point& whole, double longer) {
-  if (!near_ || !condensed_->tell()) return nullptr;
+const motion::Point* NewmarkStep::near(std::size_t contact, const motion::Forcing& forcing,
+                                       const motion::Point& from, double t1, double h,
+                                       const motion::Point& whole, double longer) {
+  if (!near_ || !condensed_->note_known()) return nullptr;
   return near_->end(contact, forcing, *rows_, from, t1, h, whole, longer);
 }
 
@@ -156,8 +159,8 @@ bool NewmarkStep::solve_kept(double h) {
       return true;
     }
     if (last_ == nullptr) {
-      if (!factor(workshop_, h, true)) return false;
-      last_ = std::make_shared<const TriangularFactors>(workshop_.klu().factors());
+      if (!factor(workspace_, h, true)) return false;
+      last_ = std::make_shared<const linear::TriangularFactors>(workspace_.klu().factors());
       kept_.insert(place, last_, last_->bytes());
       if (economical_) {
         updated_.start(last_);
@@ -189,8 +192,8 @@ void NewmarkStep::take_rest(const Vector& b, const Vector& x, double h) {
     m.T = x[T];
     m.gap = contact.normal.dot(u_);
     m.ut = contact.tangent.dot(u_);
-    set_velocity(contact, v_, 0.0, m);
-    set_acceleration(contact, x, 0.0, m);
+    contact::set_velocity(contact, v_, 0.0, m);
+    contact::set_acceleration(contact, x, 0.0, m);
     for (const auto& [dof, factor] : contact.normal.terms) product_[dof] += factor * m.N;
     for (const auto& [dof, factor] : contact.tangent.terms) product_[dof] += factor * m.T;
     product_[N] += normal.rate(m);
@@ -247,29 +250,30 @@ bool NewmarkStep::solve_odd(double h) {
 }
 
 /// Known parts of the motion at the end of the step: u_ and v_.
-void NewmarkStep::know_motion(const Point& from, double h) {
+void NewmarkStep::know_motion(const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
-    const bool massive = in_rows_.kinds[i] == DofKind::massive, damped = in_rows_.kinds[i] == DofKind::damped;
+    const bool massive = in_rows_.kinds[i] == linear::DofKind::massive,
+               damped = in_rows_.kinds[i] == linear::DofKind::damped;
     u_.data()[i] = massive ? u0[i] + h * (v0[i] + 0.25 * h * a0[i]) : damped ? u0[i] + 0.5 * h * v0[i] : 0.0;
     v_.data()[i] = massive ? v0[i] + 0.5 * h * a0[i] : 0.0;
   }
-  for (const UndampedMotion& motion : in_rows_.undamped)
+  for (const linear::UndampedMotion& motion : in_rows_.undamped)
     for (const auto& [dof, factor] : motion.others)
       u_.data()[dof] -= factor * (u0[motion.dof] + 0.5 * h * v0[motion.dof]);
 }
 
-void NewmarkStep::read_motion(const Point& from, double h, Point& to) const {
+void NewmarkStep::read_motion(const motion::Point& from, double h, motion::Point& to) const {
   for (Vector* part : {&to.u, &to.v, &to.a}) part->resize(from.u.size());
   const double *u0 = from.u.data(), *v0 = from.v.data(), *x = x_.data();
   double *u1 = to.u.data(), *v1 = to.v.data(), *a1 = to.a.data();
   for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
     a1[i] = 0.0;
-    if (in_rows_.kinds[i] == DofKind::massive) {
+    if (in_rows_.kinds[i] == linear::DofKind::massive) {
       u1[i] = u_.data()[i] + 0.25 * h * h * x[i];
       v1[i] = v_.data()[i] + 0.5 * h * x[i];
       a1[i] = x[i];
-    } else if (in_rows_.kinds[i] == DofKind::damped) {
+    } else if (in_rows_.kinds[i] == linear::DofKind::damped) {
       u1[i] = u_.data()[i] + 0.5 * h * x[i];
       v1[i] = x[i];
     } else {
@@ -277,14 +281,15 @@ void NewmarkStep::read_motion(const Point& from, double h, Point& to) const {
       v1[i] = h > 0.0 ? 2.0 * (u1[i] - u0[i]) / h - v0[i] : v0[i];
     }
   }
-  for (const UndampedMotion& motion : in_rows_.undamped)
+  for (const linear::UndampedMotion& motion : in_rows_.undamped)
     for (const auto& [dof, factor] : motion.others) {
       u1[dof] += factor * u1[motion.dof];
       v1[dof] += factor * v1[motion.dof];
     }
 }
 
-bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, double h, bool kept, Point& to) {
+bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from, double t1, double h,
+                       bool kept, motion::Point& to) {
   const auto n = static_cast<std::size_t>(structure_.size);
   know_motion(from, h);
   // r = P - C v - K u
@@ -295,12 +300,12 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     ContactMotion m;  // known part only
-    set_place(contact, u_, forcing.surface(k, t1, 0), m);
-    set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
+    contact::set_place(contact, u_, forcing.surface(k, t1, 0), m);
+    contact::set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
-    m.pressing = forcing.pressing(k, t1, 0);
-    x_.data()[n + model_.layout.normal(k)] = -QuickForm(rows[k].normal).value(m);
-    x_.data()[n + model_.layout.tangent(k)] = -QuickForm(rows[k].tangent).value(m);
+    m.applied_normal_force = forcing.applied_normal_force(k, t1, 0);
+    x_.data()[n + model_.layout.normal(k)] = -decide::QuickForm(rows[k].normal).value(m);
+    x_.data()[n + model_.layout.tangent(k)] = -decide::QuickForm(rows[k].tangent).value(m);
   }
   if (!solve_condensed(h, kept)) {
     if (!(kept ? solve_kept(h) : solve_odd(h))) return false;
@@ -323,13 +328,14 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
 
 void NewmarkStep::count(Counters& counters) const {
   counters.solves = solves_ + updated_.solves();
-  counters.factorisations = odd_.klu().factorisations + workshop_.klu().factorisations +
+  counters.factorisations = odd_.klu().factorisations + workspace_.klu().factorisations +
                             (condensed_ ? kept_band_->factorisations + odd_band_->factorisations : 0);
-  counters.refactorisations = odd_.klu().refactorisations + workshop_.klu().refactorisations;
+  counters.refactorisations = odd_.klu().refactorisations + workspace_.klu().refactorisations;
 }
 
-void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a, double t0, const Point& b,
-                       double t1, double factor, Works& works) {
+void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::ContactStates& mode,
+                               const motion::Point& a, double t0, const motion::Point& b, double t1,
+                               double factor, motion::WorkIntegrals& works) {
   const double h = t1 - t0;
   if (!(h > 0.0)) return;
   du_ = b.u - a.u;
@@ -342,14 +348,16 @@ void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a,
     const Contact& contact = model_.contacts[k];
     const State state = mode[k].state;
     const double surface = forcing.surface(k, t1, 0) - forcing.surface(k, t0, 0);
-    const double slip = slip_of(contact, contact.tangent.dot(du_) - surface, b.T(layout, k) - a.T(layout, k));
+    const double slip =
+        contact::slip_of(contact, contact.tangent.dot(du_) - surface, b.T(layout, k) - a.T(layout, k));
     const ContactPath path{slip, surface, contact.normal.dot(du_), contact.normal.dot(v_), h};
     works.add(k,
-              work_on(contact, state, 0.5 * (a.N(layout, k) + b.N(layout, k)),
-                      0.5 * (a.T(layout, k) + b.T(layout, k)), path),
+              contact::work_on(contact, state, 0.5 * (a.N(layout, k) + b.N(layout, k)),
+                               0.5 * (a.T(layout, k) + b.T(layout, k)), path),
               factor);
     if (state == State::inside)
-      works.damping += factor * inside_loss(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
+      works.damping +=
+          factor * contact::inside_loss(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
   }
 }
 
@@ -450,4 +458,4 @@ double step_within(const Model& model, double begin, double end, double dt) {
   return parts > 1 ? std::min(dt, (end - begin) / static_cast<double>(parts)) : dt;
 }
 
-}  // namespace signorini
+}  // namespace signorini::newmark

@@ -28,7 +28,7 @@
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 
 /// Lengths that differ by less than this part of a step are equal: a slightly longer remainder of a segment is taken in
 /// one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
@@ -40,8 +40,8 @@ class NewmarkStep {
   using Key = std::vector<int>;
 
   /// widest_band: greatest width for which a matrix is factorised as a band.
-  NewmarkStep(const Model& model, const Structure& structure,
-              std::size_t widest_band = CondensedMatrix::widest);
+  NewmarkStep(const Model& model, const linear::SystemMatrices& structure,
+              std::size_t widest_band = linear::CondensedMatrix::widest);
 
   /// Puts rows in force.
   void set(Key key, std::vector<Rows> rows);
@@ -52,58 +52,59 @@ class NewmarkStep {
   [[nodiscard]] const std::vector<Rows>& rows() const { return *rows_; }
   /// Steps from `from` at t1 - h to `to` at t1. `kept`: steps of this length will recur, so their factorisation is
   /// kept. False: the matrix is singular.
-  [[nodiscard]] bool take(const Forcing& forcing, const Point& from, double t1, double h, bool kept,
-                          Point& to);
+  [[nodiscard]] bool take(const motion::Forcing& forcing, const motion::Point& from, double t1, double h,
+                          bool kept, motion::Point& to);
   /// End of such a step at one contact, computed from its neighbourhood: the rest of the point is invalid. whole: the
   /// end of the step of length `longer` from the same point. Null: no neighbourhood is available, or it would not save
   /// time.
-  [[nodiscard]] const Point* near(std::size_t contact, const Forcing& forcing, const Point& from, double t1,
-                                  double h, const Point& whole, double longer);
+  [[nodiscard]] const motion::Point* near(std::size_t contact, const motion::Forcing& forcing,
+                                          const motion::Point& from, double t1, double h,
+                                          const motion::Point& whole, double longer);
   /// The neighbourhood used by near() was too small: doubles its radius.
   void look_farther();
   void count(Counters& counters) const;
 
  private:
-  using Factors = std::shared_ptr<const TriangularFactors>;
+  using Factors = std::shared_ptr<const linear::TriangularFactors>;
   [[nodiscard]] bool solve_condensed(double h, bool kept);
   [[nodiscard]] bool solve_kept(double h);
   [[nodiscard]] bool solve_odd(double h);
-  [[nodiscard]] bool factor(SystemMatrix& matrix, double h, bool fresh);
+  [[nodiscard]] bool factor(linear::SystemMatrix& matrix, double h, bool fresh);
   void weigh(double h);
   [[nodiscard]] bool update(double h);
   [[nodiscard]] bool refine(double h);
-  [[nodiscard]] std::vector<ChangedRow> changed_rows() const;
+  [[nodiscard]] std::vector<linear::ChangedRow> changed_rows() const;
   void take_rest(const Vector& b, const Vector& x, double h);
-  void know_motion(const Point& from, double h);
-  void read_motion(const Point& from, double h, Point& to) const;
+  void know_motion(const motion::Point& from, double h);
+  void read_motion(const motion::Point& from, double h, motion::Point& to) const;
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   Key key_;
   std::shared_ptr<std::vector<Rows>> own_rows_;
   std::shared_ptr<const std::vector<Rows>> rows_;
-  const std::vector<DofKind> own_kinds_;  // kinds by the structure alone
+  const std::vector<linear::DofKind> own_kinds_;  // kinds by the structure alone
   const bool massless_;
-  MotionKinds in_rows_;  // unknown of each degree of freedom
-  SystemMatrix workshop_;
-  BoundedCache<std::pair<Key, double>, Factors> kept_;  // by rows and length
-  SystemMatrix odd_;                                    // matrix for a length that will not recur
+  linear::MotionKinds in_rows_;  // unknown of each degree of freedom
+  linear::SystemMatrix workspace_;
+  base::BoundedCache<std::pair<Key, double>, Factors> kept_;  // by rows and length
+  linear::SystemMatrix odd_;                                  // matrix for a length that will not recur
   Key odd_key_;
   double odd_h_ = 0.0;  // 0: no factors
   Factors last_;        // last used factors of a kept length; null after a change of rows
   double last_h_ = 0.0;
   const bool economical_;
-  std::optional<CondensedRows> condensed_;    // used if the band is narrow
-  std::optional<CondensedMatrix> kept_band_;  // band matrix for a length that recurs
-  std::optional<CondensedMatrix> odd_band_;   // for other lengths
-  std::optional<NearStep> near_;
-  UpdatedFactors updated_;       // rows in force as changes of base_rows_, both at base_h_
-  std::vector<Rows> base_rows_;  // rows of the base matrix
+  std::optional<linear::CondensedRows> condensed_;    // used if the band is narrow
+  std::optional<linear::CondensedMatrix> kept_band_;  // band matrix for a length that recurs
+  std::optional<linear::CondensedMatrix> odd_band_;   // for other lengths
+  std::optional<LocalStep> near_;
+  linear::UpdatedFactors updated_;  // rows in force as changes of base_rows_, both at base_h_
+  std::vector<Rows> base_rows_;     // rows of the base matrix
   double base_h_ = 0.0;
   bool updates_ = false;           // updated_ is in force, for last_h_
   double spent_ = 0.0;             // operations that its solves took since the rows changed
   Vector odd_x_, rest_, product_;  // the last solution at an odd length; scratch
-  std::vector<Weights> weights_;
+  std::vector<linear::Weights> weights_;
   Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
   long solves_ = 0;
 };
@@ -118,18 +119,18 @@ class NewmarkStep {
 // With these works the energy balance of a step holds to rounding: it is that of the trapezoidal rule, which conserves
 // the energy of a linear system.
 
-class NewmarkWorks {
+class NewmarkWorkIntegrals {
  public:
-  NewmarkWorks(const Model& model, const Structure& structure)
+  NewmarkWorkIntegrals(const Model& model, const linear::SystemMatrices& structure)
       : model_(model), structure_(structure), du_(model.size()), v_(model.size()) {}
 
   /// works += factor * the works of the step from `a` at t0 to `b` at t1, in one mode.
-  void add(const Forcing& forcing, const Mode& mode, const Point& a, double t0, const Point& b, double t1,
-           double factor, Works& works);
+  void add(const motion::Forcing& forcing, const contact::ContactStates& mode, const motion::Point& a,
+           double t0, const motion::Point& b, double t1, double factor, motion::WorkIntegrals& works);
 
  private:
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   Vector du_, v_;
 };
 
@@ -150,4 +151,4 @@ inline constexpr double short_of_steps = 16.0;
 /// considered.
 [[nodiscard]] double step_within(const Model& model, double begin, double end, double dt);
 
-}  // namespace signorini
+}  // namespace signorini::newmark

@@ -8,10 +8,10 @@
 #include "decide/guard_signs.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 
 StepGuards::StepGuards(const Model& model)
-    : model_(model), seen_(model.contacts.size()), before_(guard_count(model.contacts.size()), 1.0) {
+    : model_(model), seen_(model.contacts.size()), before_(contact::guard_count(model.contacts.size()), 1.0) {
   g0_ = g1_ = before_;
   rate0_.assign(before_.size(), 0.0);
   rate1_ = rate0_;
@@ -26,14 +26,14 @@ StepGuards::StepGuards(const Model& model)
   }
 }
 
-void StepGuards::start(const Segment& segment) {
+void StepGuards::start(const engine::Segment& segment) {
   const bool others = segment_.forcing != segment.forcing || !segment.same_forcing;
   segment_ = segment;
-  const Decision& decision = *segment.decision;
-  arming_.start(decision.guards);
+  const decide::Decision& decision = *segment.decision;
+  active_guards_.start(decision.guards);
   waiting_.clear();
-  for (std::size_t slot = 0; slot < arming_.size(); ++slot)
-    if (!arming_.idle(slot) && !arming_.armed(slot)) waiting_.push_back(slot);
+  for (std::size_t slot = 0; slot < active_guards_.size(); ++slot)
+    if (!active_guards_.idle(slot) && !active_guards_.armed(slot)) waiting_.push_back(slot);
   dismissed_.clear();
   const bool all = others || mode_.size() != decision.mode.size();
   mode_.resize(decision.mode.size());
@@ -42,22 +42,22 @@ void StepGuards::start(const Segment& segment) {
 }
 
 void StepGuards::gather(std::size_t k) {
-  const Decision& decision = *segment_.decision;
+  const decide::Decision& decision = *segment_.decision;
   const Rows& rows = decision.system->rows()[k];
   mode_[k] = decision.mode[k];
   Seen& seen = seen_[k];
   seen = {};
   // A neighbouring contact may hold a guard of a contact that sticks rigidly.
-  seen.plain = is_plain(rows.normal) && is_plain(rows.tangent) && rows.normal.vn == 0.0 &&
+  seen.plain = decide::is_plain(rows.normal) && decide::is_plain(rows.tangent) && rows.normal.vn == 0.0 &&
                !segment_.forcing->drives(k) && !model_.contacts[k].sticks_rigidly();
   seen.gap = model_.contacts[k].gap;
   seen.surface = segment_.forcing->surface(k, decision.jet.t, 0);
   seen.normal_gap = rows.normal.gap;
   seen.tangent_N = rows.tangent.N;
   seen.tangent_ut = rows.tangent.ut;
-  for (std::size_t i = 0; i < guards_per_contact; ++i) {
-    const std::size_t slot = guard_slot(k, i);
-    const bool idle = arming_.idle(slot);
+  for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
+    const std::size_t slot = contact::guard_slot(k, i);
+    const bool idle = active_guards_.idle(slot);
     has_rate_[slot] = !idle && rates_known(slot);
     for (std::vector<double>* values : {&before_, &g0_, &g1_}) (*values)[slot] = 1.0;
     rate0_[slot] = rate1_[slot] = 0.0;
@@ -65,7 +65,7 @@ void StepGuards::gather(std::size_t k) {
     if (idle) continue;
     seen.watched = true;
     const Form& f = decision.form(slot);
-    seen.plain = seen.plain && is_plain(f);
+    seen.plain = seen.plain && decide::is_plain(f);
     seen.accelerates = seen.accelerates || (has_rate_[slot] && (f.vn != 0.0 || f.vt != 0.0));
     seen.guards[i] = {f.N, f.T, f.gap, f.ut, f.vn, f.vt, f.constant};
   }
@@ -73,7 +73,7 @@ void StepGuards::gather(std::size_t k) {
 
 /// True if the derivative of the guard follows from displacements, velocities and accelerations.
 bool StepGuards::rates_known(std::size_t slot) const {
-  const std::size_t k = contact_of_guard(slot);
+  const std::size_t k = contact::contact_of_guard(slot);
   const Form& form = segment_.decision->form(slot);
   const Rows& rows = segment_.decision->system->rows()[k];
   const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
@@ -89,7 +89,7 @@ bool StepGuards::rates_known(std::size_t slot) const {
   return !accelerates || (!massless(model_.contacts[k].normal) && !massless(model_.contacts[k].tangent));
 }
 
-void StepGuards::weigh(const Point& point, double t) {
+void StepGuards::weigh(const motion::Point& point, double t) {
   for (std::size_t k = 0; k < seen_.size(); ++k) {
     if (!seen_[k].watched) continue;
     if (seen_[k].plain)
@@ -99,7 +99,7 @@ void StepGuards::weigh(const Point& point, double t) {
   }
 }
 
-void StepGuards::weigh_plain(std::size_t k, const Point& point) {
+void StepGuards::weigh_plain(std::size_t k, const motion::Point& point) {
   const Seen& seen = seen_[k];
   const double *u = point.u.data(), *v = point.v.data(), *a = point.a.data();
   double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, an = 0.0, at = 0.0;
@@ -117,29 +117,30 @@ void StepGuards::weigh_plain(std::size_t k, const Point& point) {
   ut -= seen.surface;
   const double N = point.N(model_.layout, k), T = point.T(model_.layout, k);
   const double dN = -(seen.normal_gap * vn), dT = -(seen.tangent_N * dN + seen.tangent_ut * vt);
-  for (std::size_t i = 0; i < guards_per_contact; ++i) {
+  for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
     const Plain& g = seen.guards[i];
-    const std::size_t slot = guard_slot(k, i);
+    const std::size_t slot = contact::guard_slot(k, i);
     g1_[slot] = g.constant + (g.N * N + g.T * T + g.gap * gap + g.ut * ut + g.vn * vn + g.vt * vt);
     if (has_rate_[slot]) rate1_[slot] = g.N * dN + g.T * dT + g.gap * vn + g.ut * vt + g.vn * an + g.vt * at;
   }
 }
 
-void StepGuards::weigh_any(std::size_t k, const Point& point, double t) {
-  const Forcing& forcing = *segment_.forcing;
-  const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
+void StepGuards::weigh_any(std::size_t k, const motion::Point& point, double t) {
+  const motion::Forcing& forcing = *segment_.forcing;
+  const ContactMotion m = motion::motion_of(model_.contacts[k], k, forcing, t, point);
   ContactMotion d;  // known part of the derivative
   d.gap = m.vn;
   d.ut = m.vt;
   d.vn = m.an;
   d.vt = m.at;
-  d.pressing = m.pressing_rate;
-  d.pressing_rate = forcing.pressing(k, t, 2);
+  d.applied_normal_force = m.applied_normal_force_rate;
+  d.applied_normal_force_rate = forcing.applied_normal_force(k, t, 2);
   const Rows& rows = segment_.decision->system->rows()[k];
-  d.N = -(rows.normal.gap * d.gap + rows.normal.vn * d.vn + rows.normal.pressing * d.pressing);
+  d.N = -(rows.normal.gap * d.gap + rows.normal.vn * d.vn +
+          rows.normal.applied_normal_force * d.applied_normal_force);
   d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // rates_known: no row of T has velocities
-  for (std::size_t slot = guard_slot(k, 0); slot < guard_slot(k + 1, 0); ++slot) {
-    if (arming_.idle(slot)) continue;
+  for (std::size_t slot = contact::guard_slot(k, 0); slot < contact::guard_slot(k + 1, 0); ++slot) {
+    if (active_guards_.idle(slot)) continue;
     const Form& form = segment_.decision->form(slot);
     g1_[slot] = form.value(m);
     if (has_rate_[slot]) rate1_[slot] = form.rate(d);
@@ -153,24 +154,25 @@ void StepGuards::turn() {
   dismissed_.clear();
 }
 
-double StepGuards::value(std::size_t slot, double t, const Point& point) const {
-  const std::size_t k = contact_of_guard(slot);
-  return segment_.decision->form(slot).value(motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
+double StepGuards::value(std::size_t slot, double t, const motion::Point& point) const {
+  const std::size_t k = contact::contact_of_guard(slot);
+  return segment_.decision->form(slot).value(
+      motion::motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
 }
 
-double StepGuards::level(std::size_t slot, double t, const Point& point) const {
-  const std::size_t k = contact_of_guard(slot);
-  const GuardStart& guard = segment_.decision->guards[slot];
-  return guard.noise + rounding::of_many * segment_.decision->form(slot).magnitude(
-                                               motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
+double StepGuards::level(std::size_t slot, double t, const motion::Point& point) const {
+  const std::size_t k = contact::contact_of_guard(slot);
+  const decide::GuardStart& guard = segment_.decision->guards[slot];
+  return guard.noise + rounding::of_many * segment_.decision->form(slot).magnitude(motion::motion_of(
+                                               model_.contacts[k], k, *segment_.forcing, t, point));
 }
 
 std::optional<double> StepGuards::dip(std::size_t slot, double h, double h_before) const {
   if (std::find(dismissed_.begin(), dismissed_.end(), slot) != dismissed_.end()) return std::nullopt;
-  GuardPath along = path(slot, h);
+  events::GuardPath along = path(slot, h);
   std::optional<double> x = has_rate(slot) ? along.dip() : std::nullopt;
   if (!x) {
-    rates_from_values(along, h, before_[slot], h_before);
+    events::rates_from_values(along, h, before_[slot], h_before);
     x = along.dip();
   }
   return x;
@@ -182,8 +184,8 @@ const std::vector<std::size_t>& StepGuards::noticed(double h, double h_before) {
     const double g0 = g0_[slot], g1 = g1_[slot];
     bool holds = g1 > 0.0 && g0 + h * rate0_[slot] / 3.0 > 0.0 && g1 - h * rate1_[slot] / 3.0 > 0.0;
     if (h_before > 0.0) {
-      GuardPath along{g0, g1};
-      rates_from_values(along, h, before_[slot], h_before);
+      events::GuardPath along{g0, g1};
+      events::rates_from_values(along, h, before_[slot], h_before);
       holds = holds && g0 + along.r0 / 3.0 > 0.0 && g1 - along.r1 / 3.0 > 0.0;
     }
     if (!holds) noticed_.push_back(slot);
@@ -195,11 +197,11 @@ const std::vector<std::size_t>& StepGuards::noticed(double h, double h_before) {
   return noticed_;
 }
 
-void StepGuards::see(double t, const Point& point) {
+void StepGuards::see(double t, const motion::Point& point) {
   std::erase_if(waiting_, [&](std::size_t slot) {
-    arming_.see(slot, g1_[slot], level(slot, t, point));
-    return arming_.armed(slot);
+    active_guards_.see(slot, g1_[slot], level(slot, t, point));
+    return active_guards_.armed(slot);
   });
 }
 
-}  // namespace signorini
+}  // namespace signorini::newmark

@@ -13,7 +13,7 @@
 #include "engine/stepper.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::newmark {
 
 class StepGuards {
  public:
@@ -21,19 +21,19 @@ class StepGuards {
 
   /// Takes the guards of a decision; its data must live as long as the guards are in force. The motion is not yet
   /// known.
-  void start(const Segment& segment);
+  void start(const engine::Segment& segment);
   /// Evaluates values and rates at the end of the step. The point, here and in level(), contains accelerations.
-  void weigh(const Point& point, double t);
+  void weigh(const motion::Point& point, double t);
   /// Moves on to the next step: values at the end of this step become those at its beginning, and dismissed dips count
   /// again.
   void turn();
 
-  [[nodiscard]] const Arming& arming() const { return arming_; }
-  [[nodiscard]] double value(std::size_t slot, double t, const Point& point) const;
+  [[nodiscard]] const events::ActiveGuards& active_guards() const { return active_guards_; }
+  [[nodiscard]] double value(std::size_t slot, double t, const motion::Point& point) const;
   /// Below this value the guard's sign at `point` is rounding.
-  [[nodiscard]] double level(std::size_t slot, double t, const Point& point) const;
+  [[nodiscard]] double level(std::size_t slot, double t, const motion::Point& point) const;
   /// Values and rates at both ends of a step of length h.
-  [[nodiscard]] GuardPath path(std::size_t slot, double h) const {
+  [[nodiscard]] events::GuardPath path(std::size_t slot, double h) const {
     return {g0_[slot], g1_[slot], h * rate0_[slot], h * rate1_[slot]};
   }
   [[nodiscard]] bool has_rate(std::size_t slot) const { return has_rate_[slot] != 0; }
@@ -45,7 +45,7 @@ class StepGuards {
   /// Slots that a step of length h has to examine, ascending; all other guards stay positive in it.
   [[nodiscard]] const std::vector<std::size_t>& noticed(double h, double h_before);
   /// Called at the end of a step without further events: waiting guards may become armed.
-  void see(double t, const Point& point);
+  void see(double t, const motion::Point& point);
 
  private:
   /// The nonzero coefficients of a guard, and whether it is one.
@@ -59,23 +59,23 @@ class StepGuards {
     bool accelerates = false;         // a rate needs accelerations
     double gap = 0.0, surface = 0.0;  // constant values
     double normal_gap = 0.0, tangent_N = 0.0, tangent_ut = 0.0;
-    std::array<Plain, guards_per_contact> guards{};
+    std::array<Plain, contact::guards_per_contact> guards{};
   };
   struct Term {
     std::size_t dof;
     double n, t;
   };
   void gather(std::size_t contact);
-  void weigh_plain(std::size_t contact, const Point& point);
-  void weigh_any(std::size_t contact, const Point& point, double t);
+  void weigh_plain(std::size_t contact, const motion::Point& point);
+  void weigh_any(std::size_t contact, const motion::Point& point, double t);
   [[nodiscard]] bool rates_known(std::size_t slot) const;
 
   const Model& model_;
   std::vector<Term> terms_;           // contact by contact
   std::vector<std::size_t> ends_{0};  // end of each contact's terms
-  Segment segment_;
-  Mode mode_;  // states at the last gather()
-  Arming arming_;
+  engine::Segment segment_;
+  contact::ContactStates mode_;  // states at the last gather()
+  events::ActiveGuards active_guards_;
   std::vector<Seen> seen_;  // one entry for each contact
   std::vector<double> before_, g0_, g1_, rate0_,
       rate1_;  // one entry for each slot; before_: at the beginning of the previous step
@@ -83,4 +83,4 @@ class StepGuards {
   std::vector<std::size_t> waiting_, dismissed_, noticed_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::newmark

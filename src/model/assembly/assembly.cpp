@@ -8,7 +8,7 @@
 #include "model/assembly/prestress.hpp"
 #include "model/assembly/ties.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 namespace {
 
 constexpr double printed_digits = 1e-9;  // relative to the largest entry: smaller differences count as
@@ -98,9 +98,9 @@ struct Builder {
   }
 
   void add_element(std::size_t number) {
-    const FiniteElement& e = map.mesh.element(number);
+    const element::FiniteElement& e = map.mesh.element(number);
     const std::vector<int> numbers = map.element_numbers(number);
-    const ElementMatrix m = e.mass();
+    const element::ElementMatrix m = e.mass();
     if (!map.within_body(e)) add(stiffness, &SupportColumns::stiffness, e.stiffness(), numbers);
     if (const auto moved = map.mesh.moved.find(number); moved != map.mesh.moved.end())
       return add_moved_mass(m, moved->second);
@@ -113,10 +113,10 @@ struct Builder {
   }
 
   /// W^T m W; W maps rigid translations to themselves, so weight and base motion act on the whole mass.
-  void add_moved_mass(const ElementMatrix& m, const MovedMass& moved) {
+  void add_moved_mass(const element::ElementMatrix& m, const element::MovedMass& moved) {
     std::vector<int> numbers;
-    ElementVector gravity(static_cast<Eigen::Index>(2 * moved.nodes.size()));
-    std::vector<ElementVector> along(base.size(), gravity);
+    element::ElementVector gravity(static_cast<Eigen::Index>(2 * moved.nodes.size()));
+    std::vector<element::ElementVector> along(base.size(), gravity);
     for (std::size_t i = 0; i < moved.nodes.size(); ++i)
       for (std::size_t c = 0; c < 2; ++c) {
         const auto at = static_cast<Eigen::Index>(2 * i + c);
@@ -124,7 +124,7 @@ struct Builder {
         gravity[at] = scene.gravity[c];
         for (std::size_t k = 0; k < base.size(); ++k) along[k][at] = scene.base_motion[k].direction.vector[c];
       }
-    const ElementMatrix own = moved.weights.transpose() * m * moved.weights;
+    const element::ElementMatrix own = moved.weights.transpose() * m * moved.weights;
     add(mass, &SupportColumns::mass, own, numbers);
     add_inertia(own * gravity, numbers, [&](int n, double force) { add_weight(n, force); });
     for (std::size_t k = 0; k < base.size(); ++k)
@@ -133,8 +133,8 @@ struct Builder {
 
   /// Adds the geometric stiffness to every structure that holds stiffnesses.
   void add_geometric(std::size_t number) {
-    const FiniteElement& e = map.mesh.element(number);
-    const AxialForces forces = map.frozen_in(number);
+    const element::FiniteElement& e = map.mesh.element(number);
+    const element::AxialForces forces = map.frozen_in(number);
     if (forces.none() || map.within_body(e)) return;
     add(stiffness, &SupportColumns::stiffness, e.geometric(forces), map.element_numbers(number));
   }
@@ -154,13 +154,13 @@ struct Builder {
 
   /// M r a, with r a the acceleration of all translations, number by number.
   template <class Add>
-  void add_inertia(const ElementVector& forces, const std::vector<int>& numbers, const Add& add_to) {
+  void add_inertia(const element::ElementVector& forces, const std::vector<int>& numbers, const Add& add_to) {
     for (std::size_t i = 0; i < numbers.size(); ++i) add_to(numbers[i], forces[static_cast<Eigen::Index>(i)]);
   }
 
   void add_mass(const PointMass& m, const std::string& key) {
     if (!(m.mass >= 0.0) || !(m.inertia >= 0.0)) throw SceneError(m.place, key, "a mass cannot be negative");
-    const std::array<int, 3> numbers = map.numbers_at(find_node(map.mesh, m.node, m.place, key));
+    const std::array<int, 3> numbers = map.numbers_at(element::find_node(map.mesh, m.node, m.place, key));
     const Eigen::Vector3d values(m.mass, m.mass, m.inertia);
     add(mass, &SupportColumns::mass, Eigen::Matrix3d(values.asDiagonal()), numbers);
     for (std::size_t c = 0; c < 2; ++c) {
@@ -174,9 +174,9 @@ struct Builder {
     const auto d = clean_direction(s.direction);
     const double length = std::hypot(d[0], d[1]);
     if (!(length > 0.0)) throw SceneError(s.place, key + ".direction", "a spring needs a direction");
-    const auto na = map.numbers_at(find_node(map.mesh, s.node, s.place, key));
+    const auto na = map.numbers_at(element::find_node(map.mesh, s.node, s.place, key));
     std::array<int, 3> nb{-1, -1, -1};
-    if (!s.against.empty()) nb = map.numbers_at(find_node(map.mesh, s.against, s.place, key));
+    if (!s.against.empty()) nb = map.numbers_at(element::find_node(map.mesh, s.against, s.place, key));
     const std::array<int, 4> numbers{na[0], na[1], nb[0], nb[1]};
     if (any_tied(map, numbers.data(), 4)) return add_tied_spring(s, d, na, nb);
     const Eigen::Vector4d a = Eigen::Vector4d(d[0], d[1], -d[0], -d[1]) / length;
@@ -257,4 +257,4 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
           builder.weight,       std::move(builder.base), std::move(builder.moving)};
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

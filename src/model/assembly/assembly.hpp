@@ -10,7 +10,7 @@
 #include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 /// Forces on the free degrees of freedom by a unit motion of a support: columns of M_fs, dampers, K_fs.
 struct SupportColumns {
@@ -30,4 +30,4 @@ struct Assembly {
 /// Matrices from files. Errors: SceneError for wrong sizes, or if M or K is not symmetric.
 [[nodiscard]] Assembly assemble_matrices(const Scene& scene, const DofMap& map);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

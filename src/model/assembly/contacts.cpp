@@ -10,7 +10,7 @@
 #include "scene/history_from_spec.hpp"
 #include "scene/saved_state.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 namespace {
 
 Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
@@ -30,7 +30,7 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
 void check_gap(const ContactSpec& spec, const Contact& contact) {
   if (!spec.normal)
     throw SceneError(spec.place, spec.key("normal"),
-                     fmt::format("a {} contact needs a normal", to_string(spec.law)));
+                     fmt::format("a {} contact needs a normal", contact::to_string(spec.law)));
   if (contact.normal.terms.empty())
     throw SceneError(spec.place, spec.key("normal"), "a support fixes all motion along the normal");
   if (contact.has_friction() && contact.tangent.terms.empty())
@@ -64,7 +64,7 @@ void check_friction_by_force(const ContactSpec& spec) {
 /// Checks the rows and guards of a user law.
 void check_own(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
-  const OwnLaw& law = *spec.own;
+  const UserContactLaw& law = *spec.own;
   if (!spec.capabilities().normal_spring)
     refuse("a law of one's own stands in place of that of a compliant contact");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
@@ -84,7 +84,7 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
     throw SceneError(spec.place, spec.key("tangent"), "a slider needs a tangent");
   if (contact.tangent.terms.empty())
     throw SceneError(spec.place, spec.key("tangent"), "a support fixes all motion along the tangent");
-  if (const double t = negative_at(contact.normal_force, t_end); t >= 0.0)
+  if (const double t = history::negative_at(contact.normal_force, t_end); t >= 0.0)
     throw SceneError(spec.normal_force.place, spec.key("normal_force"),
                      fmt::format("found {:.6g} at time {:.6g}, expected a compression >= 0",
                                  contact.normal_force.value(t), t));
@@ -127,16 +127,16 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
       if (spec.own) check_own(spec, scene);
       if (c.normal_spring()) check_compliant(spec, c);
     } else {
-      c.normal_force = make_history(spec.normal_force, spec.key("normal_force"));
+      c.normal_force = scene::make_history(spec.normal_force, spec.key("normal_force"));
       check_slider(spec, c, scene.run.t_end);
     }
-    c.surface_motion = make_integral(spec.surface_velocity, spec.key("surface_velocity"));
+    c.surface_motion = scene::make_integral(spec.surface_velocity, spec.key("surface_velocity"));
     if (const auto& saved = scene.initial.saved)
-      if (const auto moved = saved_motion(*saved, c.name + ".surface"))
+      if (const auto moved = scene::saved_motion(*saved, c.name + ".surface"))
         c.surface_motion = c.surface_motion.scaled(1.0, *moved);
     contacts.push_back(std::move(c));
   }
   return contacts;
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -8,10 +8,10 @@
 #include "model/assembly/assembly.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 /// Errors: SceneError for a contact that can never act, for friction without tangential stiffness under `compliant`,
 /// and for a normal force that is known to become tensile before t_end.
 [[nodiscard]] std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -8,7 +8,7 @@
 #include "model/assembly/ties.hpp"
 #include "scene/components.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 namespace {
 
 using Numbers = std::vector<std::array<int, 3>>;
@@ -18,24 +18,24 @@ void need(Numbers& numbers, int node, const std::array<double, 2>& direction) {
     if (direction[c] != 0.0) numbers[static_cast<std::size_t>(node)][c] = DofMap::needed;
 }
 
-void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
+void mark_needed(const Scene& scene, const element::Mesh& mesh, Numbers& numbers) {
   for (const auto& e : mesh.elements)
-    for (const ElementUnknown& unknown : e->unknowns())
+    for (const element::ElementUnknown& unknown : e->unknowns())
       if (!unknown.own)
         numbers[static_cast<std::size_t>(e->nodes()[unknown.place])][unknown.component] = DofMap::needed;
   for (std::size_t i = 0; i < scene.masses.size(); ++i) {
     const PointMass& m = scene.masses[i];
-    const int node =
-        find_node(mesh, m.node, m.place, m.key.empty() ? fmt::format("masses.{}.node", i + 1) : m.key);
+    const int node = element::find_node(mesh, m.node, m.place,
+                                        m.key.empty() ? fmt::format("masses.{}.node", i + 1) : m.key);
     if (m.mass > 0.0) need(numbers, node, {1.0, 1.0});
     if (m.inertia > 0.0) numbers[static_cast<std::size_t>(node)][2] = DofMap::needed;
   }
   for (const RigidBody& body : scene.rigid) {
     const std::string key = "rigid." + body.name + ".";
-    numbers[static_cast<std::size_t>(find_node(mesh, body.centre, body.place, key + "centre"))].fill(
+    numbers[static_cast<std::size_t>(element::find_node(mesh, body.centre, body.place, key + "centre"))].fill(
         DofMap::needed);
     for (const std::string& name : body.nodes)
-      numbers[static_cast<std::size_t>(find_node(mesh, name, body.place, key + "nodes"))].fill(
+      numbers[static_cast<std::size_t>(element::find_node(mesh, name, body.place, key + "nodes"))].fill(
           DofMap::needed);
   }
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
@@ -47,15 +47,16 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
       if (pulls || !turns) need(numbers, node, d);
       if (turns) numbers[static_cast<std::size_t>(node)][2] = DofMap::needed;
     };
-    need_end(find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)));
+    need_end(element::find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)));
     if (!s.against.empty())
-      need_end(find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)));
+      need_end(element::find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)));
   }
   for (const ContactSpec& c : scene.contacts) {
     const auto need_all = [&](const Direction& at, const std::array<double, 2>& direction) {
-      need(numbers, find_node(mesh, at.node, c.place, c.key("node")), direction);
+      need(numbers, element::find_node(mesh, at.node, c.place, c.key("node")), direction);
       for (const auto& [node, weight] : at.against)
-        if (weight != 0.0) need(numbers, find_node(mesh, node, c.place, c.key("against")), direction);
+        if (weight != 0.0)
+          need(numbers, element::find_node(mesh, node, c.place, c.key("against")), direction);
     };
     if (const Direction* n = c.bearing_normal()) need_all(*n, clean_direction(n->vector));
     // A contact without friction takes no tangential force, so it needs no tangential motion either.
@@ -82,13 +83,13 @@ void add_columns(DofMap& map) {
 /// Lets the single component that support i fixes follow the support's motion.
 void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool, 3>& fix) {
   const std::string key = s.key + ".motion";
-  auto& moving = map.moving[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, key))];
+  auto& moving = map.moving[static_cast<std::size_t>(element::find_node(map.mesh, s.node, s.place, key))];
   for (std::size_t c = 0; c < 3; ++c) {
     if (!fix[c]) continue;
     if (moving[c] >= 0)
       throw SceneError(s.place, key,
                        fmt::format("the {} of node '{}' follows another support's motion already",
-                                   plane_components[c].displacement, s.node));
+                                   scene::plane_components[c].displacement, s.node));
     moving[c] = static_cast<int>(map.supports.size());
   }
   map.supports.push_back(i);
@@ -104,19 +105,19 @@ void check_moving(const Scene& scene, const DofMap& map) {
       if (fix[c] && !s.motion && moving[c] >= 0)
         throw SceneError(s.place, s.key + ".fix",
                          fmt::format("the {} of node '{}' follows another support's motion",
-                                     plane_components[c].displacement, s.node));
+                                     scene::plane_components[c].displacement, s.node));
   }
 }
 
 /// Numbers the elements' own degrees of freedom: "A-B.A.rz", a hinged end.
 void add_own(DofMap& map) {
-  for (const MeshPiece& piece : map.mesh.pieces) {
+  for (const element::MeshPiece& piece : map.mesh.pieces) {
     const std::string& from = map.mesh.node(piece.from).name;
     const std::string& to = map.mesh.node(piece.to).name;
     for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) {
-      const FiniteElement& element = map.mesh.element(i);
+      const element::FiniteElement& element = map.mesh.element(i);
       if (!element.has_own()) continue;
-      const std::vector<ElementUnknown> unknowns = element.unknowns();
+      const std::vector<element::ElementUnknown> unknowns = element.unknowns();
       for (std::size_t j = 0; j < unknowns.size(); ++j) {
         if (!unknowns[j].own) continue;
         const int node = element.nodes()[unknowns[j].place];
@@ -124,8 +125,9 @@ void add_own(DofMap& map) {
         map.own[{i, j}] = map.size();
         map.where.emplace_back(node, static_cast<int>(c));
         const std::string name = fmt::format("{}-{}.{}.", from, to, map.mesh.node(node).name);
-        map.dofs.push_back({name + plane_components[c].displacement, name + plane_components[c].velocity,
-                            plane_components[c].rotation, false});
+        map.dofs.push_back({name + scene::plane_components[c].displacement,
+                            name + scene::plane_components[c].velocity, scene::plane_components[c].rotation,
+                            false});
       }
     }
   }
@@ -154,9 +156,9 @@ void refuse_turn(const SourcePlace& place, const std::string& key, const std::st
                   node));
 }
 
-DofMap number_nodes(const Scene& scene) { return number_nodes(scene, make_mesh(scene)); }
+DofMap number_nodes(const Scene& scene) { return number_nodes(scene, element::make_mesh(scene)); }
 
-DofMap number_nodes(const Scene& scene, Mesh mesh) {
+DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
   DofMap map;
   map.mesh = std::move(mesh);
   map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
@@ -165,7 +167,7 @@ DofMap number_nodes(const Scene& scene, Mesh mesh) {
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
     auto& numbers =
-        map.number[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, s.key + ".node"))];
+        map.number[static_cast<std::size_t>(element::find_node(map.mesh, s.node, s.place, s.key + ".node"))];
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     if (s.motion && s.rz && numbers[2] == DofMap::absent)
       refuse_turn(s.place, s.key + (s.motion_is_acceleration ? ".acceleration" : ".motion"), s.node);
@@ -182,8 +184,9 @@ DofMap number_nodes(const Scene& scene, Mesh mesh) {
       const std::string& name = map.mesh.nodes[node].name;
       map.number[node][c] = map.size();
       map.where.emplace_back(static_cast<int>(node), static_cast<int>(c));
-      map.dofs.push_back({name + "." + plane_components[c].displacement,
-                          name + "." + plane_components[c].velocity, plane_components[c].rotation, false});
+      map.dofs.push_back({name + "." + scene::plane_components[c].displacement,
+                          name + "." + scene::plane_components[c].velocity,
+                          scene::plane_components[c].rotation, false});
     }
   add_own(map);
   tie(bodies, map);
@@ -192,7 +195,9 @@ DofMap number_nodes(const Scene& scene, Mesh mesh) {
   return map;
 }
 
-bool DofMap::within_body(const FiniteElement& e) const { return !e.has_own() && in_one_body(e.nodes()); }
+bool DofMap::within_body(const element::FiniteElement& e) const {
+  return !e.has_own() && in_one_body(e.nodes());
+}
 
 bool DofMap::in_one_body(const std::vector<int>& nodes) const {
   const int owner = body[static_cast<std::size_t>(nodes.front())];
@@ -203,7 +208,7 @@ bool DofMap::in_one_body(const std::vector<int>& nodes) const {
 
 void DofMap::tie(int node, std::size_t c, std::vector<TiedTerm> terms) {
   number[static_cast<std::size_t>(node)][c] = size() + static_cast<int>(tied.size());
-  const PlaneComponent& component = plane_components[c];
+  const scene::PlaneComponent& component = scene::plane_components[c];
   const std::string name = mesh.node(node).name + ".";
   tied.push_back({{name + component.displacement, name + component.velocity, component.rotation, false},
                   std::move(terms)});
@@ -235,8 +240,8 @@ std::array<int, 3> DofMap::numbers_at(int node) const {
 }
 
 std::vector<int> DofMap::element_numbers(std::size_t i) const {
-  const FiniteElement& e = mesh.element(i);
-  const std::vector<ElementUnknown> unknowns = e.unknowns();
+  const element::FiniteElement& e = mesh.element(i);
+  const std::vector<element::ElementUnknown> unknowns = e.unknowns();
   std::vector<int> numbers;
   numbers.reserve(unknowns.size());
   for (std::size_t j = 0; j < unknowns.size(); ++j)
@@ -274,7 +279,7 @@ Combination combination(const DofMap& map, const Direction& direction, const std
   const double length = std::hypot(vector[0], vector[1]);
   TiedForm form(map);
   const auto add = [&](const std::string& name, double weight) {
-    const int node = find_node(map.mesh, name, direction.place, key);
+    const int node = element::find_node(map.mesh, name, direction.place, key);
     for (std::size_t c = 0; c < 2; ++c) {
       if (vector[c] == 0.0 || weight == 0.0) continue;
       const int d = map.number[static_cast<std::size_t>(node)][c];
@@ -330,7 +335,7 @@ namespace {
 constexpr double at_rest = 1e-3;  // relative; a null motion of a fine mesh has few digits
 
 struct NodeMotion {
-  const MeshNode* node;
+  const element::MeshNode* node;
   double x, y, turn;
   bool turns;  ///< the node has a rotation
 };
@@ -444,4 +449,4 @@ std::string describe_motion(const Vector& motion, const DofMap& map) {
   return largest_name(motion, map, size, false);
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

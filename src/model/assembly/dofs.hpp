@@ -17,7 +17,7 @@
 #include "model/element/mesh.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 /// Term of a tied motion: factor times a degree of freedom, or times a moving support (its code).
 struct TiedTerm {
@@ -34,7 +34,7 @@ struct TiedDof {
 struct DofMap {
   static constexpr int absent = -1, fixed = -2, needed = 0;  // needed: while numbers are assigned
 
-  Mesh mesh;                               ///< empty in matrix scenes
+  element::Mesh mesh;                      ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
   std::map<std::pair<std::size_t, std::size_t>, int>
       own;                                 ///< elements' own unknowns: element, index into unknowns()
@@ -42,14 +42,14 @@ struct DofMap {
                                            ///< `absent`
   std::vector<std::size_t> supports;       ///< moving supports: indices into Scene::supports
   std::vector<Dof> dofs;
-  std::vector<std::pair<int, int>> where;  ///< per degree of freedom: mesh node, component
-  std::vector<int> body;                   ///< per mesh node: index into Scene::rigid, or `absent`
-  std::vector<AxialForces> frozen;         ///< per element: its frozen axial forces (prestress.hpp); empty:
-                                           ///< none
+  std::vector<std::pair<int, int>> where;    ///< per degree of freedom: mesh node, component
+  std::vector<int> body;                     ///< per mesh node: index into Scene::rigid, or `absent`
+  std::vector<element::AxialForces> frozen;  ///< per element: its frozen axial forces (prestress.hpp); empty:
+                                             ///< none
   std::vector<double> body_stiffness;  ///< per rigid body: stiffness of its frozen forces (prestress.hpp);
                                        ///< empty: none
   std::vector<TiedDof> tied;           ///< for the numbers size(), size() + 1, ...
-  std::vector<Column> columns;
+  std::vector<signorini::Column> columns;
   double shown_length = 1.0;  ///< length shown in names of motions, per length here
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
@@ -59,7 +59,7 @@ struct DofMap {
   [[nodiscard]] static int moving_of_code(int code) { return -3 - code; }
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
   /// True if all nodes move with one rigid body and no unknown is the element's own: the element is not strained.
-  [[nodiscard]] bool within_body(const FiniteElement& e) const;
+  [[nodiscard]] bool within_body(const element::FiniteElement& e) const;
   /// True if all of these mesh nodes move with one rigid body.
   [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
   /// Makes component c of a mesh node follow these terms.
@@ -72,8 +72,8 @@ struct DofMap {
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// Numbers, `fixed`, `absent`, or codes of moving supports.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
-  [[nodiscard]] AxialForces frozen_in(std::size_t element) const {
-    return frozen.empty() ? AxialForces{} : frozen[element];
+  [[nodiscard]] element::AxialForces frozen_in(std::size_t element) const {
+    return frozen.empty() ? element::AxialForces{} : frozen[element];
   }
   /// Numbers of the element's unknowns, coded in the same way.
   [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
@@ -90,7 +90,7 @@ struct DofMap {
 
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
 /// mesh: mesh of the scene, or one with additional element types.
-[[nodiscard]] DofMap number_nodes(const Scene& scene, Mesh mesh);
+[[nodiscard]] DofMap number_nodes(const Scene& scene, element::Mesh mesh);
 /// Throws the error for a moment or a rotation at a node without rotation.
 [[noreturn]] void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node);
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
@@ -126,4 +126,4 @@ struct DofMap {
 /// Largest displacement of a node (matrix scenes: the largest component).
 [[nodiscard]] double greatest_translation(const Vector& motion, const DofMap& map);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -14,7 +14,7 @@
 #include "scene/quantities.hpp"
 #include "scene/saved_state.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 namespace {
 
 Combination form_of(const Vector& v, double factor) {
@@ -31,7 +31,7 @@ bool holds_since_ever(const HistorySpec& spec, const History& history) {
 
 Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& key) {
   Vector form = Vector::Zero(map.size());
-  const int node = find_node(map.mesh, spec.direction.node, spec.place, key + ".node");
+  const int node = element::find_node(map.mesh, spec.direction.node, spec.place, key + ".node");
   const int dof = map.number[static_cast<std::size_t>(node)][2];
   if (dof == DofMap::absent) refuse_turn(spec.direction.place, key + ".node", spec.direction.node);
   map.add(form, dof, 1.0);
@@ -39,7 +39,7 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
 }
 
 /// Forces on the unknowns of an element.
-void add_to(Vector& form, const ElementVector& forces, const DofMap& map, std::size_t element) {
+void add_to(Vector& form, const element::ElementVector& forces, const DofMap& map, std::size_t element) {
   const std::vector<int> numbers = map.element_numbers(element);
   for (std::size_t i = 0; i < numbers.size(); ++i)
     map.add(form, numbers[i], forces[static_cast<Eigen::Index>(i)]);
@@ -47,7 +47,7 @@ void add_to(Vector& form, const ElementVector& forces, const DofMap& map, std::s
 
 /// Adds the nodal forces of a unit force per length on one element.
 void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, bool backwards, Vector& form) {
-  const LineElement& e = map.mesh.line(element);
+  const element::LineElement& e = map.mesh.line(element);
   add_to(form, e.spread(along_line(spec, e.axis(), backwards)), map, element);
 }
 
@@ -86,8 +86,8 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
   const std::string key = fmt::format("loads.{}", number);
   Load load;
   load.name = name_of(spec, number);
-  load.history = finite(make_history(spec.history, key + ".history").scaled(spec.amplitude), spec.place,
-                        key + ".amplitude");
+  load.history = finite(scene::make_history(spec.history, key + ".history").scaled(spec.amplitude),
+                        spec.place, key + ".amplitude");
   load.is_static = holds_since_ever(spec.history, load.history);
   load.of_history = unit_of_history(spec.type);
   switch (spec.type) {
@@ -114,13 +114,13 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
 }
 
 /// Rounding of node coordinates in the forces of an element, in eps: its directions are differences of coordinates.
-double rounded_by_places(const DofMap& map, const FiniteElement& e) {
+double rounded_by_places(const DofMap& map, const element::FiniteElement& e) {
   double reach = 0.0, least = std::numeric_limits<double>::infinity();
   for (const int i : e.nodes()) {
-    const MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(i)];
+    const element::MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(i)];
     reach = std::max(reach, std::hypot(a.x, a.y));
     for (const int j : e.nodes()) {
-      const MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(j)];
+      const element::MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(j)];
       if (i < j) least = std::min(least, std::hypot(a.x - b.x, a.y - b.y));
     }
   }
@@ -132,9 +132,9 @@ double rounded_by_places(const DofMap& map, const FiniteElement& e) {
 Combination strain_form(const DofMap& map, int member) {
   Vector form = Vector::Zero(map.size()), size = form;
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
-    const FiniteElement& e = map.mesh.element(i);
+    const element::FiniteElement& e = map.mesh.element(i);
     if (e.member() != member || map.within_body(e)) continue;
-    const ElementVector forces = e.strain_forces();
+    const element::ElementVector forces = e.strain_forces();
     const double known = 1.0 + rounded_by_places(map, e);
     add_to(form, forces, map, i);
     const std::vector<int> numbers = map.element_numbers(i);
@@ -151,7 +151,7 @@ void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>
     const BodySpec& body = scene.bodies[i];
     const std::string path = fmt::format("bodies.{}.temperature", body.name);
     const History history =
-        finite(make_history(body.temperature, path).scaled(body.thermal_expansion), body.place, path);
+        finite(scene::make_history(body.temperature, path).scaled(body.thermal_expansion), body.place, path);
     if (history.is_constant() && history.value(0.0) == 0.0) continue;
     const auto owner = static_cast<int>(scene.members.size() + i);
     Load load{fmt::format("temperature of body {}", body.name), strain_form(map, owner), history,
@@ -168,7 +168,7 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
     const Member& member = scene.members[i];
     const auto add = [&](LoadKind kind, const char* key, const HistorySpec& spec, double factor) {
       const std::string path = fmt::format("members.{}.{}", i + 1, key);
-      const History history = finite(make_history(spec, path).scaled(factor), member.place, path);
+      const History history = finite(scene::make_history(spec, path).scaled(factor), member.place, path);
       if (history.is_constant() && history.value(0.0) == 0.0) return;
       Load load{name_of_strain(kind, static_cast<int>(i)), strain_form(map, static_cast<int>(i)), history,
                 holds_since_ever(spec, history)};
@@ -202,7 +202,8 @@ void add_base(const Scene& scene, const Assembly& assembly, std::vector<Load>& l
   const std::size_t count = scene.base_motion.size();
   for (std::size_t i = 0; i < count; ++i) {
     const std::string key = count == 1 ? "base_motion" : fmt::format("base_motion.{}", i + 1);
-    const History acceleration = make_history(scene.base_motion[i].acceleration, key + ".acceleration");
+    const History acceleration =
+        scene::make_history(scene.base_motion[i].acceleration, key + ".acceleration");
     Load load{count == 1 ? "base motion" : fmt::format("base motion {}", i + 1),
               form_of(assembly.base[i], 1.0), acceleration.scaled(-1.0), false};
     load.kind = LoadKind::base;
@@ -221,7 +222,7 @@ double jump_of(const History& f, double t_end) {
 
 /// Position of the support at the end of the run that this one continues; 0 if there is none.
 double last_motion(const Scene& scene, const std::string& name) {
-  return scene.initial.saved ? saved_motion(*scene.initial.saved, name).value_or(0.0) : 0.0;
+  return scene.initial.saved ? scene::saved_motion(*scene.initial.saved, name).value_or(0.0) : 0.0;
 }
 
 /// Motion of a moving support, and its name.
@@ -232,7 +233,7 @@ struct SupportMotion {
   History s;
 };
 SupportMotion support_motion(const Scene& scene, const Support& support) {
-  const PlaneComponent& component = plane_components[support.ux ? 0 : support.uy ? 1 : 2];
+  const scene::PlaneComponent& component = scene::plane_components[support.ux ? 0 : support.uy ? 1 : 2];
   SupportMotion moving{fmt::format("support {}.{}", support.node, component.displacement),
                        support.key + (support.motion_is_acceleration ? ".acceleration" : ".motion"),
                        support.place,
@@ -240,9 +241,10 @@ SupportMotion support_motion(const Scene& scene, const Support& support) {
                        {}};
   if (support.motion_is_acceleration) {
     const double s = last_motion(scene, moving.name), rate = last_motion(scene, rate_of(moving.name));
-    moving.s = make_integral(*support.motion, moving.key).scaled(1.0, rate).integrated().scaled(1.0, s);
+    moving.s =
+        scene::make_integral(*support.motion, moving.key).scaled(1.0, rate).integrated().scaled(1.0, s);
   } else {
-    moving.s = make_history(*support.motion, moving.key);
+    moving.s = scene::make_history(*support.motion, moving.key);
   }
   return moving;
 }
@@ -275,7 +277,7 @@ History motion_of_support(const Scene& scene, const Support& support) {
   return support_motion(scene, support).s;
 }
 
-std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh, const LoadSpec& spec) {
+std::vector<NodeForce> traction_forces(const Scene& scene, const element::Mesh& mesh, const LoadSpec& spec) {
   std::vector<NodeForce> forces;
   for (const BodySpec& body : scene.bodies)
     for (const PlaneMesh::Group& group : body.mesh.groups) {
@@ -283,8 +285,8 @@ std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh, con
       for (const PlaneMesh::Edge& edge : group.edges) {
         std::vector<NodeForce> own;
         for (const int n : edge.nodes) own.push_back({n, {0.0, 0.0}});
-        for (const EdgePoint& point : edge_points()) {
-          const EdgeValues v = edge_shapes_at(edge.nodes.size(), point.s);
+        for (const mesh::EdgePoint& point : mesh::edge_points()) {
+          const mesh::EdgeValues v = mesh::edge_shapes_at(edge.nodes.size(), point.s);
           double dx = 0.0, dy = 0.0;
           for (std::size_t i = 0; i < own.size(); ++i) {
             dx += v.slopes[i] * mesh.node(own[i].node).x;
@@ -305,9 +307,9 @@ std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh, con
 }
 
 std::string rate_of(const std::string& support_motion) {
-  const std::string_view component = last_part(support_motion);
+  const std::string_view component = scene::last_part(support_motion);
   return support_motion.substr(0, support_motion.size() - component.size()) +
-         component_named(component).value().component().velocity;
+         scene::component_named(component).value().component().velocity;
 }
 
 std::string name_of(const LoadSpec& load, std::size_t number) {
@@ -401,4 +403,4 @@ Vector static_load(const std::vector<Load>& loads, int n) {
   return (p.array().abs() > rounding::of_many * size.array()).select(p, 0.0);
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -17,7 +17,7 @@
 #include "model/assembly/assembly.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 /// "support A.ux" -> "support A.vx"
 [[nodiscard]] std::string rate_of(const std::string& support_motion);
@@ -30,7 +30,7 @@ struct NodeForce {
   int node = 0;
   std::array<double, 2> force{0.0, 0.0};
 };
-[[nodiscard]] std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh,
+[[nodiscard]] std::vector<NodeForce> traction_forces(const Scene& scene, const element::Mesh& mesh,
                                                      const LoadSpec& spec);
 /// Name of a spring's preload, springs counted from 0.
 [[nodiscard]] std::string name_of_preload(std::size_t spring);
@@ -57,4 +57,4 @@ void add_geometric_supports(const Scene& scene, const DofMap& map, const std::ve
 /// Sum of the static loads; length n.
 [[nodiscard]] Vector static_load(const std::vector<Load>& loads, int n);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

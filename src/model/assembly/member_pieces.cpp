@@ -6,13 +6,15 @@
 
 #include "scene/outlines.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
-std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a, const std::string& b,
-                                                const SourcePlace& place, const std::string& key) {
-  const int from = find_node(map.mesh, a, place, key), to = find_node(map.mesh, b, place, key);
-  const MeshPiece* found = nullptr;
-  for (const MeshPiece& piece : map.mesh.pieces) {
+std::pair<const element::MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a,
+                                                         const std::string& b, const SourcePlace& place,
+                                                         const std::string& key) {
+  const int from = element::find_node(map.mesh, a, place, key),
+            to = element::find_node(map.mesh, b, place, key);
+  const element::MeshPiece* found = nullptr;
+  for (const element::MeshPiece& piece : map.mesh.pieces) {
     const bool joins = (piece.from == from && piece.to == to) || (piece.from == to && piece.to == from);
     if (!joins) continue;
     if (found)
@@ -24,7 +26,7 @@ std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::st
   return {found, found->from != from};
 }
 
-std::array<double, 2> along_line(const LoadSpec& spec, const Axis& axis, bool backwards) {
+std::array<double, 2> along_line(const LoadSpec& spec, const element::Axis& axis, bool backwards) {
   const auto& q = spec.direction.vector;
   if (!spec.member_axes) return q;
   const double turn = backwards ? -1.0 : 1.0;
@@ -34,7 +36,7 @@ std::array<double, 2> along_line(const LoadSpec& spec, const Axis& axis, bool ba
 namespace {
 
 DrawnNode drawn_node(const DofMap& map, std::size_t i) {
-  const MeshNode& at = map.mesh.nodes[i];
+  const element::MeshNode& at = map.mesh.nodes[i];
   DrawnNode node{at.name, at.x, at.y, {-1, -1, -1}, i < static_cast<std::size_t>(map.mesh.named) && at.listed,
                  false};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -54,8 +56,8 @@ DrawnElement between(const std::vector<DrawnNode>& nodes, int a, int b, DrawnEle
 }
 
 void draw_element(const Scene& scene, const DofMap& map, std::size_t i, Model& model) {
-  const FiniteElement& e = map.mesh.element(i);
-  const std::vector<ElementUnknown> unknowns = e.unknowns();
+  const element::FiniteElement& e = map.mesh.element(i);
+  const std::vector<element::ElementUnknown> unknowns = e.unknowns();
   for (const auto& [from, to, bends] : e.lines()) {
     const bool of_body = static_cast<std::size_t>(e.member()) >= scene.members.size();
     const auto kind = bends     ? DrawnElement::Kind::beam
@@ -71,9 +73,9 @@ void draw_element(const Scene& scene, const DofMap& map, std::size_t i, Model& m
   }
 }
 
-int node_named(const Mesh& mesh, const std::string& name) {
+int node_named(const element::Mesh& mesh, const std::string& name) {
   const auto found = std::find_if(mesh.nodes.begin(), mesh.nodes.begin() + mesh.named,
-                                  [&](const MeshNode& node) { return node.name == name; });
+                                  [&](const element::MeshNode& node) { return node.name == name; });
   return found == mesh.nodes.begin() + mesh.named ? -1 : static_cast<int>(found - mesh.nodes.begin());
 }
 
@@ -106,10 +108,10 @@ void add_drawing(const Scene& scene, const DofMap& map, Model& model) {
     model.drawing.push_back(between(model.drawn_nodes, a, b, DrawnElement::Kind::spring));
   }
   for (const RigidBody& body : scene.rigid)
-    for (const auto& [from, to] : outline_of(scene, body))
+    for (const auto& [from, to] : scene::outline_of(scene, body))
       model.drawing.push_back(between(model.drawn_nodes, node_named(map.mesh, from), node_named(map.mesh, to),
                                       DrawnElement::Kind::rigid));
   for (const ContactSpec& spec : scene.contacts) model.drawn_contacts.push_back(drawn_contact(spec, map));
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

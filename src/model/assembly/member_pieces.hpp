@@ -7,15 +7,18 @@
 #include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 /// The piece of a member between two nodes, and whether it runs in the opposite direction. Errors: SceneError.
-[[nodiscard]] std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a,
-                                                              const std::string& b, const SourcePlace& place,
-                                                              const std::string& key);
+[[nodiscard]] std::pair<const element::MeshPiece*, bool> piece_between(const DofMap& map,
+                                                                       const std::string& a,
+                                                                       const std::string& b,
+                                                                       const SourcePlace& place,
+                                                                       const std::string& key);
 
 /// Components along x and y of a unit distributed load on an element; backwards: given against the element's direction.
-[[nodiscard]] std::array<double, 2> along_line(const LoadSpec& spec, const Axis& axis, bool backwards);
+[[nodiscard]] std::array<double, 2> along_line(const LoadSpec& spec, const element::Axis& axis,
+                                               bool backwards);
 
 // Data for drawings of deformed shapes.
 //
@@ -24,4 +27,4 @@ namespace signorini {
 /// Fills drawing, drawn_nodes and drawn_contacts of a node scene; the contacts must exist already.
 void add_drawing(const Scene& scene, const DofMap& map, Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

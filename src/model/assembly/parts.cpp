@@ -8,11 +8,11 @@
 #include "contact/constants.hpp"
 #include "linear/unknowns.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 Parts::Parts(const std::vector<const SparseMatrix*>& matrices, const std::vector<Combination>& forms) {
   const auto n = static_cast<std::size_t>(matrices.front()->rows());
-  DisjointSets sets(n);
+  base::DisjointSets sets(n);
   for (const SparseMatrix* a : matrices)
     for (int column = 0; column < a->outerSize(); ++column)
       for (SparseMatrix::InnerIterator it(*a, column); it; ++it)
@@ -62,7 +62,7 @@ std::vector<Combination> Part::forms(const std::vector<Combination>& forms) cons
 }
 
 std::vector<std::vector<std::size_t>> coupled_forms(const std::vector<Combination>& forms) {
-  DisjointSets sets(forms.size());
+  base::DisjointSets sets(forms.size());
   std::unordered_map<int, std::size_t> first;  // first form that acts on a degree of freedom
   for (std::size_t i = 0; i < forms.size(); ++i)
     for (const auto& term : forms[i].terms) sets.join(i, first.emplace(term.first, i).first->second);
@@ -76,7 +76,7 @@ std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model) {
     form.terms.insert(form.terms.end(), c.tangent.terms.begin(), c.tangent.terms.end());
   }
   const Parts parts({&model.mass, &model.damping, &model.stiffness}, forms);
-  DisjointSets sets(forms.size());
+  base::DisjointSets sets(forms.size());
   std::unordered_map<std::size_t, std::size_t> first;  // first contact on a part
   for (std::size_t i = 0; i < forms.size(); ++i)
     if (!forms[i].terms.empty())
@@ -111,8 +111,8 @@ std::vector<Combination> reaches(const Model& model) {
   std::vector<Combination> forms;
   for (const Contact& contact : model.contacts) {
     auto& terms = forms.emplace_back().terms;
-    visit_forms(contact,
-                [&](const Combination& f) { terms.insert(terms.end(), f.terms.begin(), f.terms.end()); });
+    contact::visit_forms(
+        contact, [&](const Combination& f) { terms.insert(terms.end(), f.terms.begin(), f.terms.end()); });
   }
   return forms;
 }
@@ -158,7 +158,7 @@ class Split {
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
   [[nodiscard]] std::vector<PartModel> models() {
-    for (PartModel& part : parts_) part.model = restricted(model_, part.dofs, part.contacts);
+    for (PartModel& part : parts_) part.model = linear::restricted(model_, part.dofs, part.contacts);
     divide_loads();
     for (auto own : model_.columns) {
       std::size_t part = 0;
@@ -181,7 +181,7 @@ class Split {
       const auto give = [&](std::size_t part) -> Load& {
         std::vector<Load>& loads = parts_[part].model.loads;
         if (std::exchange(last[part], i) != i) {
-          Load own = without_direction(load);
+          Load own = linear::without_direction(load);
           loads.push_back(std::move(own));
         }
         return loads.back();
@@ -210,4 +210,4 @@ std::vector<PartModel> part_models(const Model& model) {
   return split.models();
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -13,7 +13,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 class Parts;
 
@@ -93,4 +93,4 @@ struct PartModel {
 /// bodies or has outputs, which may be sums over parts; or if the histories are too long for one copy per part.
 [[nodiscard]] std::vector<PartModel> part_models(const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -12,7 +12,7 @@
 #include "model/assembly/ties.hpp"
 #include "scene/components.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 namespace {
 
 constexpr double no_force = 1e-9;  // relative to the forces on a body: error of a solve in a sum that is zero
@@ -26,9 +26,9 @@ std::array<double, 2> unit_of(const Plane& v) {
 }
 
 /// Forces on the nodes, without those of supports and without internal forces of bodies.
-class Gathering {
+class PrestressAssembly {
  public:
-  Gathering(const Scene& scene, const DofMap& map, const Model& model, const StandingForces& standing)
+  PrestressAssembly(const Scene& scene, const DofMap& map, const Model& model, const StandingForces& standing)
       : scene_(scene), map_(map), standing_(standing), on_node_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
     for (std::size_t i = 0; i < map.supports.size(); ++i)
       supports_.push_back(motion_of_support(scene, map, static_cast<int>(i)).value(0.0));
@@ -51,13 +51,13 @@ class Gathering {
     }
     for (std::size_t k = 0; k < model.contacts.size(); ++k) {
       const Contact& contact = model.contacts[k];
-      bowls_.push_back(beyond_spring(scene.contacts[k], contact) * contact.tangent.dot(standing.u));
+      bowls_.push_back(contact::beyond_spring(scene.contacts[k], contact) * contact.tangent.dot(standing.u));
     }
   }
 
-  FrozenForces all() {
+  Prestress all() {
     spread_loads();
-    FrozenForces forces;
+    Prestress forces;
     for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) forces.elements.push_back(element(i));
     for (const PointMass& m : scene_.masses) add(m.node, pull_, m.mass);
     for (std::size_t i = 0; i < scene_.springs.size(); ++i) add_spring(i);
@@ -112,33 +112,32 @@ class Gathering {
                : fmt::format("body '{}'", scene_.bodies[i - scene_.members.size()].name);
   }
 
-  FrozenForces::Element element(std::size_t i) {
-    const FiniteElement& e = map_.mesh.element(i);
+  Prestress::Element element(std::size_t i) {
+    const element::FiniteElement& e = map_.mesh.element(i);
     if (!e.has_geometric())
       throw SceneError(
           scene_.run.geometric_place, "run.geometric",
           fmt::format(
               "the elements of {} have no stiffness of static forces: expected a structure of beams and bars",
               element_owner(e.member())));
-    const PlaneVector& load = uniform_[i];
+    const element::PlaneVector& load = uniform_[i];
     add_to_nodes(e, e.spread({load[0] + e.density() * pull_[0], load[1] + e.density() * pull_[1]}));
-    FrozenForces::Element result{map_.mesh.node(e.nodes().front()).name,
-                                 map_.mesh.node(e.nodes().back()).name};
+    Prestress::Element result{map_.mesh.node(e.nodes().front()).name, map_.mesh.node(e.nodes().back()).name};
     if (map_.within_body(e)) return result;
     const std::vector<int> numbers = map_.element_numbers(i);
-    ElementVector u(static_cast<Eigen::Index>(numbers.size()));
+    element::ElementVector u(static_cast<Eigen::Index>(numbers.size()));
     for (std::size_t j = 0; j < numbers.size(); ++j) u[static_cast<Eigen::Index>(j)] = moved(numbers[j]);
     const double strain = value_of(true, name_of_strain(LoadKind::temperature, e.member())) +
                           value_of(true, name_of_strain(LoadKind::initial_strain, e.member()));
     add_to_nodes(e, strain * e.strain_forces() - e.stiffness() * u);
-    const AxialForces forces = e.axial_forces(u, strain, load, pull_);
+    const element::AxialForces forces = e.axial_forces(u, strain, load, pull_);
     result.at_from = forces.a;
     result.at_to = forces.b;
     return result;
   }
 
-  void add_to_nodes(const FiniteElement& e, const ElementVector& forces) {
-    const std::vector<ElementUnknown> unknowns = e.unknowns();
+  void add_to_nodes(const element::FiniteElement& e, const element::ElementVector& forces) {
+    const std::vector<element::ElementUnknown> unknowns = e.unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j)
       if (const std::size_t c = unknowns[j].component; c < 2)
         on_node_[static_cast<std::size_t>(e.nodes()[unknowns[j].place])][c] +=
@@ -188,7 +187,7 @@ class Gathering {
                               const Plane& size) const {
     const RigidBody& body = scene_.rigid[number];
     const auto at = [&](int node) {
-      const MeshNode& n = map_.mesh.nodes[static_cast<std::size_t>(node)];
+      const element::MeshNode& n = map_.mesh.nodes[static_cast<std::size_t>(node)];
       return c == 0 ? n.x : n.y;
     };
     std::optional<double> held;
@@ -199,7 +198,7 @@ class Gathering {
             scene_.run.geometric_place, "run.geometric",
             fmt::format("supports of rigid body '{}' hold its {} together, and nothing decides how "
                         "much each bears, which its stiffness depends on: expected one of them",
-                        body.name, plane_components[c].displacement));
+                        body.name, scene::plane_components[c].displacement));
       if (!held) held = at(node);
     }
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));
@@ -220,7 +219,7 @@ class Gathering {
     double sum = 0.0, terms = 0.0;
     for (std::size_t node = 0; node < map_.body.size(); ++node) {
       if (map_.body[node] != owner) continue;
-      const MeshNode& at = map_.mesh.nodes[node];
+      const element::MeshNode& at = map_.mesh.nodes[node];
       for (const double term : {on_node_[node][0] * (at.x - x), on_node_[node][1] * (at.y - y)}) {
         sum += term;
         terms += std::abs(term);
@@ -241,12 +240,12 @@ class Gathering {
 
 }  // namespace
 
-FrozenForces frozen_forces(const Scene& scene, const DofMap& map, const Model& model,
-                           const StandingForces& standing) {
-  return Gathering(scene, map, model, standing).all();
+Prestress prestress(const Scene& scene, const DofMap& map, const Model& model,
+                    const StandingForces& standing) {
+  return PrestressAssembly(scene, map, model, standing).all();
 }
 
-void freeze(const FrozenForces& forces, const Scene& scene, DofMap& map) {
+void freeze(const Prestress& forces, const Scene& scene, DofMap& map) {
   const auto name = [&](int node) { return map.mesh.nodes[static_cast<std::size_t>(node)].name; };
   bool same =
       forces.elements.size() == map.mesh.elements.size() && forces.bodies.size() == scene.rigid.size();
@@ -260,9 +259,9 @@ void freeze(const FrozenForces& forces, const Scene& scene, DofMap& map) {
                      "the frozen forces of that run (geometric.csv) are those of other members or rigid "
                      "bodies: expected a run of the same structure");
   map.body_stiffness.clear();
-  for (const FrozenForces::Body& body : forces.bodies) map.body_stiffness.push_back(body.stiffness);
+  for (const Prestress::Body& body : forces.bodies) map.body_stiffness.push_back(body.stiffness);
   map.frozen.clear();
-  for (const FrozenForces::Element& e : forces.elements) map.frozen.push_back({e.at_from, e.at_to});
+  for (const Prestress::Element& e : forces.elements) map.frozen.push_back({e.at_from, e.at_to});
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

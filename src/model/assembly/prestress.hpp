@@ -11,7 +11,7 @@
 
 #include "model/assembly/dofs.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 struct GeometricStiffness {
   SparseMatrix matrix;         ///< n x n
@@ -29,10 +29,10 @@ struct StandingForces {
 };
 
 /// Errors: SceneError for a rigid body whose supports share a force on which its stiffness depends.
-[[nodiscard]] FrozenForces frozen_forces(const Scene& scene, const DofMap& map, const Model& model,
-                                         const StandingForces& standing);
+[[nodiscard]] Prestress prestress(const Scene& scene, const DofMap& map, const Model& model,
+                                  const StandingForces& standing);
 
 /// Puts the forces into the map. Errors: SceneError if they belong to another structure.
-void freeze(const FrozenForces& forces, const Scene& scene, DofMap& map);
+void freeze(const Prestress& forces, const Scene& scene, DofMap& map);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace signorini {
+namespace signorini::assembly {
 
 SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -103,9 +103,9 @@ struct Stiffness {
 };
 
 void add_members(const Scene& scene, const DofMap& map, std::vector<Stiffness>& all) {
-  for (const MeshPiece& piece : map.mesh.pieces)
+  for (const element::MeshPiece& piece : map.mesh.pieces)
     for (std::size_t i = 0; i < piece.count; ++i) {
-      const LineData& line = map.mesh.line(piece.first + i).data();
+      const element::LineData& line = map.mesh.line(piece.first + i).data();
       const double length = line.axis.length;
       const Member& member = scene.members[static_cast<std::size_t>(line.member)];
       const std::string key = fmt::format("members.{}.section", line.member + 1);
@@ -145,4 +145,4 @@ void check_stiffness_range(const Scene& scene, const DofMap& map) {
                   too_stiff ? "less, or a rigid body" : "more"));
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -11,7 +11,7 @@
 #include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 struct LineSpring {
   Combination form;
@@ -78,4 +78,4 @@ class CholeskyFactor {
 /// Errors: SceneError at the member, spring or contact whose stiffness has the larger exponent in magnitude.
 void check_stiffness_range(const Scene& scene, const DofMap& map);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

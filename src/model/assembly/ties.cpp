@@ -9,14 +9,14 @@
 #include "model/assembly/loads.hpp"
 #include "scene/components.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 namespace {
 
 std::size_t place_of_node(int i) { return static_cast<std::size_t>(i); }
 
 /// Coordinate across a component: y of the node for ux, x for uy.
 double across(const DofMap& map, int node, std::size_t c) {
-  const MeshNode& at = map.mesh.nodes[place_of_node(node)];
+  const element::MeshNode& at = map.mesh.nodes[place_of_node(node)];
   return c == 0 ? at.y : at.x;
 }
 
@@ -29,7 +29,7 @@ double arm_between(double a, double b) {
 BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
   const std::string key = "rigid." + body.name + ".";
   BodyMotion motion;
-  motion.centre = find_node(map.mesh, body.centre, body.place, key + "centre");
+  motion.centre = element::find_node(map.mesh, body.centre, body.place, key + "centre");
   const auto take = [&](int node, const std::string& name, const char* of) {
     int& owner = map.body[place_of_node(node)];
     if (owner == number) return;
@@ -43,11 +43,11 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
   };
   take(motion.centre, body.centre, "centre");
   for (const std::string& name : body.nodes)
-    take(find_node(map.mesh, name, body.place, key + "nodes"), name, "nodes");
+    take(element::find_node(map.mesh, name, body.place, key + "nodes"), name, "nodes");
   return motion;
 }
 
-[[noreturn]] void refuse_hold(const Scene& scene, const BodyHold& hold, const RigidBody& body,
+[[noreturn]] void refuse_hold(const Scene& scene, const BodyConstraint& hold, const RigidBody& body,
                               const std::string& why) {
   const Support& s = scene.supports[hold.support];
   throw SceneError(s.place, s.key + ".node",
@@ -55,9 +55,9 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
 }
 
 /// Adds one support to the constraints of the body; `turn` is set if it fixes rz together with another one.
-void add_hold(const Scene& scene, const RigidBody& body, const BodyHold& hold, std::size_t c,
-              BodyMotion& motion, std::optional<BodyHold>& turn) {
-  std::optional<BodyHold>& before = motion.holds[c];
+void add_hold(const Scene& scene, const RigidBody& body, const BodyConstraint& hold, std::size_t c,
+              BodyMotion& motion, std::optional<BodyConstraint>& turn) {
+  std::optional<BodyConstraint>& before = motion.holds[c];
   if (!before) {
     before = hold;
     return;
@@ -66,13 +66,13 @@ void add_hold(const Scene& scene, const RigidBody& body, const BodyHold& hold, s
   if (before->moving >= 0 || hold.moving >= 0)
     refuse_hold(scene, hold, body,
                 fmt::format("another support holds its {}, and one of the two moves; expected one",
-                            plane_components[c].displacement));
+                            scene::plane_components[c].displacement));
   if (c < 2 && arm_between(before->at, hold.at) != 0.0) turn = hold;
 }
 
 void find_holds(const Scene& scene, const RigidBody& body, int number, const DofMap& map,
                 BodyMotion& motion) {
-  std::optional<BodyHold> turn;
+  std::optional<BodyConstraint> turn;
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
     const int node = map.mesh.by_name.at(s.node);
@@ -98,7 +98,7 @@ void find_holds(const Scene& scene, const RigidBody& body, int number, const Dof
 std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, const DofMap& map) {
   std::vector<TiedTerm> terms;
   const auto add = [&](std::size_t of, double factor) {
-    const std::optional<BodyHold>& hold = body.holds[of];
+    const std::optional<BodyConstraint>& hold = body.holds[of];
     if (factor == 0.0 || (hold && hold->moving < 0)) return;
     terms.push_back(
         {hold ? DofMap::code_of_moving(hold->moving) : map.number[place_of_node(body.centre)][of], factor});
@@ -319,4 +319,4 @@ void tie_seams(const Scene& scene, DofMap& map) {
     }
 }
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -16,10 +16,10 @@
 
 #include "model/assembly/dofs.hpp"
 
-namespace signorini {
+namespace signorini::assembly {
 
 /// A component of a body's motion that a support fixes, with the coordinate across it.
-struct BodyHold {
+struct BodyConstraint {
   double at = 0.0;                    ///< coordinate of the held node: y for ux, x for uy
   int moving = DofMap::absent;        ///< index into DofMap::supports
   std::size_t support = 0, node = 0;  ///< index into Scene::supports, mesh node
@@ -27,9 +27,9 @@ struct BodyHold {
 
 /// Free and fixed components of a body's motion.
 struct BodyMotion {
-  int centre = 0;                                ///< mesh node
-  std::vector<int> nodes;                        ///< all nodes, the centre first
-  std::array<std::optional<BodyHold>, 3> holds;  ///< ux, uy, rz
+  int centre = 0;                                      ///< mesh node
+  std::vector<int> nodes;                              ///< all nodes, the centre first
+  std::array<std::optional<BodyConstraint>, 3> holds;  ///< ux, uy, rz
 };
 
 /// Sets DofMap::body, and marks the free components of the centres as needed, all other components of bodies as absent.
@@ -102,4 +102,4 @@ void leave_to_master(const Scene& scene, DofMap& map);
 /// Numbers the tied motions, after all degrees of freedom and rigid bodies.
 void tie_seams(const Scene& scene, DofMap& map);
 
-}  // namespace signorini
+}  // namespace signorini::assembly

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-namespace signorini {
+namespace signorini::element {
 namespace {
 
 /// Weights of nodes: index and factor.
@@ -122,4 +122,4 @@ void mesh_body(Mesh& mesh, const Scene& scene, std::size_t number) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::element

@@ -11,11 +11,11 @@
 #include "model/element/mesh.hpp"
 #include "model/element/plane_element.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 [[nodiscard]] PlaneMaterial material_of(const BodySpec& body);
 
 /// Appends the elements of a body, an index into Scene::bodies. Errors: SceneError.
 void mesh_body(Mesh& mesh, const Scene& scene, std::size_t number);
 
-}  // namespace signorini
+}  // namespace signorini::element

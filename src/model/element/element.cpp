@@ -1,6 +1,6 @@
 #include "model/element/element.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 ElementMatrix FiniteElement::geometric(const AxialForces& /*forces*/) const {
   const auto n = static_cast<Eigen::Index>(unknowns().size());
@@ -32,4 +32,4 @@ ElementVector FiniteElement::strain_forces() const {
   return forces;
 }
 
-}  // namespace signorini
+}  // namespace signorini::element

@@ -16,7 +16,7 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 using ElementMatrix = Eigen::MatrixXd;
 using ElementVector = Eigen::VectorXd;
@@ -106,4 +106,4 @@ class FiniteElement {
   int member_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::element

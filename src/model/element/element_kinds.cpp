@@ -8,7 +8,7 @@
 #include "base/rounding.hpp"
 #include "model/element/line_elements.hpp"
 
-namespace signorini {
+namespace signorini::element {
 namespace {
 
 constexpr std::array kinds = {ElementKind{MemberType::beam, mesh_line_member, true},
@@ -133,4 +133,4 @@ void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number) {
     add_piece(mesh, scene, number, piece, section, key);
 }
 
-}  // namespace signorini
+}  // namespace signorini::element

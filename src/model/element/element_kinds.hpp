@@ -3,7 +3,7 @@
 
 #include "model/element/mesh.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 struct ElementKind {
   MemberType type;
@@ -33,4 +33,4 @@ void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number);
 /// The section of a member of the mesh.
 [[nodiscard]] const Section& section_of(const Scene& scene, const Member& member);
 
-}  // namespace signorini
+}  // namespace signorini::element

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace signorini {
+namespace signorini::element {
 
 Axis axis_between(double dx, double dy) {
   const double length = std::hypot(dx, dy);
@@ -272,4 +272,4 @@ BeamElement::Ends BeamElement::slope(double s) const {
   return row;
 }
 
-}  // namespace signorini
+}  // namespace signorini::element

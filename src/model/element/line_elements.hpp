@@ -18,7 +18,7 @@
 
 #include "model/element/element.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 /// Length, cosine and sine of the direction, and the vector from a to b.
 struct Axis {
@@ -164,4 +164,4 @@ class BarElement final : public LineElement {
   [[nodiscard]] Ends slope(double part) const override;
 };
 
-}  // namespace signorini
+}  // namespace signorini::element

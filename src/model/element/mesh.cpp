@@ -5,7 +5,7 @@
 #include "model/element/body_mesh.hpp"
 #include "model/element/element_kinds.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 int find_node(const Mesh& mesh, const std::string& name, const SourcePlace& place, const std::string& key) {
   if (const auto found = mesh.by_name.find(name); found != mesh.by_name.end()) return found->second;
@@ -24,4 +24,4 @@ Mesh make_mesh(const Scene& scene) {
   return mesh;
 }
 
-}  // namespace signorini
+}  // namespace signorini::element

@@ -9,7 +9,7 @@
 
 #include "model/element/line_elements.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 struct MeshNode {
   std::string name;
@@ -51,4 +51,4 @@ struct Mesh {
 [[nodiscard]] int find_node(const Mesh& mesh, const std::string& name, const SourcePlace& place,
                             const std::string& key);
 
-}  // namespace signorini
+}  // namespace signorini::element

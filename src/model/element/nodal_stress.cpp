@@ -11,7 +11,7 @@
 #include "model/element/body_mesh.hpp"
 #include "model/element/plane_element.hpp"
 
-namespace signorini {
+namespace signorini::element {
 namespace {
 
 // Limits for the growth sum |c_j| >= 1 of errors at the points in the sum at a node. Chosen values, on which
@@ -117,13 +117,13 @@ class BodyStresses {
         size = std::max(size, std::hypot(sample.at[0] - at.x, sample.at[1] - at.y));
       }
     if (points.empty()) return {};
-    const bool quadratic = has_middles(of.front()->shape());
+    const bool quadratic = mesh::has_middles(of.front()->shape());
     const Eigen::VectorXd wanted = powers(0.0, 0.0, quadratic);
     Eigen::MatrixXd conditions(wanted.size(), static_cast<Eigen::Index>(points.size()));
     for (std::size_t j = 0; j < points.size(); ++j)
       conditions.col(static_cast<Eigen::Index>(j)) =
           powers((points[j]->at[0] - at.x) / size, (points[j]->at[1] - at.y) / size, quadratic);
-    const Eigen::VectorXd c = least_squares(conditions, wanted);
+    const Eigen::VectorXd c = base::least_squares(conditions, wanted);
     if ((conditions * c - wanted).cwiseAbs().maxCoeff() > met) return {};
     Fit fit{c.cwiseAbs().sum(), {}};
     for (std::size_t j = 0; j < points.size(); ++j)
@@ -177,4 +177,4 @@ double mises(const BodySpec& body, const Eigen::Vector3d& stress, double heat) {
   return std::sqrt(0.5 * ((x - y) * (x - y) + (y - z) * (y - z) + (z - x) * (z - x)) + 3.0 * xy * xy);
 }
 
-}  // namespace signorini
+}  // namespace signorini::element

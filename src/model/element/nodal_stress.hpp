@@ -19,7 +19,7 @@
 
 #include "model/element/mesh.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 /// Factors of the displacements of a node.
 struct StressTerm {
@@ -44,4 +44,4 @@ struct StressTerm {
 /// where sigma_z = nu (sigma_x + sigma_y) - E alpha T.
 [[nodiscard]] double mises(const BodySpec& body, const Eigen::Vector3d& stress, double heat);
 
-}  // namespace signorini
+}  // namespace signorini::element

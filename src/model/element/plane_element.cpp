@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>  // determinants and inverses of small matrices
 
-namespace signorini {
+namespace signorini::element {
 namespace {
 
 /// Rows of (e_x, e_y, g_xy) from the derivatives of shape functions by x and y.
@@ -36,7 +36,7 @@ PlaneElement::PlaneElement(std::vector<int> nodes, int member, PlaneShape shape,
       at_(std::move(at)),
       material_(material),
       mass_(mass) {
-  for (const IntegrationPoint& p : points_of(shape_)) area_ += p.weight * at_point(p.a, p.b).det;
+  for (const mesh::IntegrationPoint& p : mesh::points_of(shape_)) area_ += p.weight * at_point(p.a, p.b).det;
 }
 
 std::vector<ElementUnknown> PlaneElement::unknowns() const {
@@ -54,7 +54,7 @@ Eigen::Matrix2d PlaneElement::jacobian(const Eigen::MatrixX2d& slopes) const {
 }
 
 PlaneElement::Place PlaneElement::at_point(double a, double b) const {
-  ShapeValues shapes = shapes_at(shape_, a, b);
+  mesh::ShapeValues shapes = mesh::shapes_at(shape_, a, b);
   const Eigen::Matrix2d j = jacobian(shapes.slopes);
   return {std::move(shapes.values), shapes.slopes * j.inverse(), j.determinant()};
 }
@@ -67,7 +67,7 @@ Eigen::MatrixXd PlaneElement::strain_rows(const Place& place) const {
 
 /// Strains of the four incompatible modes of q4.
 Eigen::Matrix<double, 3, 4> PlaneElement::inner_rows(double a, double b, double det) const {
-  const Eigen::Matrix2d middle = jacobian(shapes_at(shape_, 0.0, 0.0).slopes);
+  const Eigen::Matrix2d middle = jacobian(mesh::shapes_at(shape_, 0.0, 0.0).slopes);
   const Eigen::Matrix2d by_point{{-2.0 * a, 0.0}, {0.0, -2.0 * b}};
   const Eigen::Matrix2d slopes = middle.determinant() / det * by_point * middle.inverse();
   Eigen::Matrix<double, 3, 4> rows;
@@ -80,7 +80,7 @@ Eigen::MatrixXd PlaneElement::inner_motion() const {
   const Eigen::Matrix3d D = material_.stresses();
   Eigen::Matrix4d inner = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 8> mixed = Eigen::Matrix<double, 4, 8>::Zero();
-  for (const IntegrationPoint& p : points_of(shape_)) {
+  for (const mesh::IntegrationPoint& p : mesh::points_of(shape_)) {
     const Place place = at_point(p.a, p.b);
     const auto rows = inner_rows(p.a, p.b, place.det);
     inner += p.weight * place.det * rows.transpose() * D * rows;
@@ -95,7 +95,7 @@ ElementMatrix PlaneElement::stiffness() const {
   const Eigen::MatrixXd modes = inner ? inner_motion() : Eigen::MatrixXd();
   const Eigen::Matrix3d D = material_.stresses();
   ElementMatrix k = ElementMatrix::Zero(n, n);
-  for (const IntegrationPoint& p : points_of(shape_)) {
+  for (const mesh::IntegrationPoint& p : mesh::points_of(shape_)) {
     const Place place = at_point(p.a, p.b);
     Eigen::MatrixXd rows = strain_rows(place);
     if (inner) rows += inner_rows(p.a, p.b, place.det) * modes;
@@ -108,13 +108,13 @@ ElementMatrix PlaneElement::stiffness() const {
 Eigen::MatrixXd PlaneElement::mass_of_nodes() const {
   const auto n = static_cast<Eigen::Index>(at_.size());
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
-  for (const IntegrationPoint& p : points_of(shape_)) {
+  for (const mesh::IntegrationPoint& p : mesh::points_of(shape_)) {
     const Place place = at_point(p.a, p.b);
     m += p.weight * place.det * density() * place.values * place.values.transpose();
   }
   if (mass_ == MassKind::consistent) return m;
   Eigen::VectorXd lumped = m.rowwise().sum();
-  if (has_middles(shape_)) lumped = m.diagonal() * (density() * area_ / m.trace());
+  if (mesh::has_middles(shape_)) lumped = m.diagonal() * (density() * area_ / m.trace());
   return lumped.asDiagonal();
 }
 
@@ -130,7 +130,7 @@ ElementMatrix PlaneElement::mass() const {
 
 ElementVector PlaneElement::spread(const PlaneVector& load) const {
   ElementVector forces = ElementVector::Zero(static_cast<Eigen::Index>(2 * at_.size()));
-  for (const IntegrationPoint& p : points_of(shape_)) {
+  for (const mesh::IntegrationPoint& p : mesh::points_of(shape_)) {
     const Place place = at_point(p.a, p.b);
     for (Eigen::Index k = 0; k < place.values.size(); ++k)
       for (const Eigen::Index c : {0, 1})
@@ -143,7 +143,7 @@ ElementVector PlaneElement::spread(const PlaneVector& load) const {
 double PlaneElement::strain_work(const ElementVector& motion) const {
   const Eigen::Vector3d stress = material_.stresses() * material_.thermal_strain();
   double work = 0.0;
-  for (const IntegrationPoint& p : points_of(shape_)) {
+  for (const mesh::IntegrationPoint& p : mesh::points_of(shape_)) {
     const Place place = at_point(p.a, p.b);
     work += p.weight * place.det * material_.thickness * stress.dot(strain_rows(place) * motion);
   }
@@ -158,12 +158,12 @@ Eigen::MatrixXd PlaneElement::stress_rows(double a, double b) const {
 }
 
 std::vector<PlaneElement::StressSample> PlaneElement::stress_samples() const {
-  static constexpr std::array<StressPoint, 1> middle{};
+  static constexpr std::array<mesh::StressPoint, 1> middle{};
   std::vector<StressSample> samples;
   for (const auto& [a, b] :
-       shape_ == PlaneShape::q4 ? std::span<const StressPoint>(middle) : stress_points(shape_)) {
+       shape_ == PlaneShape::q4 ? std::span<const mesh::StressPoint>(middle) : mesh::stress_points(shape_)) {
     StressSample sample{{0.0, 0.0}, stress_rows(a, b)};
-    const Eigen::VectorXd values = shapes_at(shape_, a, b).values;
+    const Eigen::VectorXd values = mesh::shapes_at(shape_, a, b).values;
     for (std::size_t k = 0; k < at_.size(); ++k)
       for (const std::size_t c : {0U, 1U}) sample.at[c] += values[static_cast<Eigen::Index>(k)] * at_[k][c];
     samples.push_back(std::move(sample));
@@ -176,7 +176,7 @@ Eigen::MatrixXd PlaneElement::nodal_stress_rows() const {
   const bool inner = shape_ == PlaneShape::q4;
   const Eigen::MatrixXd modes = inner ? inner_motion() : Eigen::MatrixXd();
   const Eigen::Matrix3d D = material_.stresses();
-  const std::span<const StressPoint> points = stress_points(shape_);
+  const std::span<const mesh::StressPoint> points = mesh::stress_points(shape_);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, 2 * n);
   for (std::size_t p = 0; p < points.size(); ++p) {
     const auto [a, b] = points[p];
@@ -185,17 +185,17 @@ Eigen::MatrixXd PlaneElement::nodal_stress_rows() const {
     if (inner) rows += inner_rows(a, b, place.det) * modes;
     rows = D * rows;
     for (Eigen::Index k = 0; k < n; ++k)
-      all.middleRows<3>(3 * k) += extension(shape_, p, static_cast<std::size_t>(k)) * rows;
+      all.middleRows<3>(3 * k) += mesh::extension(shape_, p, static_cast<std::size_t>(k)) * rows;
   }
   return all;
 }
 
 std::vector<ElementLine> PlaneElement::lines() const {
-  const std::size_t corners = corner_count(shape_);
+  const std::size_t corners = mesh::corner_count(shape_);
   std::vector<ElementLine> all;
   for (std::size_t i = 0; i < corners; ++i) {
     const std::size_t next = (i + 1) % corners;
-    if (has_middles(shape_)) {
+    if (mesh::has_middles(shape_)) {
       all.push_back({i, corners + i});
       all.push_back({corners + i, next});
     } else {
@@ -205,4 +205,4 @@ std::vector<ElementLine> PlaneElement::lines() const {
   return all;
 }
 
-}  // namespace signorini
+}  // namespace signorini::element

@@ -19,7 +19,7 @@
 #include "mesh/plane_shapes.hpp"
 #include "model/element/element.hpp"
 
-namespace signorini {
+namespace signorini::element {
 
 /// Young's modulus etc.: force/length^2 and mass/length^3.
 struct PlaneMaterial {
@@ -79,4 +79,4 @@ class PlaneElement final : public FiniteElement {
   double area_ = 0.0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::element

@@ -12,7 +12,7 @@
 #include "model/modes/stability.hpp"
 #include "model/statics/mechanisms.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 namespace {
 
 constexpr double without_mass = 1e-12;  // relative to the largest inertia of a rigid-body motion of size 1
@@ -38,18 +38,18 @@ struct FreeMotions {
 
 int count_unstable(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
   if (motions.cols() == 0) return 0;
-  const Eigen::MatrixXd x = motions * symmetric_eigen(motions.transpose() * (k * motions)).vectors;
+  const Eigen::MatrixXd x = motions * base::symmetric_eigen(motions.transpose() * (k * motions)).vectors;
   int count = 0;
   while (count < x.cols() && has_negative_energy(k, x.col(count))) ++count;
   return count;
 }
 
 FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
-  Eigen::MatrixXd null = null_motions(k);
+  Eigen::MatrixXd null = statics::null_motions(k);
   for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
   if (null.cols() == 0) return {null, null, 0};
   const Eigen::MatrixXd moved = mass * null;
-  const EigenPairs pairs = symmetric_eigen(null.transpose() * moved);
+  const base::EigenPairs pairs = base::symmetric_eigen(null.transpose() * moved);
   const double greatest = pairs.values[pairs.values.size() - 1];
   Eigen::Index without = 0;
   while (without < pairs.values.size() && !(pairs.values[without] > without_mass * greatest)) ++without;
@@ -59,20 +59,20 @@ FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
 
 /// Number of motions with mass when forms are fixed: n - rank F - number of massless motions that respect F.
 int motions_with_mass(const SparseMatrix& mass, const std::vector<Combination>& fixed) {
-  const int heavy = degrees_with_mass(mass);
+  const int heavy = assembly::degrees_with_mass(mass);
   if (fixed.empty()) return heavy;
   const auto n = static_cast<int>(mass.rows());
   Eigen::MatrixXd all = form_columns(fixed, n), light = all;
   for (int i = 0; i < n; ++i)
     if (mass.coeff(i, i) > 0.0) light.row(i).setZero();
-  return heavy - rank(all) + rank(light);
+  return heavy - base::rank(all) + base::rank(light);
 }
 
 Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k,
                   const std::vector<Combination>& fixed, int count) {
   const auto n = static_cast<int>(k.rows());
   Eigen::MatrixXd q = Eigen::MatrixXd::Identity(n, n);
-  if (!fixed.empty()) q = orthogonal_complement(form_columns(fixed, n));
+  if (!fixed.empty()) q = base::orthogonal_complement(form_columns(fixed, n));
   if (q.cols() == 0) return {};
   SparseMatrix m = mass, stiff = k;
   if (!fixed.empty()) {
@@ -85,7 +85,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   result.unstable = free.unstable;
   if (free.unstable > 0) {
     // Motions of negative energy are not eigenvectors, so the other modes are not M-orthogonal to them.
-    const EigenPairs all = generalized_eigen(stiff, m);
+    const base::EigenPairs all = base::generalized_eigen(stiff, m);
     for (Eigen::Index j = result.free_motions; j < all.values.size() && count > 0; ++j, --count)
       result.modes.push_back(mode_of(std::sqrt(all.values[j]), q * all.vectors.col(j), mass, damping));
     return result;
@@ -94,10 +94,10 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   across << m * free.heavy, free.massless;
   for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j).normalize();
   Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(m.rows(), m.rows());
-  if (across.cols() > 0) rest = orthogonal_complement(across);
+  if (across.cols() > 0) rest = base::orthogonal_complement(across);
   if (rest.cols() == 0) return result;
-  const EigenPairs pairs =
-      generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
+  const base::EigenPairs pairs =
+      base::generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
   // All further ones have no mass, whatever rounding produced.
   const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
   count = std::min(count, with_mass);
@@ -141,9 +141,10 @@ class Subspace {
   /// Returns false if the matrices do not allow the iteration.
   bool iterate() {
     for (Eigen::Index j = 0; j < x_.cols(); ++j) x_.col(j) = solver_.solve(mass_ * x_.col(j));
-    x_ = orthonormal(x_);
+    x_ = base::orthonormal(x_);
     const Eigen::MatrixXd kx = k_ * x_, mx = mass_ * x_;
-    const EigenPairs pairs = generalized_eigen(x_.transpose() * mx, x_.transpose() * (kx + shift_ * mx));
+    const base::EigenPairs pairs =
+        base::generalized_eigen(x_.transpose() * mx, x_.transpose() * (kx + shift_ * mx));
     if (pairs.values.size() < x_.cols()) return false;
     values_ = pairs.values;
     x_ = (x_ * pairs.vectors).eval();
@@ -160,7 +161,7 @@ class Subspace {
   /// Rounding error of the lowest omega^2.
   [[nodiscard]] double noise() const {
     const Vector lowest = x_.col(x_.cols() - 1);
-    return rounding::eps * term_size(k_, lowest) / lowest.dot(mass_ * lowest);
+    return rounding::eps * assembly::term_size(k_, lowest) / lowest.dot(mass_ * lowest);
   }
   /// Moves the shift to just below the lowest omega^2, by about the spacing of the wanted ones.
   void approach(Eigen::Index wanted) {
@@ -232,10 +233,10 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
 Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& damping,
                                const SparseMatrix& stiffness, const Holding& holding, int count) {
   if (mass.rows() == 0) return {};
-  const SparseMatrix k = with_springs(stiffness, holding.springs);
+  const SparseMatrix k = assembly::with_springs(stiffness, holding.springs);
   if (mass.rows() <= dense_up_to) return dense(mass, damping, k, holding.fixed, count);
   Frequencies all;
-  for (const Part& part : Parts({&mass, &k}, holding.fixed)) {
+  for (const assembly::Part& part : assembly::Parts({&mass, &k}, holding.fixed)) {
     const SparseMatrix m = part.matrix(mass), c = part.matrix(damping), own = part.matrix(k);
     const std::vector<Combination> fixed = part.forms(holding.fixed);
     const Frequencies found =
@@ -262,7 +263,7 @@ constexpr double nearest = 1e-9, farthest = 1e-5;  // relative, of omega^2: rang
 constexpr double accurate = 1e-6;  // backward error of a factorisation whose pivot signs are reliable
 
 /// Pivots are not chosen by size, so an unlucky shift may lose all digits; a trial solution detects this.
-bool is_accurate(const SymmetricSolver& solver, const SparseMatrix& a) {
+bool is_accurate(const assembly::SymmetricSolver& solver, const SparseMatrix& a) {
   if (!solver.ok()) return false;
   const Vector b = a.diagonal().cwiseAbs();
   const Vector x = solver.solve(b);
@@ -276,10 +277,10 @@ bool is_accurate(const SymmetricSolver& solver, const SparseMatrix& a) {
 int modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square) {
   for (double beyond = 0.0; beyond <= farthest; beyond = beyond > 0.0 ? 10.0 * beyond : nearest) {
     const SparseMatrix a = stiffness - (1.0 + beyond) * square * mass;
-    const SymmetricSolver solver(a);
+    const assembly::SymmetricSolver solver(a);
     if (is_accurate(solver, a)) return solver.negative_pivots();
   }
   return -1;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -14,7 +14,7 @@
 #include "model/modes/modes.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 
 struct NaturalMode {
   double omega = 0.0;          ///< rad per time, > 0
@@ -46,4 +46,4 @@ struct Frequencies {
 /// above it are counted. -1: no factorisation near s is accurate.
 [[nodiscard]] int modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square);
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -5,7 +5,7 @@
 #include "model/assembly/parts.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 namespace {
 
 constexpr double fixed_twice = 1e-12;  // relative to the largest compliance: the motion is already fixed by
@@ -15,7 +15,8 @@ constexpr double fixed_twice = 1e-12;  // relative to the largest compliance: th
 
 Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n) {
   Eigen::MatrixXd t(n, static_cast<Eigen::Index>(forms.size()));
-  for (std::size_t j = 0; j < forms.size(); ++j) t.col(static_cast<Eigen::Index>(j)) = full(forms[j], n);
+  for (std::size_t j = 0; j < forms.size(); ++j)
+    t.col(static_cast<Eigen::Index>(j)) = assembly::full(forms[j], n);
   return t;
 }
 
@@ -28,15 +29,15 @@ SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q) {
 }
 
 SparseMatrix with_grips(const SparseMatrix& k, const std::vector<Combination>& forms) {
-  std::vector<LineSpring> springs;
-  for (const Combination& form : forms) springs.push_back({form, own_stiffness(k, form)});
-  return with_springs(k, springs);
+  std::vector<assembly::LineSpring> springs;
+  for (const Combination& form : forms) springs.push_back({form, statics::own_stiffness(k, form)});
+  return assembly::with_springs(k, springs);
 }
 
 HeldStructure::HeldStructure(const SparseMatrix& k, const std::vector<Combination>& fixed)
     : solver_(with_grips(k, fixed)) {
   if (fixed.empty()) return;
-  for (const Part& part : Parts({&k}, fixed)) {
+  for (const assembly::Part& part : assembly::Parts({&k}, fixed)) {
     const std::vector<Combination> own = part.forms(fixed);
     if (own.empty()) continue;
     Grip grip{part.dofs(), form_columns(own, part.size()), {}};
@@ -47,7 +48,7 @@ HeldStructure::HeldStructure(const SparseMatrix& k, const std::vector<Combinatio
       kt.col(j) = solver_.solve(force)(grip.dofs);
     }
     // Two contacts may fix the same motion: the pseudo-inverse counts it once.
-    const EigenPairs g = symmetric_eigen(grip.t.transpose() * kt);
+    const base::EigenPairs g = base::symmetric_eigen(grip.t.transpose() * kt);
     Eigen::VectorXd inverse = g.values;
     const double greatest = inverse[inverse.size() - 1];
     for (double& value : inverse) value = value > fixed_twice * greatest ? 1.0 / value : 0.0;
@@ -65,4 +66,4 @@ Vector HeldStructure::solve(const Vector& b) const {
   return u;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -10,7 +10,7 @@
 
 #include "model/assembly/springs.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 
 class HeldStructure {
  public:
@@ -26,7 +26,7 @@ class HeldStructure {
     std::vector<int> dofs;
     Eigen::MatrixXd t, correction;
   };
-  SymmetricSolver solver_;
+  assembly::SymmetricSolver solver_;
   std::vector<Grip> grips_;
 };
 
@@ -40,4 +40,4 @@ class HeldStructure {
 /// The forms as columns, n x m.
 [[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n);
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -11,11 +11,11 @@
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 namespace {
 
 constexpr int most_restarts = 300;
-constexpr double converged = 1e-12;  // residual of a Ritz value, relative
+constexpr double ritz_tolerance = 1e-12;  // residual of a Ritz value, relative
 
 /// Operator interface for Spectra.
 class Products {
@@ -65,15 +65,15 @@ Vector greatest_eigenvalues(int n, int count, const Operator& apply) {
     Products op(n, apply);
     Spectra::SymEigsSolver<Products> solver(op, count, std::min(n, std::max(2 * count + 1, 60)));
     solver.init();  // Spectra's fixed start vector: reproducible results
-    solver.compute(Spectra::SortRule::LargestAlge, most_restarts, converged);
+    solver.compute(Spectra::SortRule::LargestAlge, most_restarts, ritz_tolerance);
     return solver.eigenvalues();
   } catch (const std::exception&) {
     return Vector(0);
   }
 }
 
-EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
-                             const Operator& inverse) {
+base::EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
+                                   const Operator& inverse) {
   using Mass = Spectra::SparseSymMatProd<double>;
   try {
     Products op(mass.rows(), inverse);
@@ -81,7 +81,8 @@ EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, dou
     Spectra::SymGEigsShiftSolver<Products, Mass, Spectra::GEigsMode::ShiftInvert> solver(op, product, count,
                                                                                          width, -shift);
     solver.init();  // Spectra's fixed start vector: reproducible results
-    solver.compute(Spectra::SortRule::LargestMagn, most_restarts, converged, Spectra::SortRule::SmallestAlge);
+    solver.compute(Spectra::SortRule::LargestMagn, most_restarts, ritz_tolerance,
+                   Spectra::SortRule::SmallestAlge);
     if (solver.info() == Spectra::CompInfo::Successful) return {solver.eigenvalues(), solver.eigenvectors()};
   } catch (const std::exception&) {
     // With few distinct eigenvalues the iteration ends early: the caller has alternatives.
@@ -92,12 +93,13 @@ EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, dou
 namespace {
 
 constexpr double nothing_new = 1e-20;  // relative, of a square: ten of sixteen digits are lost
-constexpr double settled = 1e-8;       // residual of a Ritz vector; the error of its omega^2 is its square
+constexpr double vector_tolerance =
+    1e-8;  // residual of a Ritz vector; the error of its omega^2 is its square
 constexpr int widest_block = 100;
 constexpr int most_rounds = 50;
 
 /// The modes of `pairs` up to the limit and the lowest of the others, sorted.
-EigenPairs sorted(const EigenPairs& pairs, double limit) {
+base::EigenPairs sorted(const base::EigenPairs& pairs, double limit) {
   std::vector<Eigen::Index> order;
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j) order.push_back(j);
   std::sort(order.begin(), order.end(),
@@ -108,13 +110,13 @@ EigenPairs sorted(const EigenPairs& pairs, double limit) {
   return {pairs.values(order), pairs.vectors(Eigen::all, order)};
 }
 
-Eigen::Index number_below(const EigenPairs& pairs, double limit) {
+Eigen::Index number_below(const base::EigenPairs& pairs, double limit) {
   return (pairs.values.array() < limit).count();
 }
 
-EigenPairs join(const EigenPairs& a, const EigenPairs& b) {
-  EigenPairs both{Eigen::VectorXd(a.values.size() + b.values.size()),
-                  Eigen::MatrixXd(a.vectors.rows(), a.values.size() + b.values.size())};
+base::EigenPairs join(const base::EigenPairs& a, const base::EigenPairs& b) {
+  base::EigenPairs both{Eigen::VectorXd(a.values.size() + b.values.size()),
+                        Eigen::MatrixXd(a.vectors.rows(), a.values.size() + b.values.size())};
   both.values << a.values, b.values;
   both.vectors << a.vectors, b.vectors;
   return both;
@@ -122,8 +124,8 @@ EigenPairs join(const EigenPairs& a, const EigenPairs& b) {
 
 /// Modes that a single start vector finds. Free motions are removed from each solution; rounding would otherwise make
 /// them dominate.
-EigenPairs lanczos(int count, const SymmetricSolver& solver, const SparseMatrix& mass,
-                   const Eigen::MatrixXd& free, double shift, int heavies) {
+base::EigenPairs lanczos(int count, const assembly::SymmetricSolver& solver, const SparseMatrix& mass,
+                         const Eigen::MatrixXd& free, double shift, int heavies) {
   const Eigen::MatrixXd inertia = mass * free;
   const Operator inverse = [&](const Eigen::VectorXd& x) {
     Eigen::VectorXd answer = solver.solve(x);
@@ -136,7 +138,7 @@ EigenPairs lanczos(int count, const SymmetricSolver& solver, const SparseMatrix&
 /// Grows span {X, A X, A^2 X, ...} in the M-complement of `known`, and reads modes off it.
 class BlockKrylov {
  public:
-  BlockKrylov(const SymmetricSolver& solver, const SparseMatrix& mass, const Eigen::MatrixXd& known,
+  BlockKrylov(const assembly::SymmetricSolver& solver, const SparseMatrix& mass, const Eigen::MatrixXd& known,
               double shift, int width, unsigned seed)
       : solver_(solver),
         mass_(mass),
@@ -170,13 +172,13 @@ class BlockKrylov {
   }
   /// Ritz pairs with a converged residual, from the lowest up to the first above the limit, or up to the first that has
   /// not converged.
-  [[nodiscard]] EigenPairs modes(double limit) const {
+  [[nodiscard]] base::EigenPairs modes(double limit) const {
     const Eigen::MatrixXd h = basis_.transpose() * (mass_ * images_);
-    const EigenPairs ritz = symmetric_eigen(0.5 * (h + h.transpose()));
-    EigenPairs found{Vector(0), Eigen::MatrixXd(basis_.rows(), 0)};
+    const base::EigenPairs ritz = base::symmetric_eigen(0.5 * (h + h.transpose()));
+    base::EigenPairs found{Vector(0), Eigen::MatrixXd(basis_.rows(), 0)};
     for (Eigen::Index j = ritz.values.size() - 1; j >= 0 && ritz.values[j] > 0.0; --j) {
       const Vector y = ritz.vectors.col(j), x = basis_ * y, miss = images_ * y - ritz.values[j] * x;
-      if (!(std::sqrt(std::max(0.0, miss.dot(mass_ * miss))) <= settled * ritz.values[j])) break;
+      if (!(std::sqrt(std::max(0.0, miss.dot(mass_ * miss))) <= vector_tolerance * ritz.values[j])) break;
       const double square = 1.0 / ritz.values[j] - shift_;
       found = join(found, {Vector::Constant(1, square), x});
       if (square >= limit) break;
@@ -205,7 +207,7 @@ class BlockKrylov {
     return q;
   }
 
-  const SymmetricSolver& solver_;
+  const assembly::SymmetricSolver& solver_;
   const SparseMatrix& mass_;
   const Eigen::MatrixXd& known_;
   double shift_;
@@ -219,12 +221,12 @@ void take_out(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::Mat
     x -= (basis * (basis.transpose() * (mass * x)).eval()).eval();
 }
 
-EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass, const SparseMatrix& stiffness,
-                        const Eigen::MatrixXd& free, double shift) {
-  const SymmetricSolver solver(SparseMatrix(stiffness + shift * mass));
-  EigenPairs found{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
+base::EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass,
+                              const SparseMatrix& stiffness, const Eigen::MatrixXd& free, double shift) {
+  const assembly::SymmetricSolver solver(SparseMatrix(stiffness + shift * mass));
+  base::EigenPairs found{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) return found;
-  const int heavies = degrees_with_mass(mass) - static_cast<int>(free.cols());
+  const int heavies = assembly::degrees_with_mass(mass) - static_cast<int>(free.cols());
   found = sorted(lanczos(below + 1, solver, mass, free, shift, heavies), limit);
   const auto complete = [&] {
     return found.values.size() == below + 1 && number_below(found, limit) == below;
@@ -238,7 +240,7 @@ EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass, const
     const int rest = heavies - static_cast<int>(old), width = std::min({missing + 8, widest_block, rest});
     BlockKrylov space(solver, mass, known, shift, width, round);
     const Eigen::Index greatest = std::min(rest, 40 * width);
-    EigenPairs fresh{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
+    base::EigenPairs fresh{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
     for (bool grows = true; grows && number_below(fresh, limit) == fresh.values.size();) {
       grows = space.grow(greatest);
       fresh = space.modes(limit);
@@ -249,4 +251,4 @@ EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass, const
   return found;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -9,7 +9,7 @@
 #include "base/eigen_dense.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 
 using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
@@ -22,8 +22,8 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
 /// The `count` lowest modes as far as a single start vector finds them: omega^2 and M-orthonormal shapes, not sorted,
 /// from a Krylov space of dimension `width`; none if the iteration does not converge. `inverse`: (K + shift M)^-1.
-[[nodiscard]] EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
-                                           const Operator& inverse);
+[[nodiscard]] base::EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
+                                                 const Operator& inverse);
 
 // A given number of the lowest modes of a large structure, repeated ones included.
 //
@@ -40,8 +40,8 @@ void take_out(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::Mat
 /// The `below` lowest modes that are not free, then the first one above them: omega^2 ascending, and M-orthonormal
 /// shapes, n x (below + 1). `limit` (omega^2) separates the two. Fewer columns if some were not found. `free`: all
 /// M-orthonormal free motions, n x f; `shift` = s, K + s M positive definite.
-[[nodiscard]] EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass,
-                                      const SparseMatrix& stiffness, const Eigen::MatrixXd& free,
-                                      double shift);
+[[nodiscard]] base::EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass,
+                                            const SparseMatrix& stiffness, const Eigen::MatrixXd& free,
+                                            double shift);
 
-}  // namespace signorini
+}  // namespace signorini::modes

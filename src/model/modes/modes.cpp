@@ -14,7 +14,7 @@
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 namespace {
 
 constexpr double digits_of_highest = 1e-4;  // relative, of the highest square: it only scales steps
@@ -27,19 +27,19 @@ using Lowest = std::optional<double>;
 Lowest lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
   Eigen::MatrixXd m(mass), stiff(k);
   if (!fixed.empty()) {
-    const Eigen::MatrixXd free = orthogonal_complement(form_columns(fixed, static_cast<int>(k.rows())));
+    const Eigen::MatrixXd free = base::orthogonal_complement(form_columns(fixed, static_cast<int>(k.rows())));
     m = (free.transpose() * m * free).eval();
     stiff = (free.transpose() * stiff * free).eval();
     if (free.cols() == 0) return std::nullopt;
   }
-  if (null_motions(stiff.sparseView()).cols() > 0) return 0.0;
-  const Eigen::VectorXd mu = generalized_eigenvalues(m, stiff);
+  if (statics::null_motions(stiff.sparseView()).cols() > 0) return 0.0;
+  const Eigen::VectorXd mu = base::generalized_eigenvalues(m, stiff);
   if (mu.size() == 0 || !(mu[mu.size() - 1] > 0.0)) return std::nullopt;
   return 1.0 / std::sqrt(mu[mu.size() - 1]);
 }
 
 Lowest lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
-  if (null_motions(with_grips(k, fixed)).cols() > 0) return 0.0;
+  if (statics::null_motions(with_grips(k, fixed)).cols() > 0) return 0.0;
   const Frequencies lowest =
       lowest_frequencies(mass, SparseMatrix(k.rows(), k.cols()), k, Holding{{}, fixed}, 1);
   return lowest.modes.empty() ? Lowest() : lowest.modes[0].omega;
@@ -50,7 +50,8 @@ Lowest lowest_of(const SparseMatrix& mass, const SparseMatrix& k, const std::vec
 }
 
 double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
-  const SparseMatrix heavy = select_by_mass(mass, true), light = select_by_mass(mass, false);
+  const SparseMatrix heavy = assembly::select_by_mass(mass, true),
+                     light = assembly::select_by_mass(mass, false);
   const auto h = static_cast<int>(heavy.cols()), l = static_cast<int>(light.cols());
   if (h == 0) return 0.0;
   const SparseMatrix m = heavy.transpose() * mass * heavy;
@@ -58,8 +59,8 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   const SparseMatrix kmm = light.transpose() * k * light;
   const SparseMatrix kmd = light.transpose() * k * heavy;
   // A massless motion without stiffness (dampers only) cannot be condensed; fixing it gives a bound.
-  const bool condense = l > 0 && null_motions(kmm).cols() == 0;
-  const SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
+  const bool condense = l > 0 && statics::null_motions(kmm).cols() == 0;
+  const assembly::SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
   auto condensed = [&](const Vector& x) -> Vector {
     Vector y = kdd * x;
     if (condense) y -= kmd.transpose() * massless.solve(kmd * x);
@@ -68,10 +69,11 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   if (h <= dense_up_to) {
     Eigen::MatrixXd kc(h, h);
     for (int j = 0; j < h; ++j) kc.col(j) = condensed(Vector::Unit(h, j));
-    const Eigen::VectorXd values = generalized_eigenvalues(0.5 * (kc + kc.transpose()), Eigen::MatrixXd(m));
+    const Eigen::VectorXd values =
+        base::generalized_eigenvalues(0.5 * (kc + kc.transpose()), Eigen::MatrixXd(m));
     return values.size() == 0 ? 0.0 : frequency(values[values.size() - 1]);
   }
-  const CholeskyFactor factor(m);
+  const assembly::CholeskyFactor factor(m);
   if (!factor.ok()) return 0.0;
   auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return factor.solve_factor(condensed(factor.solve_transposed_factor(x)));
@@ -82,7 +84,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
 double highest(const SparseMatrix& mass, const SparseMatrix& k) {
   if (mass.rows() <= dense_up_to) return highest_of(mass, k);
   double omega = 0.0;
-  for (const Part& part : Parts({&mass, &k}))
+  for (const assembly::Part& part : assembly::Parts({&mass, &k}))
     omega = std::max(omega, highest_of(part.matrix(mass), part.matrix(k)));
   return omega;
 }
@@ -110,10 +112,10 @@ Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bo
 
 double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness, const Holding& holding) {
   if (mass.rows() == 0) return 0.0;
-  const SparseMatrix k = with_springs(stiffness, holding.springs);
+  const SparseMatrix k = assembly::with_springs(stiffness, holding.springs);
   if (mass.rows() <= dense_up_to) return lowest_of(mass, k, holding.fixed).value_or(0.0);
   Lowest lowest;
-  for (const Part& part : Parts({&mass, &k}, holding.fixed)) {
+  for (const assembly::Part& part : assembly::Parts({&mass, &k}, holding.fixed)) {
     const Lowest own = lowest_of(part.matrix(mass), part.matrix(k), part.forms(holding.fixed));
     if (own) lowest = std::min(*own, lowest.value_or(*own));
   }
@@ -122,7 +124,7 @@ double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
 
 double highest_frequency(const Model& model) {
   const Holding holding = hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true));
-  return highest(model.mass, with_springs(model.stiffness, holding.springs));
+  return highest(model.mass, assembly::with_springs(model.stiffness, holding.springs));
 }
 
 namespace {
@@ -134,9 +136,9 @@ constexpr int solves = 4;         // inverse iterations; each one gains a factor
 
 double rounding_floor(const Model& model) {
   if (!(model.omega1 > 0.0) || model.stiffness.nonZeros() == 0) return 0.0;
-  const SparseMatrix k = with_springs(model.stiffness, contact_springs(model.contacts));
+  const SparseMatrix k = assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts));
   const double shift = beside * model.omega1 * model.omega1;
-  const SymmetricSolver solver(SparseMatrix(k - shift * model.mass));
+  const assembly::SymmetricSolver solver(SparseMatrix(k - shift * model.mass));
   if (!solver.ok()) return 0.0;
   Vector x = Vector::LinSpaced(model.size(), 1.0, 1.7);  // not orthogonal to any shape by symmetry
   for (int i = 0; i < solves; ++i) {
@@ -154,4 +156,4 @@ double rounding_floor(const Model& model) {
   return 0.25 * rounding::eps * std::sqrt(squares) / energy;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -13,7 +13,7 @@
 #include "model/assembly/springs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 
 /// Number of degrees of freedom up to which the dense solver is used, because it is faster there. Chosen value; results
 /// agree either way.
@@ -21,7 +21,7 @@ inline constexpr int dense_up_to = 200;
 
 /// Constraints by contacts, for a frequency: springs, and fixed forms.
 struct Holding {
-  std::vector<LineSpring> springs;
+  std::vector<assembly::LineSpring> springs;
   std::vector<Combination> fixed;
 
   /// Along its normal a closed contact holds by its spring, or as a constraint; not where N is a datum.
@@ -50,4 +50,4 @@ struct Holding {
 /// Relative, for the mode with the frequency closest to model.omega1, with contact springs; 0: there is none.
 [[nodiscard]] double rounding_floor(const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -13,7 +13,7 @@
 #include "model/modes/lanczos.hpp"
 #include "model/statics/mechanisms.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 namespace {
 
 constexpr double no_factor = 1e-12;   // relative to the largest |nu|: rounding for a motion without geometric
@@ -43,7 +43,7 @@ Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
   const SparseMatrix both =
       of_square > 0.0 ? SparseMatrix(elastic + std::max(greatest(elastic), 1e-300) / of_square * square)
                       : elastic;
-  Eigen::MatrixXd null = null_motions(greatest(elastic) > 0.0 ? both : square);
+  Eigen::MatrixXd null = statics::null_motions(greatest(elastic) > 0.0 ? both : square);
   Pencil result{loose, geometric};
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
     Eigen::Index at = 0;
@@ -54,7 +54,7 @@ Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
   return result;
 }
 
-bool is_definite(const SparseMatrix& a) { return null_motions(a).cols() == 0; }
+bool is_definite(const SparseMatrix& a) { return statics::null_motions(a).cols() == 0; }
 
 /// s, and the terms that make K + s K_g positive definite: springs along the fixed forms.
 struct Shift {
@@ -93,15 +93,15 @@ std::vector<double> dense_factors(const SparseMatrix& elastic, const SparseMatri
   const auto n = static_cast<int>(elastic.rows());
   Pencil own{elastic, geometric};
   if (!fixed.empty()) {
-    const Eigen::MatrixXd q = orthogonal_complement(form_columns(fixed, n));
+    const Eigen::MatrixXd q = base::orthogonal_complement(form_columns(fixed, n));
     if (q.cols() == 0) return {};
     own = {restricted(elastic, q), restricted(geometric, q)};
   }
   const Pencil pencil = held_pencil(own.elastic, own.geometric, {});
   const auto shift = find_shift(pencil, {});
   if (!shift) return {0.0};
-  return factors_of(
-      shift->s, generalized_eigenvalues(-Eigen::MatrixXd(pencil.geometric), Eigen::MatrixXd(shift->matrix)));
+  return factors_of(shift->s, base::generalized_eigenvalues(-Eigen::MatrixXd(pencil.geometric),
+                                                            Eigen::MatrixXd(shift->matrix)));
 }
 
 std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
@@ -110,11 +110,11 @@ std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatr
   const Pencil pencil = held_pencil(elastic, geometric, fixed);
   const auto shift = find_shift(pencil, fixed);
   if (!shift) return {0.0};
-  const CholeskyFactor factor(shift->matrix);
+  const assembly::CholeskyFactor factor(shift->matrix);
   if (!factor.ok()) return {0.0};
   Eigen::MatrixXd across = form_columns(fixed, n);  // F^-1 T, orthonormal
   for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j) = factor.solve_factor(Vector(across.col(j)));
-  if (across.cols() > 0) across = orthonormal(across);
+  if (across.cols() > 0) across = base::orthonormal(across);
   const auto along = [&](const Vector& y) -> Vector { return y - across * (across.transpose() * y); };
   const Operator apply = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
     return along(factor.solve_factor(Vector(-(pencil.geometric * factor.solve_transposed_factor(along(y))))));
@@ -127,12 +127,12 @@ std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatr
 std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
                                  const Holding& holding, int count) {
   if (elastic.rows() == 0 || geometric.nonZeros() == 0) return {};
-  const SparseMatrix k = with_springs(elastic, holding.springs);
+  const SparseMatrix k = assembly::with_springs(elastic, holding.springs);
   std::vector<double> factors;
   if (elastic.rows() <= dense_up_to) {
     factors = dense_factors(k, geometric, holding.fixed);
   } else {
-    for (const Part& part : Parts({&k, &geometric}, holding.fixed)) {
+    for (const assembly::Part& part : assembly::Parts({&k, &geometric}, holding.fixed)) {
       const SparseMatrix own = part.matrix(k), forces = part.matrix(geometric);
       const std::vector<Combination> fixed = part.forms(holding.fixed);
       const std::vector<double> found = part.size() <= dense_up_to
@@ -147,7 +147,7 @@ std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix
 }
 
 bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
-  return motion.dot(k * motion) < -rounding::of_many * term_size(k, motion);
+  return motion.dot(k * motion) < -rounding::of_many * assembly::term_size(k, motion);
 }
 
 namespace {
@@ -156,11 +156,11 @@ constexpr double no_inertia = 1e-14;  // relative to the terms of x.Mx: rounding
 constexpr double no_faster = 1e-9;    // relative change of a rate; its motion then has half as many digits
 
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
-  Eigen::MatrixXd null = null_motions(k);  // includes motions of negative energy
+  Eigen::MatrixXd null = statics::null_motions(k);  // includes motions of negative energy
   if (null.cols() == 0) return std::nullopt;
   for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
   Growth growth;
-  growth.motion = null * symmetric_eigen(null.transpose() * (k * null)).vectors.col(0);
+  growth.motion = null * base::symmetric_eigen(null.transpose() * (k * null)).vectors.col(0);
   if (!has_negative_energy(k, growth.motion)) return std::nullopt;
 
   // Inverse iteration on K + s M with s above the largest sigma^2 found so far. Every Rayleigh quotient is a rate that
@@ -168,7 +168,7 @@ std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix&
   Vector x = growth.motion;
   for (int round = 0; round < 100; ++round) {
     const double energy = x.dot(k * x), inertia = x.dot(mass * x);
-    if (!(inertia > no_inertia * term_size(mass, x)) || !std::isfinite(energy / inertia)) {
+    if (!(inertia > no_inertia * assembly::term_size(mass, x)) || !std::isfinite(energy / inertia)) {
       growth.rate = std::numeric_limits<double>::infinity();
       return growth;
     }
@@ -176,7 +176,7 @@ std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix&
     const bool settled = rate <= (1.0 + no_faster) * growth.rate;
     if (rate > growth.rate) growth = {rate, x};
     if (settled) break;
-    const SymmetricSolver solver(SparseMatrix(k + 1.5 * growth.rate * growth.rate * mass));
+    const assembly::SymmetricSolver solver(SparseMatrix(k + 1.5 * growth.rate * growth.rate * mass));
     if (!solver.ok()) break;
     x = solver.solve(mass * x).normalized();
   }
@@ -186,10 +186,10 @@ std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix&
 }  // namespace
 
 std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& mass) {
-  const Parts parts({&k, &mass});
+  const assembly::Parts parts({&k, &mass});
   if (parts.count() == 1) return growth_of_whole(k, mass);
   std::optional<Growth> fastest;
-  for (const Part& part : parts) {
+  for (const assembly::Part& part : parts) {
     const std::optional<Growth> own = growth_of_whole(part.matrix(k), part.matrix(mass));
     if (!own || (fastest && own->rate <= fastest->rate)) continue;
     fastest = Growth{own->rate, Vector::Zero(k.rows())};
@@ -198,4 +198,4 @@ std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& 
   return fastest;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modes

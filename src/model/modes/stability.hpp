@@ -15,7 +15,7 @@
 #include "model/modes/modes.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::modes {
 
 /// The lowest `count` of all lambda, ascending; a single 0: unstable under arbitrarily small forces.
 [[nodiscard]] std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
@@ -39,4 +39,4 @@ struct Growth {
 /// The fastest growing motion; nullopt if no motion has negative energy. Damping is neglected.
 [[nodiscard]] std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& mass);
 
-}  // namespace signorini
+}  // namespace signorini::modes

@@ -15,7 +15,7 @@
 #include "scene/units.hpp"
 #include "signorini/output.hpp"
 
-namespace signorini {
+namespace signorini::outputs {
 namespace {
 
 Combination form_of(const Vector& x) {
@@ -39,7 +39,8 @@ bool is_motion(OutputKind kind) {
 
 class Maker {
  public:
-  Maker(const Scene& scene, const DofMap& map, const Model& model) : scene_(scene), map_(map), model_(model) {
+  Maker(const Scene& scene, const assembly::DofMap& map, const Model& model)
+      : scene_(scene), map_(map), model_(model) {
     if (!map.matrices()) rows_.emplace(scene, map, model.alpha, model.beta);
   }
 
@@ -47,7 +48,7 @@ class Maker {
     Output output;
     output.name = spec.name;
     output.kind = spec.kind;
-    output.unit = unit_of_output(spec, scene_.outputs);
+    output.unit = scene::unit_of_output(spec, scene_.outputs);
     if (spec.kind == OutputKind::contact) {
       of_contact(spec, output);
     } else if (spec.kind == OutputKind::combination) {
@@ -108,7 +109,7 @@ class Maker {
     const Reduction& reduction = *model_.reduction;
     Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
     const Vector dampers = reduction.shapes.transpose() * (row.v - row.rayleigh);
-    const bool creep = static_shapes_creep(model_.beta, reduction.first_left_out);
+    const bool creep = reduce::static_shapes_creep(model_.beta, reduction.first_left_out);
     for (Eigen::Index j = 0; j < a.size(); ++j) {
       if (!model_.dofs[static_cast<std::size_t>(j)].massless) continue;
       a[j] = 0.0;
@@ -134,12 +135,12 @@ class Maker {
   /// N u / R in addition to the scene's spring N_0 / R, which is in the row; the model's N_K u / R is damped by beta.
   void restore(const PhysicalRow::Bowl& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
-    const Bowl& said = *scene_.contacts[bowl.contact].bowl;
+    const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].bowl;
     output.restoring.push_back(
-        {bowl.contact, contact.body_tangent(), bowl.factor / said.radius, said.carried});
+        {bowl.contact, contact.body_tangent(), bowl.factor / in_scene.radius, in_scene.carried});
     if (model_.beta != 0.0)
       add(output.v, contact.body_tangent(),
-          bowl.factor * model_.beta * beyond_spring(scene_.contacts[bowl.contact], contact));
+          bowl.factor * model_.beta * contact::beyond_spring(scene_.contacts[bowl.contact], contact));
   }
 
   void fill(const OutputSpec& spec, PhysicalRow& row, Output& output) {
@@ -164,14 +165,16 @@ class Maker {
   void motion(const OutputSpec& spec, int rate, PhysicalRow& row) {
     const double u = rate == 0 ? 1.0 : 0.0, v = rate == 1 ? 1.0 : 0.0, a = rate == 2 ? 1.0 : 0.0;
     if (map_.matrices()) {
-      const Combination form = combination(map_, spec.direction, "output." + spec.name + ".direction", false);
+      const Combination form =
+          assembly::combination(map_, spec.direction, "output." + spec.name + ".direction", false);
       form.add_to(rate == 0 ? row.u : rate == 1 ? row.v : row.a, 1.0);
       for (const BaseMotionSpec& base : scene_.base_motion) {
-        const Combination r = combination(map_, base.direction, "base_motion.direction", false);
+        const Combination r = assembly::combination(map_, base.direction, "base_motion.direction", false);
         Vector moved = Vector::Zero(map_.size());
         r.add_to(moved, a);
         if (const double part = form.dot(moved); part != 0.0)
-          row.given.push_back({make_history(base.acceleration, "base_motion.acceleration").scaled(part)});
+          row.given.push_back(
+              {scene::make_history(base.acceleration, "base_motion.acceleration").scaled(part)});
       }
       return;
     }
@@ -183,7 +186,7 @@ class Maker {
       const auto numbers = map_.numbers_at(node);
       for (std::size_t c = 0; c < 3; ++c) {
         if (d[c] == 0.0) continue;
-        if (numbers[c] == DofMap::absent)
+        if (numbers[c] == assembly::DofMap::absent)
           refuse(
               spec, "at",
               fmt::format("nothing moves node '{}' {}: no member, mass, spring or contact there", spec.at[i],
@@ -197,8 +200,8 @@ class Maker {
   }
 
   [[nodiscard]] Way way(const OutputSpec& spec, std::size_t i, const char* key) const {
-    const auto [piece, backwards] = piece_between(map_, spec.at[i], spec.at[i + 1], spec.place,
-                                                  fmt::format("output.{}.{}", spec.name, key));
+    const auto [piece, backwards] = assembly::piece_between(map_, spec.at[i], spec.at[i + 1], spec.place,
+                                                            fmt::format("output.{}.{}", spec.name, key));
     return {piece, backwards};
   }
 
@@ -212,7 +215,7 @@ class Maker {
   }
 
   void member_force(const OutputSpec& spec, PhysicalRow& row) {
-    const Wanted wanted = wanted_by(spec, spec.fibre);
+    const Wanted wanted = requested_by(spec, spec.fibre);
     const Way along = way(spec, 0, "at");
     cut(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted, row);
   }
@@ -224,7 +227,8 @@ class Maker {
     Eigen::RowVector3d factors(c * c, s * s, 2.0 * c * s);
     if (spec.quantity == OutputQuantity::yy) factors << s * s, c * c, -2.0 * c * s;
     if (spec.quantity == OutputQuantity::xy) factors << -c * s, c * s, c * c - s * s;
-    rows_->add_stress(row, body_of_node(scene_, static_cast<std::size_t>(node)).value(), node, factors);
+    rows_->add_stress(row, scene::body_of_node(scene_, static_cast<std::size_t>(node)).value(), node,
+                      factors);
   }
 
   /// The requested quantity at one point of a stretch.
@@ -232,7 +236,7 @@ class Maker {
                const Wanted& wanted) const {
     Output linear;
     linear.kind = spec.kind;
-    linear.unit = unit_of_output(spec, scene_.outputs);
+    linear.unit = scene::unit_of_output(spec, scene_.outputs);
     PhysicalRow row(map_.size());
     cut(spec, key, way, at, wanted, row);
     take(row, linear);
@@ -250,7 +254,7 @@ class Maker {
   void section_extremes(const OutputSpec& spec, Output& output) const {
     const Way along = way(spec, 0, "at");
     for (const Fibre fibre : fibres_of(spec)) {
-      const Wanted wanted = wanted_by(spec, fibre);
+      const Wanted wanted = requested_by(spec, fibre);
       output.stretches.push_back(
           {{point(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted)},
            spec.at[0],
@@ -272,7 +276,7 @@ class Maker {
           Output::Stretch stretch{{}, spec.at[i], spec.at[i + 1], at / count, (at + 1.0) / count, fibre};
           for (std::size_t j = 0; j < points; ++j)
             stretch.at.push_back(
-                point(spec, "nodes", along, {k, Along::point(points, j)}, wanted_by(spec, fibre)));
+                point(spec, "nodes", along, {k, base::Along::point(points, j)}, requested_by(spec, fibre)));
           output.stretches.push_back(std::move(stretch));
         }
     }
@@ -324,7 +328,7 @@ class Maker {
 
   [[nodiscard]] bool is_held(int node, std::size_t c) const {
     const int number = map_.numbers_at(node)[c];
-    return number == DofMap::fixed || DofMap::moving_of_code(number) >= 0;
+    return number == assembly::DofMap::fixed || assembly::DofMap::moving_of_code(number) >= 0;
   }
 
   void of_contact(const OutputSpec& spec, Output& output) const {
@@ -369,8 +373,9 @@ class Maker {
     for (const OutputTerm& part : spec.terms) {
       const Output& term = named(part.name, before);
       const double factor = part.factor;
-      if (!same_unit(product_of_units(term.unit, part.unit), output.unit))  // only possible in a scene made
-                                                                            // in code
+      if (!scene::same_unit(scene::product_of_units(term.unit, part.unit),
+                            output.unit))  // only possible in a scene made
+                                           // in code
         refuse(spec, "terms",
                fmt::format("'{}' has another unit than '{}'", part.name, spec.terms.front().name));
       add(output.u, term.u, factor);
@@ -379,7 +384,7 @@ class Maker {
       for (const Output::ContactForces& f : term.forces)
         output.forces.push_back({f.contact, factor * f.N, factor * f.T});
       for (const Output::Restoring& r : term.restoring)
-        output.restoring.push_back({r.contact, r.slip, factor * r.factor, r.said});
+        output.restoring.push_back({r.contact, r.slip, factor * r.factor, r.scene_force});
       for (const Output::Given& g : term.given)
         output.given.push_back({g.history.scaled(factor), g.load, factor * g.factor, g.of_load});
       output.constant += factor * term.constant;
@@ -387,14 +392,14 @@ class Maker {
   }
 
   const Scene& scene_;
-  const DofMap& map_;
+  const assembly::DofMap& map_;
   const Model& model_;
   std::optional<StructureRows> rows_;
 };
 
 }  // namespace
 
-void make_outputs(const Scene& scene, const DofMap& map, Model& model) {
+void make_outputs(const Scene& scene, const assembly::DofMap& map, Model& model) {
   if (scene.outputs.empty()) return;
   Maker maker(scene, map, model);
   bool reactions = false;
@@ -418,15 +423,19 @@ void add(std::string& text, const std::string& name, int power) {
 
 }  // namespace
 
+}  // namespace signorini::outputs
+
+namespace signorini {
+
 std::string unit_text(const Unit& unit, const Units& names) {
   std::string above, below;
   if (unit.force == 0 && unit.length == 0) above = "rad";
-  add(above, names.force, unit.force);
-  add(above, names.length, unit.length);
-  add(above, names.time, unit.time);
-  add(below, names.force, -unit.force);
-  add(below, names.length, -unit.length);
-  add(below, names.time, -unit.time);
+  outputs::add(above, names.force, unit.force);
+  outputs::add(above, names.length, unit.length);
+  outputs::add(above, names.time, unit.time);
+  outputs::add(below, names.force, -unit.force);
+  outputs::add(below, names.length, -unit.length);
+  outputs::add(below, names.time, -unit.time);
   if (above.empty()) above = "1";
   return below.empty() ? above : above + '/' + below;
 }

@@ -14,9 +14,9 @@
 
 #include "model/assembly/dofs.hpp"
 
-namespace signorini {
+namespace signorini::outputs {
 
 /// Sets Model::outputs and Model::reaction_sums; the last step of building a model. Errors: SceneError.
-void make_outputs(const Scene& scene, const DofMap& map, Model& model);
+void make_outputs(const Scene& scene, const assembly::DofMap& map, Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::outputs

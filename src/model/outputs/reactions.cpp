@@ -10,22 +10,24 @@
 #include "model/assembly/ties.hpp"
 #include "model/outputs/structure_rows.hpp"
 
-namespace signorini {
+namespace signorini::outputs {
 namespace {
 
 /// Largest distance of a node from the centre.
-double size_of_body(const DofMap& map, const std::vector<int>& nodes, const MeshNode& centre) {
+double size_of_body(const assembly::DofMap& map, const std::vector<int>& nodes,
+                    const element::MeshNode& centre) {
   double size = 0.0;
   for (const int n : nodes) {
-    const MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(n)];
+    const element::MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(n)];
     size = std::max(size, std::hypot(at.x - centre.x, at.y - centre.y));
   }
   return size > 0.0 ? size : 1.0;
 }
 
 /// Resultants of a unit force along component c at a node; the moment over the body's size.
-Eigen::Vector3d resultant(const DofMap& map, int node, std::size_t c, const MeshNode& centre, double size) {
-  const MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(node)];
+Eigen::Vector3d resultant(const assembly::DofMap& map, int node, std::size_t c,
+                          const element::MeshNode& centre, double size) {
+  const element::MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(node)];
   if (c == 0) return {1.0, 0.0, -(at.y - centre.y) / size};
   if (c == 1) return {0.0, 1.0, (at.x - centre.x) / size};
   return {0.0, 0.0, 1.0 / size};
@@ -33,20 +35,21 @@ Eigen::Vector3d resultant(const DofMap& map, int node, std::size_t c, const Mesh
 
 }  // namespace
 
-std::vector<int> nodes_of_body(const DofMap& map, int body) {
+std::vector<int> nodes_of_body(const assembly::DofMap& map, int body) {
   std::vector<int> nodes;
   for (std::size_t i = 0; i < map.body.size(); ++i)
     if (map.body[i] == body) nodes.push_back(static_cast<int>(i));
   return nodes;
 }
 
-void add_body_reaction(const Scene& scene, const DofMap& map, const StructureRows& rows,
+void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const StructureRows& rows,
                        const BodyReaction& asked, PhysicalRow& row) {
   const RigidBody& body = scene.rigid[static_cast<std::size_t>(asked.body)];
-  const MeshNode& centre = map.mesh.nodes[static_cast<std::size_t>(map.mesh.by_name.at(body.centre))];
+  const element::MeshNode& centre =
+      map.mesh.nodes[static_cast<std::size_t>(map.mesh.by_name.at(body.centre))];
   const std::vector<int> nodes = nodes_of_body(map, asked.body);
   const double size = size_of_body(map, nodes, centre);
-  const auto held = held_in_body(scene, map, asked.body);
+  const auto held = assembly::held_in_body(scene, map, asked.body);
   Eigen::MatrixXd g(3, static_cast<Eigen::Index>(held.size()));
   Vector along = Vector::Zero(g.cols());  // contribution of each support to the requested reaction
   for (std::size_t j = 0; j < held.size(); ++j) {
@@ -57,13 +60,13 @@ void add_body_reaction(const Scene& scene, const DofMap& map, const StructureRow
   }
   const Eigen::MatrixXd square = g.transpose() * g;
   const Eigen::MatrixXd angles = g.colwise().normalized().transpose() * g.colwise().normalized();
-  if (!(symmetric_eigen(angles).values[0] > rounding::of_many))
+  if (!(base::symmetric_eigen(angles).values[0] > rounding::of_many))
     throw SceneError(
         asked.place, asked.key,
         fmt::format("the supports of rigid body '{}' bear its load together, and nothing decides how much "
                     "each: expected three at most, none of which follows from the others",
                     body.name));
-  const Eigen::Vector3d weights = g * solve_dense(square, along);
+  const Eigen::Vector3d weights = g * base::solve_dense(square, along);
   for (const int node : nodes)
     for (std::size_t c = 0; c < 3; ++c)
       if (const double factor = weights.dot(resultant(map, node, c, centre, size)); factor != 0.0)
@@ -80,7 +83,7 @@ constexpr double usual_variability = 0.25;  // limit of the piping codes MSS SP-
 
 }  // namespace
 
-void find_hangers(const Scene& scene, const DofMap& map, Model& model) {
+void find_hangers(const Scene& scene, const assembly::DofMap& map, Model& model) {
   std::optional<StructureRows> rows;
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& spring = scene.springs[i];
@@ -101,7 +104,7 @@ double variability(const HangerLoad& hanger) {
                                 : std::abs(hanger.cold - hanger.at_start) / std::abs(hanger.at_start);
 }
 
-std::vector<std::string> hanger_doubts(const Scene& scene, const Model& model) {
+std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model) {
   std::vector<std::string> doubts;
   for (const HangerLoad& h : model.hangers) {
     const Spring& spring = scene.springs[h.spring - 1];
@@ -131,4 +134,4 @@ std::vector<std::string> hanger_doubts(const Scene& scene, const Model& model) {
   return doubts;
 }
 
-}  // namespace signorini
+}  // namespace signorini::outputs

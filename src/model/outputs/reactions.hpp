@@ -10,7 +10,7 @@
 #include "model/assembly/dofs.hpp"
 #include "model/outputs/structure_rows.hpp"
 
-namespace signorini {
+namespace signorini::outputs {
 
 /// The requested reaction: along d (x, y, rotation) at a node of a body.
 struct BodyReaction {
@@ -21,10 +21,10 @@ struct BodyReaction {
 };
 
 /// Mesh nodes of a body.
-[[nodiscard]] std::vector<int> nodes_of_body(const DofMap& map, int body);
+[[nodiscard]] std::vector<int> nodes_of_body(const assembly::DofMap& map, int body);
 
 /// Errors: SceneError if the supports of the body are statically indeterminate.
-void add_body_reaction(const Scene& scene, const DofMap& map, const StructureRows& rows,
+void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const StructureRows& rows,
                        const BodyReaction& asked, PhysicalRow& row);
 
 // Forces of springs with a preload, in the undeformed structure and at the start.
@@ -32,13 +32,13 @@ void add_body_reaction(const Scene& scene, const DofMap& map, const StructureRow
 //   cold  F_c = preload        at the start  F = preload + k d.u0        variability |F_c - F| / |F|
 
 /// Sets Model::hangers; u0 has the physical degrees of freedom.
-void find_hangers(const Scene& scene, const DofMap& map, Model& model);
+void find_hangers(const Scene& scene, const assembly::DofMap& map, Model& model);
 
 /// |F_c - F| / |F|; infinite if F is zero.
 [[nodiscard]] double variability(const HangerLoad& hanger);
 
 /// Warnings for springs whose force in static equilibrium differs much from the preload, or has the opposite sign; one
 /// sentence each.
-[[nodiscard]] std::vector<std::string> hanger_doubts(const Scene& scene, const Model& model);
+[[nodiscard]] std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::outputs

@@ -10,7 +10,7 @@
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
 
-namespace signorini {
+namespace signorini::outputs {
 namespace {
 
 void add_given(PhysicalRow& row, const History& history, double factor) {
@@ -23,49 +23,49 @@ void add_given(PhysicalRow& row, const History& history, double factor) {
 }
 
 std::array<double, 2> unit_vector(const std::array<double, 2>& v) {
-  const auto clean = clean_direction(v);
+  const auto clean = assembly::clean_direction(v);
   const double length = std::hypot(clean[0], clean[1]);
   return {clean[0] / length, clean[1] / length};
 }
 
 }  // namespace
 
-StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha, double beta)
+StructureRows::StructureRows(const Scene& scene, const assembly::DofMap& map, double alpha, double beta)
     : scene_(scene), map_(map), alpha_(alpha), beta_(beta), uniform_(map.mesh.elements.size()) {
   for (std::size_t i = 0; i < map.supports.size(); ++i)
-    moving_.push_back(motion_of_support(scene, map, static_cast<int>(i)));
+    moving_.push_back(assembly::motion_of_support(scene, map, static_cast<int>(i)));
   for (const BaseMotionSpec& motion : scene.base_motion)
-    base_.push_back(make_history(motion.acceleration, "base_motion.acceleration"));
+    base_.push_back(scene::make_history(motion.acceleration, "base_motion.acceleration"));
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const LoadSpec& load = scene.loads[i];
     const std::string key = fmt::format("loads.{}", i + 1);
-    loads_.push_back({make_history(load.history, key + ".history").scaled(load.amplitude),
-                      name_of(load, i + 1), 1.0, unit_of_history(load.type)});
+    loads_.push_back({scene::make_history(load.history, key + ".history").scaled(load.amplitude),
+                      assembly::name_of(load, i + 1), 1.0, assembly::unit_of_history(load.type)});
     tractions_.emplace_back();
-    if (load.type == LoadType::traction) tractions_.back() = traction_forces(scene, map.mesh, load);
+    if (load.type == LoadType::traction) tractions_.back() = assembly::traction_forces(scene, map.mesh, load);
     for (std::size_t j = 0; j + 1 < load.pieces.size(); ++j) {
       const auto [piece, backwards] =
-          piece_between(map, load.pieces[j], load.pieces[j + 1], load.place, key + ".nodes");
+          assembly::piece_between(map, load.pieces[j], load.pieces[j + 1], load.place, key + ".nodes");
       for (std::size_t e = piece->first; e < piece->first + piece->count; ++e)
-        uniform_[e].push_back({i, along_line(load, map.mesh.line(e).axis(), backwards)});
+        uniform_[e].push_back({i, assembly::along_line(load, map.mesh.line(e).axis(), backwards)});
     }
   }
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const Member& member = scene.members[i];
     const std::string key = fmt::format("members.{}.", i + 1);
     strains_.push_back(
-        {make_history(member.temperature, key + "temperature").scaled(member.thermal_expansion),
-         make_history(member.initial_strain, key + "initial_strain")});
+        {scene::make_history(member.temperature, key + "temperature").scaled(member.thermal_expansion),
+         scene::make_history(member.initial_strain, key + "initial_strain")});
   }
   for (const BodySpec& body : scene.bodies)
-    strains_.push_back({make_history(body.temperature, fmt::format("bodies.{}.temperature", body.name))
+    strains_.push_back({scene::make_history(body.temperature, fmt::format("bodies.{}.temperature", body.name))
                             .scaled(body.thermal_expansion)});
 }
 
 void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double cv, double ca,
                                double rayleigh) const {
   if (map_.is_tied(number)) {
-    for (const TiedTerm& term : map_.terms(number))
+    for (const assembly::TiedTerm& term : map_.terms(number))
       add_motion(row, term.number, term.factor * cu, term.factor * cv, term.factor * ca,
                  term.factor * rayleigh);
   } else if (number >= 0) {
@@ -73,7 +73,7 @@ void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double c
     row.v[number] += cv + rayleigh;
     row.a[number] += ca;
     row.rayleigh[number] += rayleigh;
-  } else if (const int s = DofMap::moving_of_code(number);
+  } else if (const int s = assembly::DofMap::moving_of_code(number);
              s >= 0 && (cu != 0.0 || cv + rayleigh != 0.0 || ca != 0.0)) {
     add_given(row, moving_[static_cast<std::size_t>(s)].with_rates(cu, cv + rayleigh, ca), 1.0);
   }
@@ -87,18 +87,19 @@ void StructureRows::add_frame(PhysicalRow& row, double x, double y, bool gravity
   }
 }
 
-void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bool stiff) const {
-  const FiniteElement& e = element(i);
+void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const element::Cut& cut, bool stiff) const {
+  const element::FiniteElement& e = element(i);
   const auto moved = map_.mesh.moved.find(i);
-  ElementVector ca = cut.acceleration;
+  element::ElementVector ca = cut.acceleration;
   if (moved == map_.mesh.moved.end()) ca += e.mass() * cut.forces;
-  ElementVector cu = ElementVector::Zero(ca.size()), frozen = cut.deflection;  // frozen forces are not damped
+  element::ElementVector cu = element::ElementVector::Zero(ca.size()),
+                         frozen = cut.deflection;  // frozen forces are not damped
   if (stiff) cu = e.stiffness() * cut.forces;
-  const AxialForces standing = map_.frozen_in(i);
+  const element::AxialForces standing = map_.frozen_in(i);
   if (stiff && !standing.none() && !map_.within_body(e)) frozen += e.geometric(standing) * cut.forces;
   const std::vector<int> numbers = map_.element_numbers(i);
-  const std::vector<ElementUnknown> unknowns = e.unknowns();
-  PlaneVector frame{0.0, 0.0};
+  const std::vector<element::ElementUnknown> unknowns = e.unknowns();
+  element::PlaneVector frame{0.0, 0.0};
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     add_motion(row, numbers[j], cu[at] + frozen[at], 0.0, ca[at], beta_ * cu[at] + alpha_ * ca[at]);
@@ -106,7 +107,7 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
   }
   add_frame(row, frame[0], frame[1]);
   for (const Uniform& load : uniform_[i]) {
-    const ElementVector f = e.spread(load.q);
+    const element::ElementVector f = e.spread(load.q);
     double factor = cut.load[0] * load.q[0] + cut.load[1] * load.q[1];
     for (Eigen::Index j = 0; j < f.size(); ++j) factor -= cut.forces[j] * f[j];
     add_load(row, load.load, factor);
@@ -119,12 +120,12 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
 /// factor times the force of an element's moved mass on component c of a node; -1: on all nodes.
 void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, std::size_t c,
                                    double factor) const {
-  const MovedMass& moved = map_.mesh.moved.at(i);
-  ElementVector along = ElementVector::Zero(moved.weights.cols());
+  const element::MovedMass& moved = map_.mesh.moved.at(i);
+  element::ElementVector along = element::ElementVector::Zero(moved.weights.cols());
   for (std::size_t j = 0; j < moved.nodes.size(); ++j)
     if (node < 0 || moved.nodes[j] == node) along[static_cast<Eigen::Index>(2 * j + c)] = factor;
-  const ElementVector ca = moved.weights.transpose() * (element(i).mass() * (moved.weights * along));
-  PlaneVector frame{0.0, 0.0};
+  const element::ElementVector ca = moved.weights.transpose() * (element(i).mass() * (moved.weights * along));
+  element::PlaneVector frame{0.0, 0.0};
   for (std::size_t j = 0; j < moved.nodes.size(); ++j)
     for (std::size_t d = 0; d < 2; ++d) {
       const double a = ca[static_cast<Eigen::Index>(2 * j + d)];
@@ -134,13 +135,13 @@ void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, st
   add_frame(row, frame[0], frame[1]);
 }
 
-void StructureRows::add_cut(PhysicalRow& row, std::size_t i, const Cut& cut) const {
+void StructureRows::add_cut(PhysicalRow& row, std::size_t i, const element::Cut& cut) const {
   add_ends(row, i, cut, true);
 }
 
 void StructureRows::add_stress(PhysicalRow& row, std::size_t body, int node,
                                const Eigen::RowVector3d& factors) const {
-  for (const StressTerm& term : stress_at_node(map_.mesh, scene_, body, node)) {
+  for (const element::StressTerm& term : element::stress_at_node(map_.mesh, scene_, body, node)) {
     const Eigen::RowVector2d by_node = factors * term.rows;
     const auto numbers = map_.numbers_at(term.node);
     for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
@@ -149,7 +150,7 @@ void StructureRows::add_stress(PhysicalRow& row, std::size_t body, int node,
     }
   }
   for (const History& strain : strains_[scene_.members.size() + body])
-    add_given(row, strain, factors.dot(stress_of_heat(scene_.bodies[body])));
+    add_given(row, strain, factors.dot(element::stress_of_heat(scene_.bodies[body])));
 }
 
 std::array<double, 3> StructureRows::direction_of(const Spring& spring) const {
@@ -197,7 +198,7 @@ void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::si
   if (load.type == LoadType::distributed) return;
   if (load.type == LoadType::traction) {
     double force = 0.0;
-    for (const NodeForce& f : tractions_[i])
+    for (const assembly::NodeForce& f : tractions_[i])
       if (c < 2 && (node < 0 || f.node == node)) force += f.force[c];
     return add_load(row, i, factor * force);
   }
@@ -222,7 +223,7 @@ void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::
   if (share == 0.0) return;
   Output::ContactForces forces{k};
   if (const Direction* n = spec.bearing_normal()) forces.N = factor * share * unit_vector(n->vector)[c];
-  if (const auto t = sliding_direction(spec); t[0] != 0.0 || t[1] != 0.0)
+  if (const auto t = assembly::sliding_direction(spec); t[0] != 0.0 || t[1] != 0.0)
     forces.T = factor * share * unit_vector(t)[c];
   if (forces.N != 0.0 || forces.T != 0.0) row.forces.push_back(forces);
   if (spec.bowl && forces.T != 0.0) row.bowls.push_back({k, forces.T});
@@ -232,11 +233,11 @@ void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, doub
   for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) {
     const std::vector<int>& nodes = element(i).nodes();
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
-    const std::vector<ElementUnknown> unknowns = element(i).unknowns();
+    const std::vector<element::ElementUnknown> unknowns = element(i).unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
       // The rotation of a hinged end belongs to the element; it transmits no moment to the node.
       if (nodes[unknowns[j].place] != node || unknowns[j].component != c || unknowns[j].own) continue;
-      Cut cut(unknowns.size());
+      element::Cut cut(unknowns.size());
       cut.forces[static_cast<Eigen::Index>(j)] = factor;
       add_ends(row, i, cut, true);
     }
@@ -258,8 +259,8 @@ void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, doub
 
 void StructureRows::add_total(PhysicalRow& row, std::size_t c) const {
   for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) {
-    const PlaneVector along{c == 0 ? -1.0 : 0.0, c == 1 ? -1.0 : 0.0};
-    Cut cut(element(i).unknowns().size());
+    const element::PlaneVector along{c == 0 ? -1.0 : 0.0, c == 1 ? -1.0 : 0.0};
+    element::Cut cut(element(i).unknowns().size());
     cut.forces = element(i).translation(along);
     add_ends(row, i, cut, false);
     if (map_.mesh.moved.contains(i)) add_moved_mass(row, i, -1, c, -1.0);
@@ -273,7 +274,7 @@ void StructureRows::add_total(PhysicalRow& row, std::size_t c) const {
 
 namespace {
 
-void add(Cut& to, const Cut& from, double factor) {
+void add(element::Cut& to, const element::Cut& from, double factor) {
   to.forces += factor * from.forces;
   to.acceleration += factor * from.acceleration;
   to.deflection += factor * from.deflection;
@@ -282,7 +283,7 @@ void add(Cut& to, const Cut& from, double factor) {
 
 }  // namespace
 
-Wanted wanted_by(const OutputSpec& spec, Fibre fibre) {
+Wanted requested_by(const OutputSpec& spec, Fibre fibre) {
   Wanted wanted{spec.kind == OutputKind::stress ? OutputQuantity::stress : spec.quantity, fibre};
   if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::N) wanted.of_M = 0.0;
   if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::M) wanted.of_N = 0.0;
@@ -306,22 +307,22 @@ std::pair<std::size_t, double> MemberCuts::place_of(const Way& way, double stati
   return {static_cast<std::size_t>(element), station * count - element};
 }
 
-Cut MemberCuts::force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const {
+element::Cut MemberCuts::force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const {
   const std::size_t number = element_of(way, k);
-  const FiniteElement& e = map_.mesh.element(number);
-  Cut cut(e.unknowns().size());
+  const element::FiniteElement& e = map_.mesh.element(number);
+  element::Cut cut(e.unknowns().size());
   // In the opposite direction, left and right are exchanged.
   const double sign = way.backwards && quantity == OutputQuantity::M ? -1.0 : 1.0;
   add(cut, e.cut(quantity, {way.backwards ? 1.0 - x : x, 0.0}, map_.frozen_in(number)), sign);
   return cut;
 }
 
-Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Wanted& wanted, const SourcePlace& place,
-                    const std::string& key) const {
+element::Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Wanted& wanted,
+                             const SourcePlace& place, const std::string& key) const {
   if (wanted.quantity != OutputQuantity::stress) return force(way, k, x, wanted.quantity);
-  const FiniteElement& e = map_.mesh.element(element_of(way, k));
+  const element::FiniteElement& e = map_.mesh.element(element_of(way, k));
   const Member& member = scene_.members[static_cast<std::size_t>(e.member())];
-  const Section& section = section_of(scene_, member);
+  const Section& section = element::section_of(scene_, member);
   if ((wanted.of_N != 0.0 && section.area == 0.0) || (wanted.of_M != 0.0 && section.modulus == 0.0))
     throw SceneError(place, key,
                      fmt::format("stresses of section '{}' cannot be computed: give it a shape (pipe, box, i "
@@ -330,11 +331,11 @@ Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Wanted& wante
   const std::optional<Bend>& bend = member.bend;
   const double i = wanted.intensification.value_or(bend ? bend->intensification : 1.0);
   const double side = wanted.fibre == Fibre::left ? -1.0 : 1.0;
-  Cut cut(e.unknowns().size());
+  element::Cut cut(e.unknowns().size());
   if (wanted.of_N != 0.0) add(cut, force(way, k, x, OutputQuantity::N), wanted.of_N / section.area);
   if (wanted.of_M != 0.0)
     add(cut, force(way, k, x, OutputQuantity::M), side * i * wanted.of_M / section.modulus);
   return cut;
 }
 
-}  // namespace signorini
+}  // namespace signorini::outputs

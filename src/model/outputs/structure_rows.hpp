@@ -12,7 +12,7 @@
 #include "model/assembly/member_pieces.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::outputs {
 
 /// An output in terms of the physical degrees of freedom.
 struct PhysicalRow {
@@ -33,14 +33,14 @@ struct PhysicalRow {
 class StructureRows {
  public:
   /// alpha, beta: the Rayleigh factors in use. All arguments must outlive the object.
-  StructureRows(const Scene& scene, const DofMap& map, double alpha, double beta);
+  StructureRows(const Scene& scene, const assembly::DofMap& map, double alpha, double beta);
 
   /// row += cu u + (cv + rayleigh) v + ca a for a number of DofMap::numbers_at().
   void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca, double rayleigh = 0.0) const;
   /// Acceleration of the base and gravity as an acceleration of all nodes: row += x times it along x, y along y.
   void add_frame(PhysicalRow& row, double x, double y, bool gravity = true) const;
   /// Adds the cut of an element.
-  void add_cut(PhysicalRow& row, std::size_t element, const Cut& cut) const;
+  void add_cut(PhysicalRow& row, std::size_t element, const element::Cut& cut) const;
   /// factors . (sigma_x, sigma_y, tau_xy) at a node of a body, an index into Scene::bodies (nodal_stress.hpp),
   /// including stiffness-proportional damping: sigma = D (B (u + beta v) - alpha T e).
   void add_stress(PhysicalRow& row, std::size_t body, int node, const Eigen::RowVector3d& factors) const;
@@ -53,9 +53,9 @@ class StructureRows {
   void add_total(PhysicalRow& row, std::size_t c) const;
 
  private:
-  [[nodiscard]] const FiniteElement& element(std::size_t i) const { return map_.mesh.element(i); }
+  [[nodiscard]] const element::FiniteElement& element(std::size_t i) const { return map_.mesh.element(i); }
   /// stiff: include the stiffness term.
-  void add_ends(PhysicalRow& row, std::size_t element, const Cut& cut, bool stiff) const;
+  void add_ends(PhysicalRow& row, std::size_t element, const element::Cut& cut, bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
   void add_moved_mass(PhysicalRow& row, std::size_t element, int node, std::size_t c, double factor) const;
   void add_load(PhysicalRow& row, std::size_t load, double factor) const;
@@ -64,17 +64,17 @@ class StructureRows {
   [[nodiscard]] std::array<double, 3> direction_of(const Spring& spring) const;
 
   const Scene& scene_;
-  const DofMap& map_;
+  const assembly::DofMap& map_;
   double alpha_, beta_;
   std::vector<History> moving_, base_;  // histories of moving supports; accelerations of the base
   struct Uniform {
     std::size_t load;
     std::array<double, 2> q;  // along x and y, for a unit amplitude
   };
-  std::vector<std::vector<Uniform>> uniform_;      // per element
-  std::vector<std::vector<NodeForce>> tractions_;  // per load
-  std::vector<Output::Given> loads_;               // includes the amplitude
-  std::vector<std::vector<History>> strains_;      // per member; then per body
+  std::vector<std::vector<Uniform>> uniform_;                // per element
+  std::vector<std::vector<assembly::NodeForce>> tractions_;  // per load
+  std::vector<Output::Given> loads_;                         // includes the amplitude
+  std::vector<std::vector<History>> strains_;                // per member; then per body
 };
 
 // N, V, M and stresses along a piece of a member.
@@ -85,7 +85,7 @@ class StructureRows {
 
 /// A way from node to node; the piece may have the opposite direction.
 struct Way {
-  const MeshPiece* piece = nullptr;
+  const element::MeshPiece* piece = nullptr;
   bool backwards = false;
 };
 
@@ -97,29 +97,29 @@ struct Wanted {
 };
 
 /// The quantity that an output requests, for one fibre.
-[[nodiscard]] Wanted wanted_by(const OutputSpec& spec, Fibre fibre);
+[[nodiscard]] Wanted requested_by(const OutputSpec& spec, Fibre fibre);
 
 /// Number of points of an element whose interpolation polynomial is the quantity (base/curves.hpp).
 [[nodiscard]] std::size_t points_of(OutputQuantity quantity);
 
 class MemberCuts {
  public:
-  MemberCuts(const Scene& scene, const DofMap& map) : scene_(scene), map_(map) {}
+  MemberCuts(const Scene& scene, const assembly::DofMap& map) : scene_(scene), map_(map) {}
 
   /// The k-th element on the way.
   [[nodiscard]] static std::size_t element_of(const Way& way, std::size_t k);
   /// Cut at a position x of the k-th element on the way, 0 to 1. Errors: SceneError under `key` for a section with
   /// unknown stress properties.
-  [[nodiscard]] Cut cut(const Way& way, std::size_t k, double x, const Wanted& wanted,
-                        const SourcePlace& place, const std::string& key) const;
+  [[nodiscard]] element::Cut cut(const Way& way, std::size_t k, double x, const Wanted& wanted,
+                                 const SourcePlace& place, const std::string& key) const;
   /// k and x at a station of the whole piece.
   [[nodiscard]] static std::pair<std::size_t, double> place_of(const Way& way, double station);
 
  private:
-  [[nodiscard]] Cut force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const;
+  [[nodiscard]] element::Cut force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const;
 
   const Scene& scene_;
-  const DofMap& map_;
+  const assembly::DofMap& map_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::outputs

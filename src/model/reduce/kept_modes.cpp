@@ -9,7 +9,7 @@
 #include "model/modes/frequencies.hpp"
 #include "model/modes/lanczos.hpp"
 
-namespace signorini {
+namespace signorini::reduce {
 namespace {
 
 constexpr int dense_at_most = 5000;    // the same, where the cutoff leaves a third of all modes or more
@@ -28,18 +28,19 @@ double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiff
 }
 
 /// All modes: massless degrees of freedom are condensed, then shapes completed.
-EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
-  const SparseMatrix h = select_by_mass(mass, true), l = select_by_mass(mass, false);
+base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
+  const SparseMatrix h = assembly::select_by_mass(mass, true), l = assembly::select_by_mass(mass, false);
   const SparseMatrix m = h.transpose() * mass * h, k = h.transpose() * stiffness * h;
   Eigen::MatrixXd condensed(k), follow(l.cols(), h.cols());
   if (l.cols() > 0) {
     const SparseMatrix coupling = l.transpose() * stiffness * h;
-    const SymmetricSolver massless(SparseMatrix(l.transpose() * stiffness * l));
+    const assembly::SymmetricSolver massless(SparseMatrix(l.transpose() * stiffness * l));
     if (!massless.ok()) throw NotReducible("the stiffness of what has no mass is singular");
     for (Eigen::Index j = 0; j < follow.cols(); ++j) follow.col(j) = -massless.solve(coupling.col(j));
     condensed += coupling.transpose() * follow;
   }
-  const EigenPairs pairs = generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
+  const base::EigenPairs pairs =
+      base::generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
   if (pairs.vectors.rows() != h.cols()) return {};  // it failed: the caller checks the values
   Eigen::MatrixXd shapes = h * pairs.vectors;
   if (l.cols() > 0) shapes += l * (follow * pairs.vectors).eval();
@@ -57,13 +58,13 @@ void orthonormalise(Eigen::MatrixXd& x, const SparseMatrix& mass) {
 
 /// Modes that are not free, up to the cutoff, and the first one above it if there is one.
 struct ElasticModes {
-  EigenPairs pairs;
+  base::EigenPairs pairs;
   Eigen::Index kept = 0;
 };
 
 ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                          Eigen::Index free, Eigen::Index heavies) {
-  const EigenPairs all = all_modes(mass, stiffness);
+  const base::EigenPairs all = all_modes(mass, stiffness);
   // A failed decomposition has no values, or values that are NaN.
   if (all.values.size() != heavies || !all.values.allFinite())
     throw NotReducible("the modes of the structure cannot be computed");
@@ -83,13 +84,14 @@ ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, 
   if (rigid.cols() > 0) shift = std::max(shift, least_shift * greatest_local_square(mass, stiffness));
   ElasticModes found;
   found.kept = count - rigid.cols();
-  found.pairs = lowest_modes(static_cast<int>(found.kept), limit, mass, stiffness, rigid, shift);
+  found.pairs = modes::lowest_modes(static_cast<int>(found.kept), limit, mass, stiffness, rigid, shift);
   const Eigen::Index below = (found.pairs.values.array() < limit).count();
   if (below != found.kept || found.pairs.values.size() != found.kept + 1)
     throw NotReducible(fmt::format("{} modes lie below the cutoff, but {} were found; move the cutoff", count,
                                    rigid.cols() + below));
   const double first = found.pairs.values[found.kept];
-  if (const int sure = modes_below(mass, stiffness, std::max(limit, (1.0 - margin) * first)); sure > count)
+  if (const int sure = modes::modes_below(mass, stiffness, std::max(limit, (1.0 - margin) * first));
+      sure > count)
     throw NotReducible(fmt::format("the first mode above the cutoff was not found; move the cutoff"));
   return found;
 }
@@ -98,7 +100,7 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
                            const Eigen::MatrixXd& rigid, int heavies) {
   const auto free = static_cast<int>(rigid.cols());
   if (heavies <= all_modes_up_to) return all_elastic(cutoff, mass, stiffness, free, heavies);
-  const int counted = modes_below(mass, stiffness, cutoff * cutoff);
+  const int counted = modes::modes_below(mass, stiffness, cutoff * cutoff);
   if (counted < 0) throw NotReducible("the modes below the cutoff cannot be counted; move the cutoff");
   const int count = std::max(counted, free);
   const bool most = count >= heavies / 3;
@@ -111,8 +113,8 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
               : lowest_elastic(cutoff, count, mass, stiffness, rigid);
 }
 
-SymmetricSolver regular(const SparseMatrix& a) {
-  SymmetricSolver solver(a);
+assembly::SymmetricSolver regular(const SparseMatrix& a) {
+  assembly::SymmetricSolver solver(a);
   if (a.rows() > 0 && (!solver.ok() || !(solver.smallest_pivot() > 0.0)))
     throw NotReducible("the stiffness is singular to rounding; move the cutoff");
   return solver;
@@ -122,11 +124,11 @@ SymmetricSolver regular(const SparseMatrix& a) {
 
 KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                       const Eigen::MatrixXd& free) {
-  const int heavies = degrees_with_mass(mass);
+  const int heavies = assembly::degrees_with_mass(mass);
   Eigen::MatrixXd rigid = free;
   orthonormalise(rigid, mass);
   const ElasticModes found = elastic_modes(cutoff, mass, stiffness, rigid, heavies);
-  const EigenPairs& pairs = found.pairs;
+  const base::EigenPairs& pairs = found.pairs;
   const Eigen::Index elastic = found.kept, taken = pairs.values.size();
 
   KeptModes result;
@@ -143,12 +145,13 @@ KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatri
 
   // A step of inverse iteration improves the low modes, whose energy is small compared with the high ones.
   Eigen::MatrixXd x = pairs.vectors;
-  const SymmetricSolver solver = regular(SparseMatrix(stiffness + result.shift * mass));
-  take_out(rigid, mass, x);
+  const assembly::SymmetricSolver solver = regular(SparseMatrix(stiffness + result.shift * mass));
+  modes::take_out(rigid, mass, x);
   for (Eigen::Index j = 0; j < taken; ++j)
     x.col(j) = (pairs.values[j] + result.shift) * solver.solve(mass * x.col(j));
-  take_out(rigid, mass, x);
-  const EigenPairs ritz = generalized_eigen(x.transpose() * (stiffness * x), x.transpose() * (mass * x));
+  modes::take_out(rigid, mass, x);
+  const base::EigenPairs ritz =
+      base::generalized_eigen(x.transpose() * (stiffness * x), x.transpose() * (mass * x));
   if (ritz.values.size() != taken || !ritz.values.allFinite())
     throw NotReducible("the modes below the cutoff are not independent; move the cutoff");
   result.shapes.rightCols(elastic) = x * ritz.vectors.leftCols(elastic);
@@ -173,7 +176,7 @@ ResidualFlexibility::ResidualFlexibility(const SparseMatrix& mass, const SparseM
       inertia_size_(inertia_.cwiseAbs()),
       shift_(modes.free > 0 ? modes.shift : 0.0),
       complete_(modes.shapes.cols() == mass.rows()),
-      solver_(complete_      ? SymmetricSolver(SparseMatrix(0, 0))
+      solver_(complete_      ? assembly::SymmetricSolver(SparseMatrix(0, 0))
               : shift_ > 0.0 ? regular(SparseMatrix(stiffness + shift_ * mass))
                              : regular(stiffness)) {}
 
@@ -252,7 +255,7 @@ StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffne
   }
   // K = 1 in the basis: 1/omega^2 are the eigenvalues of its mass; the largest belongs to the lowest frequency.
   const Eigen::MatrixXd h = basis.leftCols(massive);
-  const EigenPairs ritz = symmetric_eigen(h.transpose() * (mass * h));
+  const base::EigenPairs ritz = base::symmetric_eigen(h.transpose() * (mass * h));
   result.massive.resize(n, massive);
   result.massive_squares.resize(massive);
   Eigen::Index count = 0;
@@ -308,4 +311,4 @@ std::optional<RayleighFactors> rayleigh_factors(const SparseMatrix& damping, con
   return f;
 }
 
-}  // namespace signorini
+}  // namespace signorini::reduce

@@ -20,7 +20,7 @@
 #include "model/assembly/springs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::reduce {
 
 /// Degrees of freedom with mass up to which all modes are computed, whatever the cutoff.
 inline constexpr int all_modes_up_to = 400;
@@ -62,7 +62,7 @@ class ResidualFlexibility {
   Eigen::MatrixXd inertia_, inertia_size_;  // M Phi, and the magnitudes of its terms
   double shift_;                            // shift of omega^2; its effect is removed by iteration
   bool complete_;
-  SymmetricSolver solver_;
+  assembly::SymmetricSolver solver_;
 };
 
 // Shapes for the static compliance of the modes left out.
@@ -107,4 +107,4 @@ struct RayleighFactors {
                                                               const SparseMatrix& mass,
                                                               const SparseMatrix& stiffness);
 
-}  // namespace signorini
+}  // namespace signorini::reduce

@@ -6,7 +6,7 @@
 #include "contact/friction.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::reduce {
 namespace {
 
 // Relative to the terms of r: half of the digits. A larger remainder comes from loads, not from rounding. Chosen value;
@@ -60,18 +60,19 @@ class ReducedStart {
 
   /// Returns false if there is a mechanism.
   [[nodiscard]] bool step(const Vector& r) {
-    std::vector<HeldRow> rows;
+    std::vector<statics::HeldRow> rows;
     std::vector<std::size_t> stuck;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
       if (bears(k))
-        rows.push_back({c.normal, c.normal_spring().value_or(own_stiffness(model_.stiffness, c.normal)),
+        rows.push_back({c.normal,
+                        c.normal_spring().value_or(statics::own_stiffness(model_.stiffness, c.normal)),
                         !c.normal_spring()});
       if (!sticks(k)) continue;
       rows.push_back({c.tangent, *c.tangential_stiffness, false});
       stuck.push_back(k);
     }
-    const HeldRows held(model_.stiffness, rows);
+    const statics::ConstraintRows held(model_.stiffness, rows);
     if (!held.regular()) return false;
     const Vector d = held.solve(r, Vector::Zero(static_cast<Eigen::Index>(rows.size()))).first;
     if (!d.allFinite()) return false;
@@ -113,7 +114,8 @@ class ReducedStart {
   [[nodiscard]] double limit_of(std::size_t k) const {
     const Contact& c = model_.contacts[k];
     if (!rubs(k)) return 0.0;
-    return sticking_limit(c, c.normal_force_given() ? -model_.statics.reactions[k] : normal_force(k));
+    return contact::sticking_limit(c,
+                                   c.normal_force_given() ? -model_.statics.reactions[k] : normal_force(k));
   }
   Model& model_;
   std::vector<double> shares_;  // |T| over its limit at the original start
@@ -147,4 +149,4 @@ void settle_start(Model& model) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::reduce

@@ -15,7 +15,7 @@
 #include "model/reduce/reduced_start.hpp"
 #include "model/statics/mechanisms.hpp"
 
-namespace signorini {
+namespace signorini::reduce {
 namespace {
 
 constexpr double nothing = 1e-14;      // relative part of a form on a shape of size 1 that is rounding
@@ -32,8 +32,8 @@ void check_reducible(const Scene& scene, const Model& model) {
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
   if (!light.empty()) {
-    const SparseMatrix only = selection(light, model.size());
-    const Eigen::MatrixXd null = null_motions(only.transpose() * model.stiffness * only);
+    const SparseMatrix only = assembly::selection(light, model.size());
+    const Eigen::MatrixXd null = statics::null_motions(only.transpose() * model.stiffness * only);
     if (null.cols() > 0) {
       Eigen::Index greatest = 0;
       null.col(0).cwiseAbs().maxCoeff(&greatest);
@@ -44,7 +44,7 @@ void check_reducible(const Scene& scene, const Model& model) {
                          model.dofs[static_cast<std::size_t>(dof)].displacement));
     }
   }
-  if (fastest_growth(model.stiffness, model.mass))
+  if (modes::fastest_growth(model.stiffness, model.mass))
     refuse(scene, model.geometric
                       ? "under its static forces (run.geometric) the structure is unstable with all its "
                         "contacts open, and modes that grow are not kept by their frequency; leave "
@@ -65,7 +65,7 @@ void check_frozen(const Scene& scene, const Model& model) {
 }
 
 bool normal_needs_mass(const Contact& c) {
-  const bool tells_rate = friction_varies(c) && c.tangential_stiffness;
+  const bool tells_rate = contact::friction_varies(c) && c.tangential_stiffness;
   return !c.normal_force_given() &&
          (c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.curved_surface());
 }
@@ -78,10 +78,10 @@ std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
   std::vector<ActingForce> forces;
   const auto add = [&](std::string what, int contact, bool normal, const Combination& form, bool needs_mass) {
     ActingForce f;
-    f.share.what = std::move(what);
+    f.share.label = std::move(what);
     f.share.contact = contact;
     f.share.normal = normal;
-    f.force = full(form, model.size());
+    f.force = assembly::full(form, model.size());
     f.needs_mass = needs_mass;
     forces.push_back(std::move(f));
   };
@@ -123,7 +123,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   if (light.nonZeros() > 0 && r > 0) {
     // Rotated so that each shape has its own time constant, or none.
     const Eigen::MatrixXd c = shapes.massless.transpose() * (light * shapes.massless);
-    b.shapes.rightCols(r) = shapes.massless * symmetric_eigen(0.5 * (c + c.transpose())).vectors;
+    b.shapes.rightCols(r) = shapes.massless * base::symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
   const bool creep = static_shapes_creep(beta, modes.first_left_out);
   Eigen::VectorXd elastic = b.stiffness;
@@ -168,7 +168,7 @@ void scale(const Model& model, Basis& b) {
 
 /// The form on the reduced degrees of freedom; `massive`: only on those with mass.
 Combination reduced_form(const Combination& form, const Basis& b, bool massive) {
-  const Vector full_form = full(form, static_cast<int>(b.shapes.rows()));
+  const Vector full_form = assembly::full(form, static_cast<int>(b.shapes.rows()));
   const double size = full_form.lpNorm<1>();
   Combination result;
   for (Eigen::Index j = 0; j < (massive ? b.heavy : b.shapes.cols()); ++j)
@@ -192,8 +192,9 @@ void reduce_loads(const Basis& b, double beta, std::vector<Load>& loads) {
   for (const Load& load : loads) {
     Combination form = reduced_form(load.direction, b, false);
     if (const Load* support = driving(loads, load)) {
-      Vector direction = full(form, static_cast<int>(b.shapes.cols()));
-      const Vector s = full(reduced_form(support->direction, b, false), static_cast<int>(b.shapes.cols()));
+      Vector direction = assembly::full(form, static_cast<int>(b.shapes.cols()));
+      const Vector s =
+          assembly::full(reduced_form(support->direction, b, false), static_cast<int>(b.shapes.cols()));
       const double size = direction.cwiseAbs().maxCoeff();
       for (const Eigen::Index j : b.at_once) direction[j] -= beta * s[j];
       form.terms.clear();
@@ -238,12 +239,12 @@ void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& ga
   for (Eigen::Index i = 0; i < count; ++i) {
     const std::size_t k = rigid[static_cast<std::size_t>(i)];
     const Combination& normal = model.contacts[k].normal;
-    forms.row(i) = full(normal, static_cast<int>(b.shapes.cols())).head(b.heavy).transpose();
+    forms.row(i) = assembly::full(normal, static_cast<int>(b.shapes.cols())).head(b.heavy).transpose();
     miss(i, 0) = gap[k] - normal.dot(q);
     miss(i, 1) = rate[k] - normal.dot(w);
   }
   const Eigen::VectorXd s = b.mass.head(b.heavy).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd change = s.asDiagonal() * least_squares(forms * s.asDiagonal(), miss);
+  const Eigen::MatrixXd change = s.asDiagonal() * base::least_squares(forms * s.asDiagonal(), miss);
   q.head(b.heavy) += change.col(0);
   w.head(b.heavy) += change.col(1);
 }
@@ -263,8 +264,9 @@ Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, con
 ///   of_many sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|  The second term belongs to the shapes that
 /// the reduced form N omits, because they move along n only by rounding.
 double noise_of(const Basis& b, const Combination& physical, const Combination& reduced, const Vector& q) {
-  const Vector n = full(physical, static_cast<int>(b.shapes.rows()));
-  const Vector left_out = b.shapes.transpose() * n - full(reduced, static_cast<int>(b.shapes.cols()));
+  const Vector n = assembly::full(physical, static_cast<int>(b.shapes.rows()));
+  const Vector left_out =
+      b.shapes.transpose() * n - assembly::full(reduced, static_cast<int>(b.shapes.cols()));
   const Vector size = q.cwiseAbs();
   return rounding::of_many * n.cwiseAbs().dot(b.shapes.cwiseAbs() * size) + left_out.cwiseAbs().dot(size);
 }
@@ -395,7 +397,7 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix&
   KeptModes modes;
   StaticShapes shapes;
   try {
-    modes = modes_up_to(cutoff, model.mass, model.stiffness, null_motions(model.stiffness));
+    modes = modes_up_to(cutoff, model.mass, model.stiffness, statics::null_motions(model.stiffness));
     shapes = static_shapes(model.mass, model.stiffness, modes, acting_forces(scene, model));
   } catch (const NotReducible& e) {
     refuse(scene, e.what());
@@ -429,4 +431,4 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix&
   model.reduction = std::move(facts);
 }
 
-}  // namespace signorini
+}  // namespace signorini::reduce

@@ -32,7 +32,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::reduce {
 
 /// dampers: C without alpha M + beta K; n x n. dashpots: the same without the correction of beta K for frozen forces
 /// (run.geometric), which is omitted with beta K. Errors: SceneError if a motion without mass has no stiffness, if K
@@ -43,4 +43,4 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix&
 /// to massless parts of the structure itself).
 [[nodiscard]] bool static_shapes_creep(double beta, double first_left_out);
 
-}  // namespace signorini
+}  // namespace signorini::reduce

@@ -14,7 +14,7 @@
 #include "model/statics/quasi_static_rates.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 namespace {
 
 // Residual of an equilibrium, relative to the largest force or moment; rounding of long paths is below. Chosen value.
@@ -22,7 +22,7 @@ constexpr double balanced = 1e-7;
 
 class Path {
  public:
-  Path(const SparseMatrix& stiffness, const std::vector<Contact>& contacts, const DofMap& map,
+  Path(const SparseMatrix& stiffness, const std::vector<Contact>& contacts, const assembly::DofMap& map,
        const SourcePlace& place)
       : stiffness_(stiffness),
         contacts_(contacts),
@@ -40,7 +40,7 @@ class Path {
       load_ += stage.load;
       check_equilibrium();
     }
-    return told();
+    return result();
   }
 
   FrictionalEquilibrium go_on(FrictionalEquilibrium from, const Stage& stage) {
@@ -49,14 +49,14 @@ class Path {
     found_ = std::move(from.start);
     found_.reactions.clear();
     grow(stage);
-    return told();
+    return result();
   }
 
  private:
-  FrictionalEquilibrium told() {
+  FrictionalEquilibrium result() {
     FrictionalEquilibrium result{u_, {}, std::move(found_), standing_};
     result.start.frictional = true;
-    for (const Standing& s : standing_) {
+    for (const LimitMargin& s : standing_) {
       result.start.reactions.push_back(std::max(0.0, -s.N));
       result.shears.push_back(s.T);
     }
@@ -74,7 +74,7 @@ class Path {
       any = true;
     }
     if (any) grow({"fit", Vector::Zero(u_.size()), 1});
-    for (Standing& s : standing_) s.given_gap_rate = 0.0;
+    for (LimitMargin& s : standing_) s.given_gap_rate = 0.0;
   }
 
   void grow(const Stage& stage) {
@@ -92,13 +92,13 @@ class Path {
         if (found_.events.size() > most || idle > 20 + 4 * static_cast<int>(contacts_.size()))
           refuse_stage("the states of its contacts change without end");
       }
-      StageEnd told{stage.name, end, {}, {}, {}};
-      for (const Standing& s : standing_) {
-        told.states.push_back(s.state);
-        told.N.push_back(s.N);
-        told.T.push_back(s.T);
+      StageEnd result{stage.name, end, {}, {}, {}};
+      for (const LimitMargin& s : standing_) {
+        result.states.push_back(s.state);
+        result.N.push_back(s.N);
+        result.T.push_back(s.T);
       }
-      found_.stages.push_back(std::move(told));
+      found_.stages.push_back(std::move(result));
     }
   }
 
@@ -108,12 +108,13 @@ class Path {
         fmt::format("no frictional start: at load factor {:.4g} of stage '{}' {}", part_, stage_->name, why));
   }
 
-  [[noreturn]] void refuse_motion(const HeldRows& held) const {
-    const SymmetricSolver solver(held.matrix());
+  [[noreturn]] void refuse_motion(const ConstraintRows& held) const {
+    const assembly::SymmetricSolver solver(held.matrix());
     const Eigen::MatrixXd null = null_motions(held.matrix());
     if (solver.ok() && solver.negative_pivots() > 0 && null.cols() == 0)
       refuse_stage("the stiffness is indefinite");
-    const std::string name = null.cols() > 0 ? describe_motion(null.col(0), map_) : std::string("structure");
+    const std::string name =
+        null.cols() > 0 ? assembly::describe_motion(null.col(0), map_) : std::string("structure");
     refuse_stage(fmt::format("nothing restrains the {}: no equilibrium follows", name));
   }
 
@@ -151,18 +152,18 @@ class Path {
     if (pulled.empty()) return;
     // solver errors of forces that are zero do not count as tensile
     const Eigen::VectorXd pressed = q(openings).array() + balanced;
-    if (solve_complementarity(m(openings, openings), pressed)) return;
+    if (base::solve_complementarity(m(openings, openings), pressed)) return;
     refuse_stage(fmt::format(
         "{} {} would have to pull, however great the friction: the loads overturn what stands there, or "
         "lift it off; check the directions of gravity and of loads and where they act",
-        pulled.size() == 1 ? "contact" : "contacts", listed(pulled)));
+        pulled.size() == 1 ? "contact" : "contacts", base::listed(pulled)));
   }
 
   /// K u + sum(N n + T t) = P
   void check_equilibrium() const {
     Vector rest = stiffness_ * u_ - load_, size = stiffness_.cwiseAbs() * u_.cwiseAbs() + load_.cwiseAbs();
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
-      const Standing& s = standing_[k];
+      const LimitMargin& s = standing_[k];
       const auto bear = [&](const Combination& form, double force) {
         for (const auto& [dof, factor] : form.terms) {
           rest[dof] += factor * force;
@@ -201,7 +202,7 @@ class Path {
     };
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       const Contact& c = contacts_[k];
-      Standing& s = standing_[k];
+      LimitMargin& s = standing_[k];
       s.normal = s.tangent = -1;
       if (is_open(s.state) && !touches(k, zero)) continue;
       const bool given = c.normal_force_given();
@@ -214,7 +215,7 @@ class Path {
   std::vector<Unknown> make_unknowns(double zero) const {
     std::vector<Unknown> unknowns;
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
-      const Standing& s = standing_[k];
+      const LimitMargin& s = standing_[k];
       const bool touching = s.normal >= 0 && touches(k, zero);
       if (touching) unknowns.push_back({k, s.normal, 1, Unknown::Kind::opening});
       if (s.tangent < 0) continue;
@@ -227,7 +228,7 @@ class Path {
 
   /// -N', or -f N' - s T': the condition that is complementary to the unknown.
   [[nodiscard]] double condition(const Unknown& unknown, const Vector& forces) const {
-    const Standing& s = standing_[unknown.contact];
+    const LimitMargin& s = standing_[unknown.contact];
     const double N = s.normal >= 0 ? forces[s.normal] : 0.0;
     if (unknown.kind == Unknown::Kind::opening) return -N;
     return -friction(unknown.contact) * N - unknown.sign * forces[s.tangent];
@@ -236,7 +237,7 @@ class Path {
   /// Threshold below which a force is zero. Opening contacts may reduce all forces to zero; the remainder is rounding
   /// of the previous forces.
   double zero() {
-    for (const Standing& s : standing_) carried_ = std::max({carried_, std::abs(s.N), std::abs(s.T)});
+    for (const LimitMargin& s : standing_) carried_ = std::max({carried_, std::abs(s.N), std::abs(s.T)});
     return zero_force(carried_);
   }
 
@@ -244,11 +245,11 @@ class Path {
   void find_rates() {
     const double zero = this->zero();
     const std::vector<HeldRow> rows = make_rows(zero);
-    const HeldRows held(stiffness_, rows);
+    const ConstraintRows held(stiffness_, rows);
     if (!held.regular()) refuse_motion(held);
     const std::vector<Unknown> unknowns = make_unknowns(zero);
     Vector r = Vector::Zero(static_cast<Eigen::Index>(rows.size()));
-    for (const Standing& s : standing_)
+    for (const LimitMargin& s : standing_)
       if (s.normal >= 0) r[s.normal] = -s.given_gap_rate;
     auto [rates, forces] = held.solve(stage_->load, r);
     const auto n = static_cast<Eigen::Index>(unknowns.size());
@@ -258,7 +259,7 @@ class Path {
       std::vector<std::pair<Vector, Vector>> answers;
       std::vector<bool> loose(rows.size(), false);
       for (const Unknown& unknown : unknowns) loose[static_cast<std::size_t>(unknown.row)] = true;
-      const LooseMotions motions(stiffness_, rows, loose);
+      const Mechanisms motions(stiffness_, rows, loose);
       for (Eigen::Index j = 0; j < n; ++j) {
         const Unknown& unknown = unknowns[static_cast<std::size_t>(j)];
         const auto row = static_cast<std::size_t>(unknown.row);
@@ -269,7 +270,7 @@ class Path {
           m(i, j) = condition(unknowns[static_cast<std::size_t>(i)], answers.back().second);
       }
       const double size = std::max(q.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-      const auto found = slow_rates(m, q / size, unknowns);
+      const auto found = quasi_static_rates(m, q / size, unknowns);
       if (!found) {
         refuse_pulls(unknowns, m, q / size);
         refuse_shares(rows, unknowns, std::vector<bool>(unknowns.size(), true));
@@ -305,7 +306,8 @@ class Path {
     const std::string sentence = fmt::format(
         "stage '{}': nothing resists the {} where {} {} at the limit, so the data do not determine how far "
         "each of them slips; the start takes the least",
-        stage_->name, describe_motion(shared.motion, map_), listed(names), names.size() == 1 ? "is" : "are");
+        stage_->name, assembly::describe_motion(shared.motion, map_), base::listed(names),
+        names.size() == 1 ? "is" : "are");
     doubt(sentence);
   }
   void doubt(const std::string& sentence) {
@@ -326,7 +328,7 @@ class Path {
 
   void take_states(const std::vector<Unknown>& unknowns, const std::vector<bool>& moves) {
     std::vector<State> next;
-    for (const Standing& s : standing_)
+    for (const LimitMargin& s : standing_)
       next.push_back(slip_sign(s.state) != 0 && s.tangent >= 0 ? State::stick : s.state);
     for (const Unknown& unknown : unknowns)  // touching contacts are closed, unless they open
       if (unknown.kind == Unknown::Kind::opening)
@@ -343,7 +345,7 @@ class Path {
   }
 
   void change(std::size_t k, State to) {
-    Standing& s = standing_[k];
+    LimitMargin& s = standing_[k];
     if (s.state == to) return;
     const Friction& f = contacts_[k].friction;
     if (slip_sign(to) != 0 && slip_sign(s.state) == 0 && f.kinetic < f.static_)
@@ -361,7 +363,7 @@ class Path {
   void take_rates(const Vector& forces) {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       const Contact& c = contacts_[k];
-      Standing& s = standing_[k];
+      LimitMargin& s = standing_[k];
       const bool open = is_open(s.state);
       s.gap_rate = c.normal_force_given() ? 0.0 : c.normal.dot(u_rate_) + s.given_gap_rate;
       s.N_rate = s.normal >= 0 && !open ? forces[s.normal] : 0.0;
@@ -379,7 +381,7 @@ class Path {
       if (rate < 0.0 && !there) step = std::min(step, std::max(0.0, -value / rate));
     };
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
-      const Standing& s = standing_[k];
+      const LimitMargin& s = standing_[k];
       const bool touching = touches(k, zero);
       if (!contacts_[k].normal_force_given()) {
         if (is_open(s.state)) fall(s.gap, s.gap_rate, touching);
@@ -392,7 +394,7 @@ class Path {
     part_ = step >= end - part_ ? end : part_ + step;
     u_ += step * u_rate_;
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
-      Standing& s = standing_[k];
+      LimitMargin& s = standing_[k];
       s.gap += step * s.gap_rate;
       s.N += step * s.N_rate;
       s.T += step * s.T_rate;
@@ -402,10 +404,10 @@ class Path {
 
   const SparseMatrix& stiffness_;
   const std::vector<Contact>& contacts_;
-  const DofMap& map_;
+  const assembly::DofMap& map_;
   const SourcePlace& place_;
   Vector u_, u_rate_, load_;  // load_: loads of all previous stages
-  std::vector<Standing> standing_;
+  std::vector<LimitMargin> standing_;
   StaticStart found_;
   const Stage* stage_ = nullptr;
   double part_ = 0.0;     // fraction of the stage
@@ -416,15 +418,15 @@ class Path {
 
 FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
                                              const std::vector<Contact>& contacts,
-                                             const std::vector<Stage>& stages, const DofMap& map,
+                                             const std::vector<Stage>& stages, const assembly::DofMap& map,
                                              const SourcePlace& place) {
   return Path(stiffness, contacts, map, place).run(stages);
 }
 
 FrictionalEquilibrium gone_on(FrictionalEquilibrium from, const SparseMatrix& stiffness,
-                              const std::vector<Contact>& contacts, const Stage& stage, const DofMap& map,
-                              const SourcePlace& place) {
+                              const std::vector<Contact>& contacts, const Stage& stage,
+                              const assembly::DofMap& map, const SourcePlace& place) {
   return Path(stiffness, contacts, map, place).go_on(std::move(from), stage);
 }
 
-}  // namespace signorini
+}  // namespace signorini::statics

@@ -25,7 +25,7 @@
 #include "model/statics/quasi_static_rates.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 
 /// One stage: its loads grow from their previous values to their values at its end.
 struct Stage {
@@ -38,7 +38,7 @@ struct FrictionalEquilibrium {
   Vector u;                    ///< n
   std::vector<double> shears;  ///< T of each contact
   StaticStart start;
-  std::vector<Standing> standing;  ///< one per contact
+  std::vector<LimitMargin> standing;  ///< one per contact
 };
 
 /// Starts from u = 0 without load. Errors: SceneError at `place` with the stage, the fraction reached, and the
@@ -46,11 +46,12 @@ struct FrictionalEquilibrium {
 [[nodiscard]] FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
                                                            const std::vector<Contact>& contacts,
                                                            const std::vector<Stage>& stages,
-                                                           const DofMap& map, const SourcePlace& place);
+                                                           const assembly::DofMap& map,
+                                                           const SourcePlace& place);
 
 /// Adds one more stage with another stiffness.
 [[nodiscard]] FrictionalEquilibrium gone_on(FrictionalEquilibrium from, const SparseMatrix& stiffness,
                                             const std::vector<Contact>& contacts, const Stage& stage,
-                                            const DofMap& map, const SourcePlace& place);
+                                            const assembly::DofMap& map, const SourcePlace& place);
 
-}  // namespace signorini
+}  // namespace signorini::statics

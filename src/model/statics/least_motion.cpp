@@ -8,11 +8,11 @@
 #include "model/assembly/dofs.hpp"
 #include "model/statics/mechanisms.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 
 Eigen::VectorXd least_motion(const Eigen::MatrixXd& b, const Eigen::VectorXd& g, const std::vector<Way>& ways,
                              const Eigen::VectorXd& about) {
-  const Eigen::MatrixXd q = orthonormal(b);
+  const Eigen::MatrixXd q = base::orthonormal(b);
   const Eigen::VectorXd a = b * about, rest = g - a;
   const Eigen::VectorXd free = a + rest - q * (q.transpose() * rest);
   std::vector<Eigen::Index> bound;
@@ -30,7 +30,7 @@ Eigen::VectorXd least_motion(const Eigen::MatrixXd& b, const Eigen::VectorXd& g,
   }
   const double size = start.cwiseAbs().maxCoeff();
   if (size == 0.0) return free;
-  const auto z = solve_complementarity(open * open.transpose(), start / size);
+  const auto z = base::solve_complementarity(open * open.transpose(), start / size);
   if (!z) return g;
   return free + size * (q * (open.transpose() * *z));
 }
@@ -44,7 +44,7 @@ bool is_one_of_many(const Eigen::MatrixXd& b, const Eigen::VectorXd& r, const st
     draft[j] = (1.0 + 0.37 * static_cast<double>(j)) / b.col(j).norm();  // a generic direction
   const double size = (b * draft).norm() + r.norm();
   draft *= size / (b * draft).norm();
-  const Eigen::VectorXd own = least_squares(b, r);
+  const Eigen::VectorXd own = base::least_squares(b, r);
   for (const double way : {1.0, -1.0})
     if ((least_motion(b, r, ways, own + way * draft) - r).norm() > moves * size) return true;
   return false;
@@ -57,14 +57,14 @@ namespace {
 constexpr double same_rate = 1e-9;
 
 /// A row along which a contact may move now: its rate, and the admissible directions.
-struct Loose {
+struct MechanismSlip {
   std::size_t row, contact;
   double rate;
   Way way;
 };
 
-std::vector<Loose> loose_rows(const SharedOut& given, const std::vector<bool>& may) {
-  std::vector<Loose> loose;
+std::vector<MechanismSlip> mechanism_rows(const SharedOut& given, const std::vector<bool>& may) {
+  std::vector<MechanismSlip> loose;
   for (std::size_t j = 0; j < given.unknowns.size(); ++j) {
     if (!may[j]) continue;
     const Unknown& unknown = given.unknowns[j];
@@ -81,12 +81,12 @@ std::vector<Loose> loose_rows(const SharedOut& given, const std::vector<bool>& m
 }
 
 /// Motions that neither the structure nor the remaining rows resist.
-Eigen::MatrixXd free_motions(const SharedOut& given, const std::vector<Loose>& loose) {
-  std::vector<LineSpring> stay;
+Eigen::MatrixXd free_motions(const SharedOut& given, const std::vector<MechanismSlip>& loose) {
+  std::vector<assembly::LineSpring> stay;
   for (std::size_t i = 0; i < given.rows.size(); ++i)
-    if (std::none_of(loose.begin(), loose.end(), [&](const Loose& l) { return l.row == i; }))
+    if (std::none_of(loose.begin(), loose.end(), [&](const MechanismSlip& l) { return l.row == i; }))
       stay.push_back({given.rows[i].form, given.rows[i].stiffness});
-  const SparseMatrix held = with_springs(given.stiffness, stay);
+  const SparseMatrix held = assembly::with_springs(given.stiffness, stay);
   if (loose.empty() || !may_have_null_motions(held)) return {given.stiffness.rows(), 0};
   return null_motions(held);
 }
@@ -100,7 +100,7 @@ LeastShare least_share(const SharedOut& given, Vector& rates) {
   std::vector<bool> may;
   for (std::size_t j = 0; j < given.unknowns.size(); ++j)
     may.push_back(given.z[static_cast<Eigen::Index>(j)] > 0.0 || given.conditions[j] <= zero);
-  const std::vector<Loose> loose = loose_rows(given, may);
+  const std::vector<MechanismSlip> loose = mechanism_rows(given, may);
   const Eigen::MatrixXd motions = free_motions(given, loose);
   if (motions.cols() == 0) return share;
 
@@ -108,17 +108,17 @@ LeastShare least_share(const SharedOut& given, Vector& rates) {
   Eigen::VectorXd g(b.rows());
   std::vector<Way> ways;
   for (Eigen::Index i = 0; i < b.rows(); ++i) {
-    const Loose& l = loose[static_cast<std::size_t>(i)];
+    const MechanismSlip& l = loose[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) = given.rows[l.row].form.dot(motions.col(j));
     g[i] = l.rate;
     ways.push_back(l.way);
   }
   Eigen::VectorXd r = least_motion(b, g, ways, Eigen::VectorXd::Zero(b.cols()));
-  rates += motions * least_squares(b, Eigen::VectorXd(r - g));
-  const bool moves = r.cwiseAbs().maxCoeff() > same_rate * greatest_translation(rates, given.map);
+  rates += motions * base::least_squares(b, Eigen::VectorXd(r - g));
+  const bool moves = r.cwiseAbs().maxCoeff() > same_rate * assembly::greatest_translation(rates, given.map);
   if (moves && is_one_of_many(b, r, ways)) {
     share.motion = motions.col(0);
-    for (const Loose& l : loose)
+    for (const MechanismSlip& l : loose)
       if (share.undetermined.empty() || share.undetermined.back() != l.contact)
         share.undetermined.push_back(l.contact);
   }
@@ -133,4 +133,4 @@ LeastShare least_share(const SharedOut& given, Vector& rates) {
   return share;
 }
 
-}  // namespace signorini
+}  // namespace signorini::statics

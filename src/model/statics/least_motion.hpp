@@ -14,7 +14,7 @@
 #include "model/assembly/dofs.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 
 /// Admissible directions of one of several contacts along its row.
 enum class Way : signed char { back = -1, both = 0, forth = 1 };
@@ -43,7 +43,7 @@ struct Unknown {
 
 struct SharedOut {
   const SparseMatrix& stiffness;
-  const DofMap& map;
+  const assembly::DofMap& map;
   const std::vector<HeldRow>& rows;
   const std::vector<Unknown>& unknowns;
   const std::vector<double>& conditions;  ///< one per unknown, complementary to it; force
@@ -61,4 +61,4 @@ struct LeastShare {
 /// Adds the smallest such motion to the rates (n).
 [[nodiscard]] LeastShare least_share(const SharedOut& given, Vector& rates);
 
-}  // namespace signorini
+}  // namespace signorini::statics

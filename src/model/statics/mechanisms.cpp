@@ -11,7 +11,7 @@
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 namespace {
 
 constexpr int dense_up_to = 300;
@@ -27,7 +27,7 @@ Vector scaling(const SparseMatrix& k) {
 /// scaled diagonal, 1, like the others.
 bool is_null(const SparseMatrix& a, const Vector& x) {
   const double bare = (a.diagonal().array() == 0.0).select(x, 0.0).squaredNorm();
-  return x.dot(a * x) <= rounding::of_many * (term_size(a, x) + bare);
+  return x.dot(a * x) <= rounding::of_many * (assembly::term_size(a, x) + bare);
 }
 
 /// The lowest `count` eigenvectors of the scaled matrix a (unit diagonal, so that a shift of 1e-14 is below every
@@ -36,7 +36,7 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   const auto n = static_cast<int>(a.rows());
   SparseMatrix shift(n, n);
   shift.setIdentity();
-  const SymmetricSolver solver(SparseMatrix(a + rounding::of_many * shift));
+  const assembly::SymmetricSolver solver(SparseMatrix(a + rounding::of_many * shift));
   std::mt19937 random(1);  // fixed seed: reproducible results
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::MatrixXd x(n, count);
@@ -44,10 +44,10 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
     for (int i = 0; i < n; ++i) x(i, j) = uniform(random);
   for (int round = 0; round < 8; ++round) {
     for (int j = 0; j < count; ++j) x.col(j) = solver.solve(x.col(j));
-    x = orthonormal(x);
+    x = base::orthonormal(x);
   }
   const Eigen::MatrixXd projected = x.transpose() * (a * x);
-  return x * symmetric_eigen(0.5 * (projected + projected.transpose())).vectors;
+  return x * base::symmetric_eigen(0.5 * (projected + projected.transpose())).vectors;
 }
 
 /// True if no eigenvalue is near the limit of is_null, of_many |x|^T |a| |x| / |x|^2: a has no negative pivot after ten
@@ -57,7 +57,7 @@ bool surely_held(const SparseMatrix& a) {
   const double most = (a.cwiseAbs() * Vector::Ones(n)).maxCoeff();
   SparseMatrix one(n, n);
   one.setIdentity();
-  const SymmetricSolver solver(SparseMatrix(a - (10.0 * rounding::of_many * most) * one));
+  const assembly::SymmetricSolver solver(SparseMatrix(a - (10.0 * rounding::of_many * most) * one));
   return solver.ok() && solver.smallest_pivot() > 0.0;
 }
 
@@ -68,7 +68,8 @@ Eigen::MatrixXd of_whole(const SparseMatrix& k) {
   if (surely_held(a)) return Eigen::MatrixXd(n, 0);
   for (int count = std::min(n, 8);; count = std::min(n, 4 * count)) {
     const bool all = n <= dense_up_to || count == n;
-    const Eigen::MatrixXd candidates = all ? symmetric_eigen(Eigen::MatrixXd(a)).vectors : lowest(a, count);
+    const Eigen::MatrixXd candidates =
+        all ? base::symmetric_eigen(Eigen::MatrixXd(a)).vectors : lowest(a, count);
     Eigen::Index found = 0;
     while (found < candidates.cols() && is_null(a, candidates.col(found))) ++found;
     if (all || found < candidates.cols()) return s.asDiagonal() * candidates.leftCols(found);
@@ -76,18 +77,18 @@ Eigen::MatrixXd of_whole(const SparseMatrix& k) {
 }
 
 Eigen::MatrixXd of_parts(const SparseMatrix& k) {
-  const Parts parts({&k});
+  const assembly::Parts parts({&k});
   if (parts.count() == 1) return of_whole(k);
   std::vector<Eigen::MatrixXd> own;
   Eigen::Index found = 0;
-  for (const Part& part : parts) {
+  for (const assembly::Part& part : parts) {
     own.push_back(of_whole(part.matrix(k)));
     found += own.back().cols();
   }
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(k.rows(), found);
   Eigen::Index at = 0;
   auto motion = own.begin();
-  for (const Part& part : parts) {
+  for (const assembly::Part& part : parts) {
     for (Eigen::Index j = 0; j < motion->cols(); ++j, ++at)
       for (Eigen::Index i = 0; i < motion->rows(); ++i)
         motions(part.dofs()[static_cast<std::size_t>(i)], at) = (*motion)(i, j);
@@ -102,7 +103,7 @@ bool may_have_null_motions(const SparseMatrix& k) {
   // With a null motion the pivots are some n eps; a slender structure may only cause a second, unnecessary check.
   constexpr double certainly_held = 1e-9;
   const Vector s = scaling(k);
-  const SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));
+  const assembly::SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));
   return !solver.ok() || !(solver.smallest_pivot() > certainly_held);
 }
 
@@ -116,7 +117,7 @@ namespace {
 constexpr double belongs = 1e-3;  // relative; a null motion of a fine mesh has few digits
 
 /// Translations along x and y, and the rotation about the centre, on the given degrees of freedom.
-std::array<Vector, 3> rigid_motions(const DofMap& map, const std::vector<int>& dofs) {
+std::array<Vector, 3> rigid_motions(const assembly::DofMap& map, const std::vector<int>& dofs) {
   std::array<Vector, 3> rigid;
   rigid.fill(Vector::Zero(map.size()));
   double x = 0.0, y = 0.0, count = 0.0;
@@ -128,7 +129,7 @@ std::array<Vector, 3> rigid_motions(const DofMap& map, const std::vector<int>& d
   }
   for (const int i : dofs) {
     const auto [number, component] = map.where[static_cast<std::size_t>(i)];
-    const MeshNode& node = map.mesh.nodes[static_cast<std::size_t>(number)];
+    const element::MeshNode& node = map.mesh.nodes[static_cast<std::size_t>(number)];
     if (component < 2) rigid[static_cast<std::size_t>(component)][i] = 1.0;
     rigid[2][i] = component == 0 ? -(node.y - y / count) : component == 1 ? node.x - x / count : 1.0;
   }
@@ -137,16 +138,16 @@ std::array<Vector, 3> rigid_motions(const DofMap& map, const std::vector<int>& d
 
 }  // namespace
 
-Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map) {
+Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map) {
   std::vector<int> all(static_cast<std::size_t>(map.size()));
   std::iota(all.begin(), all.end(), 0);
   return simple_motions(motions, map, all);
 }
 
-Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map,
+Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map,
                                const std::vector<int>& dofs) {
   if (map.matrices() || motions.cols() < 2) return motions;
-  const Eigen::MatrixXd q = orthonormal(motions);
+  const Eigen::MatrixXd q = base::orthonormal(motions);
   Eigen::MatrixXd found(q.cols(), 0), basis(q.cols(), 0);  // coordinates in q; the same, orthonormal
   for (const Vector& rigid : rigid_motions(map, dofs)) {
     const Eigen::VectorXd c = q.transpose() * rigid;
@@ -161,20 +162,21 @@ Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map
   if (found.cols() == 0) return motions;
   Eigen::MatrixXd result(q.rows(), q.cols());
   result.leftCols(found.cols()) = q * found;
-  if (found.cols() < q.cols()) result.rightCols(q.cols() - found.cols()) = q * orthogonal_complement(found);
+  if (found.cols() < q.cols())
+    result.rightCols(q.cols() - found.cols()) = q * base::orthogonal_complement(found);
   return result;
 }
 
-LooseMotions::LooseMotions(const SparseMatrix& k, const std::vector<HeldRow>& rows,
-                           const std::vector<bool>& loose) {
-  std::vector<LineSpring> stay;
+Mechanisms::Mechanisms(const SparseMatrix& k, const std::vector<HeldRow>& rows,
+                       const std::vector<bool>& loose) {
+  std::vector<assembly::LineSpring> stay;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (loose[i])
       rows_.push_back(i);
     else
       stay.push_back({rows[i].form, rows[i].stiffness});
   if (rows_.empty()) return;
-  const SparseMatrix rest = with_springs(k, stay);
+  const SparseMatrix rest = assembly::with_springs(k, stay);
   if (may_have_null_motions(rest)) motions_ = null_motions(rest);
   if (motions_.cols() == 0) return;
   root_.resize(static_cast<Eigen::Index>(rows_.size()));
@@ -185,10 +187,10 @@ LooseMotions::LooseMotions(const SparseMatrix& k, const std::vector<HeldRow>& ro
     for (Eigen::Index j = 0; j < motions_.cols(); ++j)
       moves_(i, j) = root_[i] * row.form.dot(motions_.col(j));
   }
-  q_ = orthonormal(moves_);
+  q_ = base::orthonormal(moves_);
 }
 
-std::pair<Vector, Vector> LooseMotions::answer(const HeldRows& held, std::size_t row, double r) const {
+std::pair<Vector, Vector> Mechanisms::answer(const ConstraintRows& held, std::size_t row, double r) const {
   Vector slips = Vector::Zero(static_cast<Eigen::Index>(held.size()));
   slips[static_cast<Eigen::Index>(row)] = r;
   const Vector none = Vector::Zero(held.matrix().rows());
@@ -205,8 +207,8 @@ std::pair<Vector, Vector> LooseMotions::answer(const HeldRows& held, std::size_t
   own -= along(own);
   for (Eigen::Index i = 0; i < own.size(); ++i)
     forces[static_cast<Eigen::Index>(rows_[static_cast<std::size_t>(i)])] = root_[i] * own[i];
-  u += motions_ * least_squares(moves_, free);
+  u += motions_ * base::least_squares(moves_, free);
   return {std::move(u), std::move(forces)};
 }
 
-}  // namespace signorini
+}  // namespace signorini::statics

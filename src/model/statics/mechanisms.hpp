@@ -14,7 +14,7 @@
 #include "model/statics/static_system.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 
 // Motions without stiffness.
 //
@@ -42,19 +42,19 @@ namespace signorini {
 /// Another basis of the columns of `motions` (n x m, full rank): horizontal and vertical motion and the rotation about
 /// the centre of the nodes, if they belong to the space, then a complement. Unchanged if the space contains none of
 /// them, and in matrix scenes.
-[[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map);
+[[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map);
 
 /// Same for motions that only involve these degrees of freedom.
-[[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map,
+[[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map,
                                              const std::vector<int>& dofs);
 
-class LooseMotions {
+class Mechanisms {
  public:
   /// loose: one entry per row; true for rows that may slip.
-  LooseMotions(const SparseMatrix& k, const std::vector<HeldRow>& rows, const std::vector<bool>& loose);
+  Mechanisms(const SparseMatrix& k, const std::vector<HeldRow>& rows, const std::vector<bool>& loose);
 
   /// u and the forces on all rows for a slip of one loose row by r.
-  [[nodiscard]] std::pair<Vector, Vector> answer(const HeldRows& held, std::size_t row, double r) const;
+  [[nodiscard]] std::pair<Vector, Vector> answer(const ConstraintRows& held, std::size_t row, double r) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd along(const Eigen::VectorXd& x) const { return q_ * (q_.transpose() * x); }
@@ -66,4 +66,4 @@ class LooseMotions {
   Eigen::MatrixXd q_;              // an orthonormal basis of moves_
 };
 
-}  // namespace signorini
+}  // namespace signorini::statics

@@ -8,31 +8,31 @@
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 namespace {
 
 // Rates that differ by less, relative to the largest one, count as equal: error of dense solves. Chosen value.
 constexpr double same_z = 1e-9;
 
 /// Unknowns whose conditions are zero; `free`: the last unknown has any sign.
-struct Doing {
+struct ContactRateState {
   std::vector<Eigen::Index> active;
   bool free = false;
 };
 
 /// Alternatives of one contact, in terms of its unknowns.
-struct Doings {
+struct RateUnknowns {
   std::vector<Eigen::Index> unknowns;
-  std::vector<Doing> ways{Doing{}};
+  std::vector<ContactRateState> ways{ContactRateState{}};
 };
 
-std::vector<Doings> doings_of(const std::vector<Unknown>& unknowns) {
-  std::vector<Doings> all;
+std::vector<RateUnknowns> rate_unknowns_of(const std::vector<Unknown>& unknowns) {
+  std::vector<RateUnknowns> all;
   for (std::size_t j = 0; j < unknowns.size(); ++j) {
     if (j == 0 || unknowns[j].contact != unknowns[j - 1].contact) all.emplace_back();
     all.back().unknowns.push_back(static_cast<Eigen::Index>(j));
   }
-  for (Doings& contact : all) {
+  for (RateUnknowns& contact : all) {
     std::vector<Eigen::Index> slips;
     std::optional<Eigen::Index> opening;
     for (const Eigen::Index j : contact.unknowns)
@@ -49,19 +49,19 @@ std::vector<Doings> doings_of(const std::vector<Unknown>& unknowns) {
 
 /// z with these conditions zero and all others satisfied; nullopt if they are dependent or no such z exists.
 std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
-                                          const std::vector<Doings>& contacts,
+                                          const std::vector<RateUnknowns>& contacts,
                                           const std::vector<std::size_t>& choice) {
   std::vector<Eigen::Index> active;
   for (std::size_t c = 0; c < contacts.size(); ++c)
     for (const Eigen::Index j : contacts[c].ways[choice[c]].active) active.push_back(j);
   Eigen::VectorXd z = Eigen::VectorXd::Zero(q.size());
   if (!active.empty()) {
-    const auto values = solve_regular(m(active, active), -q(active));
+    const auto values = base::solve_regular(m(active, active), -q(active));
     if (!values) return std::nullopt;
     for (std::size_t i = 0; i < active.size(); ++i) z[active[i]] = (*values)[static_cast<Eigen::Index>(i)];
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const Doing& way = contacts[c].ways[choice[c]];
+    const ContactRateState& way = contacts[c].ways[choice[c]];
     if (!way.free || z[way.active.back()] >= 0.0) continue;
     z[contacts[c].unknowns.back()] = -z[way.active.back()];  // slip in the opposite direction
     z[way.active.back()] = 0.0;
@@ -74,7 +74,7 @@ std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen:
 }
 
 /// Advances to the next combination, like a counter. False: the last one was reached.
-bool next(const std::vector<Doings>& contacts, std::vector<std::size_t>& choice) {
+bool next(const std::vector<RateUnknowns>& contacts, std::vector<std::size_t>& choice) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (++choice[c] < contacts[c].ways.size()) return true;
     choice[c] = 0;
@@ -84,12 +84,12 @@ bool next(const std::vector<Doings>& contacts, std::vector<std::size_t>& choice)
 
 }  // namespace
 
-std::optional<SlowRates> slow_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
-                                    const std::vector<Unknown>& unknowns) {
-  if (auto z = solve_complementarity(m, q)) return SlowRates{std::move(*z)};
-  const std::vector<Doings> contacts = doings_of(unknowns);
+std::optional<SlowRates> quasi_static_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
+                                            const std::vector<Unknown>& unknowns) {
+  if (auto z = base::solve_complementarity(m, q)) return SlowRates{std::move(*z)};
+  const std::vector<RateUnknowns> contacts = rate_unknowns_of(unknowns);
   double combinations = 1.0;
-  for (const Doings& contact : contacts) combinations *= static_cast<double>(contact.ways.size());
+  for (const RateUnknowns& contact : contacts) combinations *= static_cast<double>(contact.ways.size());
   if (combinations > static_cast<double>(most_combinations)) return std::nullopt;
   std::optional<SlowRates> least;
   std::vector<std::size_t> choice(contacts.size(), 0);
@@ -116,8 +116,8 @@ constexpr double same_force = 1e-11;
 
 }  // namespace
 
-Standing undeformed(const Contact& contact) {
-  Standing s;
+LimitMargin undeformed(const Contact& contact) {
+  LimitMargin s;
   const State pressed = contact.has_friction() ? State::stick : State::closed;
   if (contact.normal_force_given()) {
     s.N = -contact.normal_force.value(0.0);
@@ -129,17 +129,18 @@ Standing undeformed(const Contact& contact) {
   return s;
 }
 
-double friction_of(const Contact& contact, const Standing& standing) {
-  return slip_sign(standing.state) != 0 ? kinetic_friction(contact) : static_friction(contact);
+double friction_of(const Contact& contact, const LimitMargin& standing) {
+  return slip_sign(standing.state) != 0 ? contact::kinetic_friction(contact)
+                                        : contact::static_friction(contact);
 }
 
-double margin_of(const Contact& contact, const Standing& standing, int s) {
+double margin_of(const Contact& contact, const LimitMargin& standing, int s) {
   return friction_of(contact, standing) * std::abs(standing.N) - s * standing.T;
 }
 
 double zero_force(double greatest) { return same_force * greatest; }
 
-bool touching(const Contact& contact, const Standing& standing, double zero, double travelled) {
+bool touching(const Contact& contact, const LimitMargin& standing, double zero, double travelled) {
   if (contact.normal_force_given() || std::abs(standing.N) > zero) return false;
   if (!is_open(standing.state)) return true;
   const double rounded = rounding::of_many * (contact.gap + travelled);
@@ -147,4 +148,4 @@ bool touching(const Contact& contact, const Standing& standing, double zero, dou
          (contact.takes_impulses() ? same_force * travelled : zero / contact.normal_stiffness) + rounded;
 }
 
-}  // namespace signorini
+}  // namespace signorini::statics

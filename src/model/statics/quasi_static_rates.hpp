@@ -21,7 +21,7 @@
 #include "model/statics/least_motion.hpp"
 #include "signorini/contact.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 
 struct SlowRates {
   Eigen::VectorXd z;     ///< one per unknown
@@ -30,8 +30,8 @@ struct SlowRates {
 
 /// q: its largest entry has magnitude one. Unknowns of one contact are adjacent, its opening first. nullopt if no
 /// combination holds, or if there are more than most_combinations.
-[[nodiscard]] std::optional<SlowRates> slow_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
-                                                  const std::vector<Unknown>& unknowns);
+[[nodiscard]] std::optional<SlowRates> quasi_static_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
+                                                          const std::vector<Unknown>& unknowns);
 
 /// Chosen value: a start tries this number in less than a second.
 inline constexpr std::size_t most_combinations = 20'000;
@@ -42,7 +42,7 @@ inline constexpr std::size_t most_combinations = 20'000;
 //   touching: g = 0 and N = 0       neither compressed nor separated
 
 /// State of one contact; rates are along the stage, from 0 to 1.
-struct Standing {
+struct LimitMargin {
   State state = State::open;
   double gap = 0.0, N = 0.0, T = 0.0;
   double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
@@ -52,16 +52,17 @@ struct Standing {
 };
 
 /// State before any load.
-[[nodiscard]] Standing undeformed(const Contact& contact);
+[[nodiscard]] LimitMargin undeformed(const Contact& contact);
 
 /// Friction coefficient: kinetic in slip, else static.
-[[nodiscard]] double friction_of(const Contact& contact, const Standing& standing);
+[[nodiscard]] double friction_of(const Contact& contact, const LimitMargin& standing);
 /// f |N| - s T
-[[nodiscard]] double margin_of(const Contact& contact, const Standing& standing, int s);
+[[nodiscard]] double margin_of(const Contact& contact, const LimitMargin& standing, int s);
 
 /// Threshold below which a force is zero, for the largest force so far.
 [[nodiscard]] double zero_force(double greatest);
 /// zero: threshold of forces; travelled: sum of the magnitudes of the gap's terms.
-[[nodiscard]] bool touching(const Contact& contact, const Standing& standing, double zero, double travelled);
+[[nodiscard]] bool touching(const Contact& contact, const LimitMargin& standing, double zero,
+                            double travelled);
 
-}  // namespace signorini
+}  // namespace signorini::statics

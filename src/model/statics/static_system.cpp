@@ -15,7 +15,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/statics/mechanisms.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 namespace {
 
 /// Rounding leaves a pivot of some eps of its diagonal entry; below this value null motions are searched for.
@@ -30,15 +30,15 @@ bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loo
   for (std::size_t j = 0; j < rows.size(); ++j)
     if (j != row && rows[j].rigid && !loose[j]) forms.push_back(&rows[j].form);
   if (!rows[row].rigid || forms.size() < 2) return false;
-  const Eigen::MatrixXd columns = form_columns(forms);
+  const Eigen::MatrixXd columns = contact::form_columns(forms);
   const Eigen::MatrixXd others = columns.rightCols(columns.cols() - 1);
   const Eigen::VectorXd own = columns.col(0);
-  return (own - others * least_squares(others, own)).norm() <= spanned * own.norm();
+  return (own - others * base::least_squares(others, own)).norm() <= spanned * own.norm();
 }
 
-HeldRows::HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows)
+ConstraintRows::ConstraintRows(const SparseMatrix& k, std::vector<HeldRow> rows)
     : rows_(std::move(rows)),
-      matrix_(with_springs(k, springs())),
+      matrix_(assembly::with_springs(k, springs())),
       solver_(matrix_),
       regular_(solver_.ok() &&
                (solver_.smallest_share() > regular_share || null_motions(matrix_).cols() == 0)) {
@@ -48,12 +48,12 @@ HeldRows::HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows)
   const auto n = static_cast<Eigen::Index>(rigid_.size());
   schur_.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    answers_.push_back(solver_.solve(full(rigid_row(i).form, static_cast<int>(k.rows()))));
+    answers_.push_back(solver_.solve(assembly::full(rigid_row(i).form, static_cast<int>(k.rows()))));
     for (Eigen::Index j = 0; j < n; ++j) schur_(j, i) = rigid_row(j).form.dot(answers_.back());
   }
 }
 
-std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
+std::pair<Vector, Vector> ConstraintRows::solve(Vector load, const Vector& r) const {
   for (std::size_t j = 0; j < rows_.size(); ++j)
     if (const double by = r[static_cast<Eigen::Index>(j)]; by != 0.0)
       rows_[j].form.add_to(load, rows_[j].stiffness * by);
@@ -65,7 +65,7 @@ std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
     for (Eigen::Index i = 0; i < n; ++i)
       miss[i] = rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
     // Rows that fix the same motion share its force: the least-norm solution.
-    const Eigen::VectorXd multipliers = least_squares(schur_, miss);
+    const Eigen::VectorXd multipliers = base::least_squares(schur_, miss);
     for (Eigen::Index i = 0; i < n; ++i) {
       u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
       forces[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])] = multipliers[i];
@@ -78,15 +78,15 @@ std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
   return {std::move(u), std::move(forces)};
 }
 
-std::vector<LineSpring> HeldRows::springs() const {
-  std::vector<LineSpring> list;
+std::vector<assembly::LineSpring> ConstraintRows::springs() const {
+  std::vector<assembly::LineSpring> list;
   for (const HeldRow& row : rows_) list.push_back({row.form, row.stiffness});
   return list;
 }
 
 namespace {
 
-constexpr double fair_share = 1e-3;  // relative to a row's largest entry: limit for a pivot
+constexpr double min_norm_friction = 1e-3;  // relative to a row's largest entry: limit for a pivot
 constexpr double holds = 1e-6;  // value of a tangent on a motion of size 1: below it the contact does not
                                 // hold the motion
 constexpr double firmly = 4.0;  // times the destabilising stiffness, so that it is held even if two share a
@@ -102,7 +102,7 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     Eigen::Index pivot = 0;
-    while (std::abs(rows(i, pivot)) < fair_share * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
+    while (std::abs(rows(i, pivot)) < min_norm_friction * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
     taken[static_cast<std::size_t>(pivot)] = true;
     for (Eigen::Index k = i + 1; k < rows.rows(); ++k) {
       rows.row(k) -= rows(k, pivot) / rows(i, pivot) * rows.row(i);
@@ -118,7 +118,7 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
 
 /// Keeps a motion without load at zero. Both translations of a node have equal support, the sum of their stiffnesses,
 /// which does not depend on the axes: a motion orthogonal to a spring stays so.
-SparseMatrix weak_support(const DofMap& map, const SparseMatrix& k) {
+SparseMatrix weak_support(const assembly::DofMap& map, const SparseMatrix& k) {
   const double largest = k.diagonal().cwiseAbs().maxCoeff();
   std::map<int, double> of_node;
   const auto node = [&](int i) { return map.where[static_cast<std::size_t>(i)].first; };
@@ -154,10 +154,10 @@ double own_stiffness(const SparseMatrix& k, const Combination& form) {
 }
 
 SparseMatrix StaticProblem::matrix(const std::vector<bool>& closed) const {
-  std::vector<LineSpring> springs;
+  std::vector<assembly::LineSpring> springs;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     if (is_support(k) && closed[k]) springs.push_back({contacts[k].normal, normal_stiffness(k)});
-  return with_springs(stiffness, springs);
+  return assembly::with_springs(stiffness, springs);
 }
 
 Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
@@ -176,11 +176,11 @@ struct Turning {
   std::vector<int> dofs;         ///< degrees of freedom without any such rotation
   std::vector<FreeMotion> free;  ///< rotations, scaled to 1 at their largest entry
 
-  Turning(const Eigen::MatrixXd& motions, const std::vector<int>& all, const DofMap& map) {
+  Turning(const Eigen::MatrixXd& motions, const std::vector<int>& all, const assembly::DofMap& map) {
     std::vector<Eigen::Index> moving;
     std::vector<bool> turns(static_cast<std::size_t>(motions.rows()), false);
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
-      if (greatest_translation(motions.col(j), map) > 0.0) {
+      if (assembly::greatest_translation(motions.col(j), map) > 0.0) {
         moving.push_back(j);
         continue;
       }
@@ -201,7 +201,7 @@ std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::Mat
   Turning turning(motions, dofs, problem.map);
   Eigen::MatrixXd null = simple_motions(turning.others, problem.map, turning.dofs);
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
-    const double size = greatest_translation(null.col(j), problem.map);
+    const double size = assembly::greatest_translation(null.col(j), problem.map);
     null.col(j) /= size > 0.0 ? size : null.col(j).cwiseAbs().maxCoeff();
   }
   const Eigen::Index m = null.cols();
@@ -230,7 +230,7 @@ std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::Mat
   std::vector<FreeMotion> result;
   Eigen::MatrixXd complete(m, m);
   complete << rows, other_motions(rows);
-  const Eigen::MatrixXd separate = null * solve_dense(complete, Eigen::MatrixXd::Identity(m, m));
+  const Eigen::MatrixXd separate = null * base::solve_dense(complete, Eigen::MatrixXd::Identity(m, m));
   for (Eigen::Index j = 0; j < m; ++j)
     result.push_back({separate.col(j), j < rows.rows() ? holders[static_cast<std::size_t>(j)] : -1});
   std::move(turning.free.begin(), turning.free.end(), std::back_inserter(result));
@@ -251,7 +251,7 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
   std::vector<Combination> tangents;
   for (const Contact& c : problem.contacts) tangents.push_back(c.tangent);
   const SparseMatrix k = problem.matrix(closed);
-  const Parts parts({&k}, tangents);
+  const assembly::Parts parts({&k}, tangents);
   std::vector<std::vector<Eigen::Index>> own_motions(parts.count());
   std::vector<std::vector<std::size_t>> own_contacts(parts.count());
   for (Eigen::Index j = 0; j < motions.cols(); ++j) {
@@ -263,7 +263,7 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
     if (!tangents[c].terms.empty()) own_contacts[parts.part_of(tangents[c].terms.front().first)].push_back(c);
   std::vector<FreeMotion> result;
   std::size_t number = 0;
-  for (const Part& part : parts) {
+  for (const assembly::Part& part : parts) {
     const Eigen::MatrixXd own = motions(Eigen::all, own_motions[number]);
     std::vector<FreeMotion> held =
         hold_part(problem, own, part.dofs(), own_contacts[number++], closed, pressed_only);
@@ -306,10 +306,10 @@ struct StiffContacts {
 
 }  // namespace
 
-HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
-                     const std::vector<FreeMotion>& held) {
+ConstrainedState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
+                            const std::vector<FreeMotion>& held) {
   const SparseMatrix whole = problem.matrix(closed);
-  std::vector<LineSpring> springs;
+  std::vector<assembly::LineSpring> springs;
   bool loose = false;
   for (const FreeMotion& f : held) {
     if (f.holder < 0) {
@@ -320,13 +320,13 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     springs.push_back({t, own_stiffness(whole, t)});
   }
   const StiffContacts stiff(problem, closed);
-  SparseMatrix k = with_springs(problem.matrix(stiff.soft), springs);
+  SparseMatrix k = assembly::with_springs(problem.matrix(stiff.soft), springs);
   const SparseMatrix unsupported = k;
-  if (loose) k += weak_support(problem.map, with_springs(whole, springs));
-  std::vector<LineSpring> apart;
+  if (loose) k += weak_support(problem.map, assembly::with_springs(whole, springs));
+  std::vector<assembly::LineSpring> apart;
   for (const std::size_t c : stiff.list)
     apart.push_back({problem.contacts[c].normal, problem.contacts[c].normal_stiffness});
-  const SymmetricSolver solver(apart.empty() ? k : with_springs(k, apart));
+  const assembly::SymmetricSolver solver(apart.empty() ? k : assembly::with_springs(k, apart));
   // load: with the gaps of soft contacts; of_scene: true for the scene's load, where gaps of stiff contacts count.
   const auto refined = [&](const Vector& load, bool of_scene) {
     const Vector first = of_scene ? problem.right_side(closed) : load;
@@ -336,8 +336,8 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
                ? Vector(better + solver.solve(stiff.rest(unsupported, load, better, of_scene)))
                : better;
   };
-  HeldState state{refined(problem.right_side(stiff.soft), true),
-                  std::vector<double>(problem.contacts.size(), 0.0)};
+  ConstrainedState state{refined(problem.right_side(stiff.soft), true),
+                         std::vector<double>(problem.contacts.size(), 0.0)};
   std::vector<std::size_t> rigid;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c)
     if (closed[c] && problem.contacts[c].takes_impulses()) rigid.push_back(c);
@@ -346,14 +346,14 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     Eigen::MatrixXd answer(problem.size(), m), give(m, m);
     Eigen::VectorXd miss(m);
     for (Eigen::Index j = 0; j < m; ++j)
-      answer.col(j) =
-          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()), false);
+      answer.col(j) = refined(
+          assembly::full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()), false);
     for (Eigen::Index i = 0; i < m; ++i) {
       const std::size_t c = rigid[static_cast<std::size_t>(i)];
       miss[i] = -problem.gap(c, state.u);
       for (Eigen::Index j = 0; j < m; ++j) give(i, j) = problem.contacts[c].normal.dot(answer.col(j));
     }
-    const Eigen::VectorXd r = least_squares(give, miss);
+    const Eigen::VectorXd r = base::least_squares(give, miss);
     state.u += answer * r;
     for (Eigen::Index i = 0; i < m; ++i) state.reactions[rigid[static_cast<std::size_t>(i)]] = r[i];
   }
@@ -378,4 +378,4 @@ double driving_work(const StaticProblem& problem, const SparseMatrix& k, const V
   return std::abs(work) > roundoff + all ? work : 0.0;
 }
 
-}  // namespace signorini
+}  // namespace signorini::statics

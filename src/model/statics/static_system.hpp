@@ -14,7 +14,7 @@
 #include "model/assembly/springs.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 
 // A structure with the constraint rows that are in force.
 //
@@ -34,9 +34,9 @@ struct HeldRow {
 [[nodiscard]] bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loose,
                                 std::size_t row);
 
-class HeldRows {
+class ConstraintRows {
  public:
-  HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows);
+  ConstraintRows(const SparseMatrix& k, std::vector<HeldRow> rows);
 
   /// True if the matrix is positive definite: there is no unconstrained motion.
   [[nodiscard]] bool regular() const { return regular_; }
@@ -50,11 +50,11 @@ class HeldRows {
   [[nodiscard]] const HeldRow& rigid_row(Eigen::Index i) const {
     return rows_[rigid_[static_cast<std::size_t>(i)]];
   }
-  [[nodiscard]] std::vector<LineSpring> springs() const;
+  [[nodiscard]] std::vector<assembly::LineSpring> springs() const;
 
   std::vector<HeldRow> rows_;
   SparseMatrix matrix_;
-  SymmetricSolver solver_;
+  assembly::SymmetricSolver solver_;
   bool regular_;
   std::vector<std::size_t> rigid_;
   Eigen::MatrixXd schur_;
@@ -68,7 +68,7 @@ struct StaticProblem {
   const SparseMatrix& stiffness;
   const Vector& load;
   const std::vector<Contact>& contacts;
-  const DofMap& map;
+  const assembly::DofMap& map;
   double firmness = 1.0;  ///< stiffness of rigid contacts, in units of the structure's own
   bool forces = false;    ///< request: contacts that hold loose motions must carry no other forces
 
@@ -100,12 +100,12 @@ struct FreeMotion {
 
 /// The displacement with the free motions held, and -N of every contact; for closed rigid contacts the required
 /// reaction, with either sign.
-struct HeldState {
+struct ConstrainedState {
   Vector u;
   std::vector<double> reactions;
 };
-[[nodiscard]] HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
-                                   const std::vector<FreeMotion>& held);
+[[nodiscard]] ConstrainedState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
+                                          const std::vector<FreeMotion>& held);
 
 /// Work of the loads on a free motion, at the displacement u of solve_held: zero in equilibrium. k and p: matrix() and
 /// right_side() of the problem. Work below rounding, or below 1e-9 of the largest load times the largest displacement,
@@ -126,4 +126,4 @@ struct HeldState {
   return std::nullopt;
 }
 
-}  // namespace signorini
+}  // namespace signorini::statics

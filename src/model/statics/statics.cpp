@@ -10,7 +10,7 @@
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 namespace {
 
 constexpr double only_touches = 1e-13;  // relative to the largest translation: rounding of a gap
@@ -29,7 +29,7 @@ struct Trial {
 Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   Trial trial;
   trial.held = hold_motions(problem, null_motions(problem.matrix(closed)), closed);
-  HeldState state = solve_held(problem, closed, trial.held);
+  ConstrainedState state = solve_held(problem, closed, trial.held);
   trial.u = std::move(state.u);
   trial.reactions = std::move(state.reactions);
   // Motions without a holding contact first: their message is more specific than that for one held by friction.
@@ -43,7 +43,7 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
     const Vector& motion = trial.held[j].motion;
     const double work = driving_work(problem, k, p, motion, trial.u);
     if (work == 0.0) continue;
-    const double size = greatest_translation(motion, problem.map);
+    const double size = assembly::greatest_translation(motion, problem.map);
     trial.driven = static_cast<int>(j);
     trial.force = size > 0.0 ? std::abs(work) / size : std::abs(work);
   }
@@ -56,7 +56,8 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
                      const char* key) {
   if (problem.size() <= 10000) return;
   bool rigid = true;
-  for (Eigen::Index j = 0; j < null.cols(); ++j) rigid = rigid && is_rigid(null.col(j), problem.map);
+  for (Eigen::Index j = 0; j < null.cols(); ++j)
+    rigid = rigid && assembly::is_rigid(null.col(j), problem.map);
   if (rigid) return;
   throw SceneError(
       place, key,
@@ -70,16 +71,16 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
 /// Refuses a motion that not even adhesive, sticking contacts could fix.
 void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place,
                        const char* key) {
-  std::vector<LineSpring> grips;
+  std::vector<assembly::LineSpring> grips;
   const SparseMatrix k = problem.matrix(all);
   for (const Contact& c : problem.contacts)
     if (!c.tangent.terms.empty()) grips.push_back({c.tangent, own_stiffness(k, c.tangent)});
-  const Eigen::MatrixXd null = simple_motions(null_motions(with_springs(k, grips)), problem.map);
+  const Eigen::MatrixXd null = simple_motions(null_motions(assembly::with_springs(k, grips)), problem.map);
   if (null.cols() == 0) return;
   refuse_roundoff(problem, null, place, key);
-  std::string names = describe_motion(null.col(0), problem.map);
+  std::string names = assembly::describe_motion(null.col(0), problem.map);
   for (Eigen::Index j = 1; j < std::min<Eigen::Index>(null.cols(), 3); ++j)
-    names += ", " + describe_motion(null.col(j), problem.map);
+    names += ", " + assembly::describe_motion(null.col(j), problem.map);
   if (null.cols() > 3) names += fmt::format(" and {} more", null.cols() - 3);
   throw SceneError(
       place, key,
@@ -93,7 +94,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                                 const char* key) {
   const Trial gripped = attempt(problem, all);
   if (gripped.driven >= 0) {
-    const std::string name = describe_motion(gripped.driven_motion().motion, problem.map);
+    const std::string name = assembly::describe_motion(gripped.driven_motion().motion, problem.map);
     const int holder = gripped.driven_motion().holder;
     const std::string hold = holder < 0 ? "nothing restrains it"
                                         : fmt::format(
@@ -117,7 +118,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                    fmt::format("no static equilibrium: {}; without this pull the static loads drive the {}. "
                                "Check the directions of gravity and of constant loads",
                                pulls.empty() ? "the open contacts do not hold the structure" : pulls,
-                               describe_motion(found.driven_motion().motion, problem.map)));
+                               assembly::describe_motion(found.driven_motion().motion, problem.map)));
 }
 
 /// True if the work of the reaction along the contact's normal is below the limit.
@@ -147,7 +148,7 @@ double firm_enough(StaticProblem problem, const std::vector<bool>& closed) {
 }
 
 std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
-  const std::string name = describe_motion(f.motion, problem.map);
+  const std::string name = assembly::describe_motion(f.motion, problem.map);
   if (f.holder < 0) return name + ", held by no contact, stays at zero";
   return fmt::format("{} held at contact '{}'", name,
                      problem.contacts[static_cast<std::size_t>(f.holder)].name);
@@ -156,7 +157,7 @@ std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
 }  // namespace
 
 Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
-                             const std::vector<Contact>& contacts, const DofMap& map,
+                             const std::vector<Contact>& contacts, const assembly::DofMap& map,
                              const SourcePlace& place, const Units& units, const EquilibriumSearch& search) {
   StaticProblem problem{stiffness, load, contacts, map, 1.0, search.mechanisms};
   std::vector<bool> all(contacts.size(), false);
@@ -174,7 +175,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
     const Trial trial = attempt(problem, closed);
     if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force, search.key);
     std::vector<bool> next = closed;
-    const double size = trial.u.size() == 0 ? 0.0 : greatest_translation(trial.u, map);
+    const double size = trial.u.size() == 0 ? 0.0 : assembly::greatest_translation(trial.u, map);
     for (std::size_t k = 0; k < next.size(); ++k) {
       if (!problem.is_support(k)) continue;
       const double g = problem.gap(k, trial.u);
@@ -265,7 +266,8 @@ std::vector<bool> closed_supports(const StaticProblem& problem) {
   Vector u = Vector::Zero(problem.size());
   const std::size_t rounds = 100 + 10 * closed.size();
   for (std::size_t round = 0; round < rounds; ++round) {
-    const Vector target = SymmetricSolver(problem.matrix(closed) + weak).solve(problem.right_side(closed));
+    const Vector target =
+        assembly::SymmetricSolver(problem.matrix(closed) + weak).solve(problem.right_side(closed));
     const std::vector<bool> next = closed_at(problem, target);
     if (next == closed) return closed;
     if (round == 0) {  // the start is the bilateral equilibrium
@@ -281,4 +283,4 @@ std::vector<bool> closed_supports(const StaticProblem& problem) {
   return closed;  // contacts at their limit, within rounding: the caller tries both states
 }
 
-}  // namespace signorini
+}  // namespace signorini::statics

@@ -20,7 +20,7 @@
 #include "model/statics/static_system.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::statics {
 
 struct Equilibrium {
   Vector u;                  ///< n
@@ -38,7 +38,7 @@ struct EquilibriumSearch {
 /// Errors: SceneError at `place` that names unrestrained motions, driven motions, and contacts that would be in
 /// tension.
 [[nodiscard]] Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
-                                           const std::vector<Contact>& contacts, const DofMap& map,
+                                           const std::vector<Contact>& contacts, const assembly::DofMap& map,
                                            const SourcePlace& place, const Units& units,
                                            const EquilibriumSearch& search = {});
 
@@ -51,4 +51,4 @@ struct EquilibriumSearch {
 /// closed[k] for every contact (false for sliders).
 [[nodiscard]] std::vector<bool> closed_supports(const StaticProblem& problem);
 
-}  // namespace signorini
+}  // namespace signorini::statics

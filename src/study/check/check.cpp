@@ -9,18 +9,18 @@
 #include "result/summary_parts.hpp"
 #include "run/cost_estimate.hpp"
 
-namespace signorini {
+namespace signorini::check {
 namespace {
 
 constexpr int shown_modes = 5;
 
 /// C including the dashpots of contacts.
 SparseMatrix with_dashpots(const Model& model) {
-  std::vector<LineSpring> dashpots;
+  std::vector<assembly::LineSpring> dashpots;
   for (const Contact& c : model.contacts) {
     if (c.normal_damping > 0.0) dashpots.push_back({c.normal, c.normal_damping});
   }
-  return with_springs(model.damping, dashpots);
+  return assembly::with_springs(model.damping, dashpots);
 }
 
 /// The model before its reduction.
@@ -73,13 +73,13 @@ CheckReport check(const Scene& scene, const Model& model) {
   if (model.reduction) warn_of_lost_state(model, report.warnings);
   measure_mass(scene, structure, report);
   report.free_motions = checks::free_motions(scene, structure, report.contacts);
-  const auto frequencies = [&](const SparseMatrix& damping, const Holding& holding) {
-    return lowest_frequencies(structure.mass, damping, structure.stiffness, holding, shown_modes);
+  const auto frequencies = [&](const SparseMatrix& damping, const modes::Holding& holding) {
+    return modes::lowest_frequencies(structure.mass, damping, structure.stiffness, holding, shown_modes);
   };
   const std::vector<bool> all(structure.contacts.size(), true);
   report.open = frequencies(structure.damping, {});
-  report.closed = frequencies(with_dashpots(structure), close_contacts(structure.contacts));
-  report.stuck = frequencies(with_dashpots(structure), hold_contacts(structure.contacts, all));
+  report.closed = frequencies(with_dashpots(structure), modes::close_contacts(structure.contacts));
+  report.stuck = frequencies(with_dashpots(structure), modes::hold_contacts(structure.contacts, all));
   if (structure.geometric) report.load_factors = structure.geometric->load_factors;
   report.stiffness = checks::stiffness_ratios(structure);
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
@@ -89,32 +89,33 @@ CheckReport check(const Scene& scene, const Model& model) {
 
 namespace {
 
-Json frequency_json(const Frequencies& frequencies) {
-  Json modes = Json::array();
-  for (const NaturalMode& mode : frequencies.modes)
+base::Json frequency_json(const modes::Frequencies& frequencies) {
+  base::Json modes = base::Json::array();
+  for (const modes::NaturalMode& mode : frequencies.modes)
     modes.push_back({{"omega", mode.omega}, {"damping_ratio", mode.damping_ratio}});
   return {{"free_motions", frequencies.free_motions},
           {"unstable_motions", frequencies.unstable},
           {"modes", std::move(modes)}};
 }
 
-Json contact_json(const Contact& contact, const ContactSample& sample) {
-  Json json = {{"name", contact.name}, {"law", contact.law->name()}, {"state", to_string(sample.state)}};
+base::Json contact_json(const Contact& contact, const ContactSample& sample) {
+  base::Json json = {
+      {"name", contact.name}, {"law", contact.law->name()}, {"state", to_string(sample.state)}};
   if (const auto gap = contact.gap_if_any(sample.gap)) json["gap"] = *gap;
   json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;
-  json["limit"] = sticking_limit(contact, sample.N);
+  json["limit"] = contact::sticking_limit(contact, sample.N);
   return json;
 }
 
-Json body_json(const Scene& scene, const BodySpec& body) {
-  const MeshQuality q = quality_of(body.mesh.elements, [&](int n) {
+base::Json body_json(const Scene& scene, const BodySpec& body) {
+  const mesh::MeshQuality q = mesh::quality_of(body.mesh.elements, [&](int n) {
     const Node& node = scene.nodes[static_cast<std::size_t>(n)];
-    return PlanePoint{node.x, node.y};
+    return mesh::PlanePoint{node.x, node.y};
   });
-  const auto worst = [](const MeshQuality::Worst& w) {
-    return Json{{"value", w.value}, {"element", w.element}};
+  const auto worst = [](const mesh::MeshQuality::Worst& w) {
+    return base::Json{{"value", w.value}, {"element", w.element}};
   };
   return {{"name", body.name},
           {"nodes", body.node_count},
@@ -124,26 +125,26 @@ Json body_json(const Scene& scene, const BodySpec& body) {
           {"aspect", worst(q.aspect)}};
 }
 
-Json run_json(const Scene& scene, const CheckReport& report) {
-  Json json = {{"t_end", scene.run.t_end},
-               {"rtol", scene.run.rtol},
-               {"engine", to_string(report.method.engine)},
-               {"engine_reason", report.method.engine_reason()},
-               {"max_order", report.method.max_order},
-               {"max_order_reason", report.method.max_order_reason},
-               {"rows", report.rows},
-               {"unknowns", report.cost.unknowns},
-               {"omega_max", report.cost.omega_max}};
+base::Json run_json(const Scene& scene, const CheckReport& report) {
+  base::Json json = {{"t_end", scene.run.t_end},
+                     {"rtol", scene.run.rtol},
+                     {"engine", to_string(report.method.engine)},
+                     {"engine_reason", report.method.engine_reason()},
+                     {"max_order", report.method.max_order},
+                     {"max_order_reason", report.method.max_order_reason},
+                     {"rows", report.rows},
+                     {"unknowns", report.cost.unknowns},
+                     {"omega_max", report.cost.omega_max}};
   if (report.cost.effort.steps > 0.0) {
     json["steps_about"] = report.cost.effort.steps;
     json["seconds_about"] = report.cost.effort.seconds;
-    const Effort& effort = report.cost.effort;
+    const run::Effort& effort = report.cost.effort;
     if (effort.by_series > 0.0) json["seconds_by_series_about"] = effort.by_series;
     if (effort.by_modes > 0.0) json["seconds_in_modes_about"] = effort.by_modes;
     if (report.cost.exact) json["seconds_with_exact_about"] = *report.cost.exact;
   }
-  for (const Trial& trial : report.cost.trials) {
-    Json row = {{"engine", to_string(trial.engine)}, {"seconds", trial.seconds}};
+  for (const run::Trial& trial : report.cost.trials) {
+    base::Json row = {{"engine", to_string(trial.engine)}, {"seconds", trial.seconds}};
     if (trial.cutoff > 0.0) row["cutoff_frequency"] = trial.cutoff;
     json["expected"].push_back(std::move(row));
   }
@@ -154,9 +155,12 @@ Json run_json(const Scene& scene, const CheckReport& report) {
 
 std::string check_json(const Scene& scene, const Model& model, const CheckReport& report) {
   const Units& u = model.units;
-  Json json = {{"scene", scene.file},         {"title", model.title},
-               {"units", units_json(u)},      {"degrees_of_freedom", report.degrees_of_freedom},
-               {"massless", report.massless}, {"static_start", model.static_start}};
+  base::Json json = {{"scene", scene.file},
+                     {"title", model.title},
+                     {"units", result::units_json(u)},
+                     {"degrees_of_freedom", report.degrees_of_freedom},
+                     {"massless", report.massless},
+                     {"static_start", model.static_start}};
   if (report.mass) {
     const MassFacts& m = *report.mass;
     json["mass"] = {{"total", m.total},
@@ -165,10 +169,10 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
                     {"moving", {m.moving_x, m.moving_y}}};
   }
   for (const BodySpec& body : scene.bodies) json["bodies"].push_back(body_json(scene, body));
-  json["contacts"] = Json::array();
+  json["contacts"] = base::Json::array();
   for (std::size_t k = 0; k < report.contacts.size(); ++k)
     json["contacts"].push_back(contact_json(model.contacts[k], report.contacts[k]));
-  if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
+  if (!model.hangers.empty()) json["hangers"] = result::hangers_json(model);
   json["warnings"] = report.warnings;
   json["free_motions"] = report.free_motions;
   json["frequencies"] = {{"open", frequency_json(report.open)},
@@ -176,22 +180,23 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
                          {"stuck", frequency_json(report.stuck)}};
   if (report.load_factors) json["load_factors"] = *report.load_factors;
   json["damping"] = {{"alpha", model.alpha}, {"beta", model.beta}, {"omega1", model.omega1}};
-  json["stiffness"] = Json::array();
+  json["stiffness"] = base::Json::array();
   for (const StiffnessRatio& s : report.stiffness)
     json["stiffness"].push_back({{"contact", model.contacts[static_cast<std::size_t>(s.contact)].name},
                                  {"direction", s.normal ? "normal" : "tangential"},
                                  {"contact_stiffness", s.stiffness},
                                  {"rest", s.rest}});
-  json["discontinuities"] = Json::array();
+  json["discontinuities"] = base::Json::array();
   for (const Discontinuity& d : report.discontinuities)
-    json["discontinuities"].push_back({{"t", d.t}, {"kind", d.jump ? "jump" : "kink"}, {"what", d.what}});
-  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, nullptr);
+    json["discontinuities"].push_back(
+        {{"t", d.t}, {"kind", d.jump ? "jump" : "kink"}, {"what", d.description}});
+  if (model.reduction) json["reduction"] = result::reduction_json(*model.reduction, nullptr);
   json["run"] = run_json(scene, report);
-  Json columns = {"t"};
+  base::Json columns = {"t"};
   for (const Column& column : model.columns) columns.push_back(column.name);
   json["columns"] = std::move(columns);
   // Names come from files in any encoding; a byte that is not UTF-8 must not prevent the output.
-  return json_text(json);
+  return base::json_text(json);
 }
 
-}  // namespace signorini
+}  // namespace signorini::check

@@ -14,7 +14,7 @@
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::check {
 
 /// Mass of the scene, including parts on fixed degrees of freedom; node scenes only.
 struct MassFacts {
@@ -34,17 +34,17 @@ struct StiffnessRatio {
 /// A time in [0, t_end] at which a load, a compression or a surface velocity is not smooth.
 struct Discontinuity {
   double t = 0.0;
-  bool jump = false;  ///< false: a kink
-  std::string what;   ///< "load 1", "normal_force of contact 'pad'"
+  bool jump = false;        ///< false: a kink
+  std::string description;  ///< "load 1", "normal_force of contact 'pad'"
 };
 
 /// Estimated cost of the time loop, as an order of magnitude.
 struct Cost {
   long unknowns = 0;
   double omega_max = 0.0;  ///< of the structure with sticking contacts, and of harmonic loads
-  Effort effort;
-  std::optional<double> exact;  ///< seconds that exact would take instead of ida, by the same estimate
-  std::vector<Trial> trials;    ///< measurements by measure_cost(); empty without it
+  run::Effort effort;
+  std::optional<double> exact;     ///< seconds that exact would take instead of ida, by the same estimate
+  std::vector<run::Trial> trials;  ///< measurements by measure_cost(); empty without it
 };
 
 /// Facts about the structure of the scene, even if the run uses a reduced model of it; this includes frequencies, free
@@ -55,9 +55,9 @@ struct CheckReport {
   double least_mass = 0.0, greatest_mass = 0.0;  ///< on the diagonal of M, without zeros
   std::vector<ContactSample> contacts;           ///< just after t = 0
   std::vector<std::string> warnings;             ///< warnings of the run, and model warnings
-  std::vector<std::string> free_motions;  ///< of the structure with its closed contacts, with the contacts
-                                          ///< that hold them
-  Frequencies open, closed, stuck;        ///< all contacts in the same state
+  std::vector<std::string> free_motions;   ///< of the structure with its closed contacts, with the contacts
+                                           ///< that hold them
+  modes::Frequencies open, closed, stuck;  ///< all contacts in the same state
   std::optional<std::vector<double>> load_factors;  ///< run.geometric: Geometric::load_factors
   std::vector<StiffnessRatio> stiffness;
   std::vector<Discontinuity> discontinuities;  ///< ascending
@@ -77,7 +77,7 @@ void measure_cost(const Scene& scene, const Model& model, std::vector<double> cu
 /// The report as JSON, with numbers in the scene's units.
 [[nodiscard]] std::string check_json(const Scene& scene, const Model& model, const CheckReport& report);
 
-}  // namespace signorini
+}  // namespace signorini::check
 
 // The parts of check().
 
@@ -104,11 +104,11 @@ struct Ambiguity {
 /// An unstable motion with the contacts as they are at t = 0; empty if there is none.
 [[nodiscard]] std::string unstable_motion(const Scene& scene, const Model& model,
                                           const std::vector<ContactSample>& contacts);
-[[nodiscard]] MassFacts mass_of(const Scene& scene, const Model& model);
+[[nodiscard]] check::MassFacts mass_of(const Scene& scene, const Model& model);
 [[nodiscard]] std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                                     const std::vector<ContactSample>& contacts);
-[[nodiscard]] std::vector<StiffnessRatio> stiffness_ratios(const Model& model);
-[[nodiscard]] std::vector<Discontinuity> discontinuities(const Model& model, double t_end);
-[[nodiscard]] Cost cost_of(const Model& model, const RunSpec& run, const Method& method);
+[[nodiscard]] std::vector<check::StiffnessRatio> stiffness_ratios(const Model& model);
+[[nodiscard]] std::vector<check::Discontinuity> discontinuities(const Model& model, double t_end);
+[[nodiscard]] check::Cost cost_of(const Model& model, const RunSpec& run, const Method& method);
 
 }  // namespace signorini::checks

@@ -31,7 +31,7 @@ class FirstStep : public Recorder {
 
 /// The tangent restricted to degrees of freedom with mass: only there does a rigid constraint act immediately.
 Vector heavy_part(const Model& model, const Combination& tangent) {
-  Vector t = full(tangent, model.size());
+  Vector t = assembly::full(tangent, model.size());
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) t[i] = 0.0;
   return t;
@@ -54,10 +54,10 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
   for (const std::size_t k : contacts) {
     const Contact& c = model.contacts[k];
     const Vector t = heavy_part(model, c.tangent);
-    if (std::string why = holds_no_mass(model, c); !why.empty()) return Ambiguity{k, std::move(why)};
+    if (std::string why = decide::holds_no_mass(model, c); !why.empty()) return Ambiguity{k, std::move(why)};
     bool share = may_share(model, c);
     if (held.cols() > 0) {
-      const Eigen::MatrixXd x = solve_dense(held.transpose() * held, held.transpose() * t);
+      const Eigen::MatrixXd x = base::solve_dense(held.transpose() * held, held.transpose() * t);
       if ((t - held * x).norm() <= 1e-12 * t.norm()) {
         std::vector<std::string> group;
         for (Eigen::Index j = 0; j < held.cols(); ++j) {
@@ -70,7 +70,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
         return Ambiguity{k,
                          fmt::format("contacts {} stick rigidly to the same motion, so their friction forces "
                                      "are not unique; give them a tangential_stiffness",
-                                     listed(group))};
+                                     base::listed(group))};
       }
     }
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);
@@ -92,7 +92,7 @@ std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
     contacts.push_back(k);
     tangents.push_back(c.tangent);
   }
-  for (const std::vector<std::size_t>& group : coupled_forms(tangents)) {
+  for (const std::vector<std::size_t>& group : assembly::coupled_forms(tangents)) {
     std::vector<std::size_t> members;
     for (const std::size_t i : group) members.push_back(contacts[i]);
     if (auto found = ambiguity_among(model, members)) return found;
@@ -102,15 +102,15 @@ std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
 
 Start start(const Scene& scene, const Model& model) {
   FirstStep recorder;
-  Report report = simulate(model, without_rows(scene.run), recorder);
+  Report report = simulate(model, study::without_rows(scene.run), recorder);
   if (report.outcome.kind == Outcome::Kind::stopped) {
     const std::string reason =
         fmt::format("the run cannot start, t = {:g}: {}", report.outcome.t, report.outcome.reason);
     if (const auto found = ambiguous_contacts(model)) {
       const ContactSpec& contact = scene.contacts[found->contact];
-      const bool said = reason.find(found->reason) != std::string::npos;
+      const bool included = reason.find(found->reason) != std::string::npos;
       throw SceneError(contact.place, "contacts." + contact.name,
-                       said ? reason : reason + ": " + found->reason);
+                       included ? reason : reason + ": " + found->reason);
     }
     const std::vector<std::size_t>& named = report.outcome.refusal.contacts;
     if (!named.empty()) {
@@ -134,8 +134,8 @@ bool slope_jumps(const History& history, double t) {
 
 }  // namespace
 
-std::vector<Discontinuity> discontinuities(const Model& model, double t_end) {
-  std::vector<Discontinuity> result;
+std::vector<check::Discontinuity> discontinuities(const Model& model, double t_end) {
+  std::vector<check::Discontinuity> result;
   const auto add = [&](const History& history, bool integral, const std::string& what) {
     for (const Breakpoint& b : history.breakpoints())
       if (b.time >= 0.0 && b.time <= t_end)
@@ -147,31 +147,31 @@ std::vector<Discontinuity> discontinuities(const Model& model, double t_end) {
     add(c.surface_motion, true, "surface_velocity of contact '" + c.name + "'");
   }
   std::stable_sort(result.begin(), result.end(),
-                   [](const Discontinuity& a, const Discontinuity& b) { return a.t < b.t; });
+                   [](const check::Discontinuity& a, const check::Discontinuity& b) { return a.t < b.t; });
   return result;
 }
 
-Cost cost_of(const Model& model, const RunSpec& run, const Method& method) {
+check::Cost cost_of(const Model& model, const RunSpec& run, const Method& method) {
   RunSpec chosen = run;
   chosen.engine = method.engine;
-  const Expected found = expected(model, run, method);
-  return {found.unknowns, found.omega_max, found.effort, exact_instead(model, chosen), {}};
+  const run::Expected found = run::expected(model, run, method);
+  return {found.unknowns, found.omega_max, found.effort, run::exact_instead(model, chosen), {}};
 }
 
 }  // namespace signorini::checks
 
-namespace signorini {
+namespace signorini::check {
 
 void measure_cost(const Scene& scene, const Model& model, std::vector<double> cutoffs, CheckReport& report) {
   constexpr double patience = 0.5, long_run = 2.0;  // s
   const Engine own = report.method.engine;
-  report.cost.trials = trials(scene, model, own, cutoffs, patience);
+  report.cost.trials = run::trials(scene, model, own, cutoffs, patience);
   if (!cutoffs.empty() || scene.reduction || report.stuck.modes.empty()) return;
   const auto found = std::find_if(report.cost.trials.begin(), report.cost.trials.end(),
-                                  [&](const Trial& trial) { return trial.engine == own; });
-  const double cutoff = cutoff_to_try(report.stuck.modes.front().omega, report.cost.omega_max);
+                                  [&](const run::Trial& trial) { return trial.engine == own; });
+  const double cutoff = run::cutoff_to_try(report.stuck.modes.front().omega, report.cost.omega_max);
   if (cutoff > 0.0 && found != report.cost.trials.end() && found->seconds > long_run)
-    report.cost.trials = trials(scene, model, own, {cutoff}, patience);
+    report.cost.trials = run::trials(scene, model, own, {cutoff}, patience);
 }
 
-}  // namespace signorini
+}  // namespace signorini::check

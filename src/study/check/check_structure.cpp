@@ -29,8 +29,8 @@ double moving_mass(const Model& model, std::string_view component) {
   return r.dot(model.mass * r);
 }
 
-DofMap map_of(const Scene& scene) {
-  return scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+assembly::DofMap map_of(const Scene& scene) {
+  return scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
 }
 
 std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSample>& contacts) {
@@ -67,30 +67,30 @@ std::vector<std::string> loose_parts(const Scene& scene) {
     if (!sections.contains(section.name)) unused.push_back(section.name);
   if (!loose.empty())
     result.push_back(fmt::format("no member, mass, spring or contact is attached to node{} {}",
-                                 loose.size() > 1 ? "s" : "", listed(loose, 5)));
+                                 loose.size() > 1 ? "s" : "", base::listed(loose, 5)));
   if (!unused.empty())
     result.push_back(
-        fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "", listed(unused, 5)));
+        fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "", base::listed(unused, 5)));
   return result;
 }
 
 std::string unstable_motion(const Scene& scene, const Model& model,
                             const std::vector<ContactSample>& contacts) {
-  const Vector load = static_load(model.loads, model.size());
-  const DofMap map = map_of(scene);
-  const StaticProblem problem{model.stiffness, load, model.contacts, map, firmness_of(model)};
-  const auto growth = fastest_growth(problem.matrix(closed_ones(model, contacts)), model.mass);
+  const Vector load = assembly::static_load(model.loads, model.size());
+  const assembly::DofMap map = map_of(scene);
+  const statics::StaticProblem problem{model.stiffness, load, model.contacts, map, firmness_of(model)};
+  const auto growth = modes::fastest_growth(problem.matrix(closed_ones(model, contacts)), model.mass);
   if (!growth) return "";
   const std::string pace =
       std::isfinite(growth->rate)
           ? fmt::format("grows like exp({:.4g} t) unless friction prevents it", growth->rate)
           : std::string("has no mass that could slow it down");
   return fmt::format("the structure is unstable, its stiffness matrix has a negative eigenvalue: the {} {}",
-                     describe_motion(growth->motion, map), pace);
+                     assembly::describe_motion(growth->motion, map), pace);
 }
 
-MassFacts mass_of(const Scene& scene, const Model& model) {
-  MassFacts facts;
+check::MassFacts mass_of(const Scene& scene, const Model& model) {
+  check::MassFacts facts;
   double mx = 0.0, my = 0.0;
   std::unordered_map<std::string, const Node*> nodes;
   for (const Node& node : scene.nodes) nodes.emplace(node.name, &node);
@@ -99,15 +99,15 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
     mx += mass * x;
     my += mass * y;
   };
-  const Mesh mesh = make_mesh(scene);
+  const element::Mesh mesh = element::make_mesh(scene);
   for (const auto& e : mesh.elements) {
     // The shares of the nodes are those of a uniform load along x.
-    const ElementVector shares = e->spread({1.0 / e->extent(), 0.0});
-    const std::vector<ElementUnknown> unknowns = e->unknowns();
+    const element::ElementVector shares = e->spread({1.0 / e->extent(), 0.0});
+    const std::vector<element::ElementUnknown> unknowns = e->unknowns();
     double x = 0.0, y = 0.0;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
       if (unknowns[j].component != 0) continue;
-      const MeshNode& node = mesh.node(e->nodes()[unknowns[j].place]);
+      const element::MeshNode& node = mesh.node(e->nodes()[unknowns[j].place]);
       x += shares[static_cast<Eigen::Index>(j)] * node.x;
       y += shares[static_cast<Eigen::Index>(j)] * node.y;
     }
@@ -130,7 +130,7 @@ namespace {
 struct WithoutSlipPoints {
   WithoutSlipPoints(const Model& model, int own) : contacts(model.contacts), size(own) {
     stiffness = model.stiffness.topLeftCorner(own, own);
-    load = static_load(model.loads, model.size()).head(own);
+    load = assembly::static_load(model.loads, model.size()).head(own);
     for (Contact& contact : contacts) contact.tangent = contact.body_tangent();
   }
   /// A free motion of the structure, extended to sliding points: each moves with its body, or, if measured relative to
@@ -155,37 +155,39 @@ struct WithoutSlipPoints {
 std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                       const std::vector<ContactSample>& contacts) {
   if (model.static_start) return model.statics.free_motions;
-  const DofMap map = map_of(scene);
+  const assembly::DofMap map = map_of(scene);
   const WithoutSlipPoints own(model, std::min(map.size(), model.size()));
-  const StaticProblem problem{own.stiffness, own.load, own.contacts, map, firmness_of(model)};
+  const statics::StaticProblem problem{own.stiffness, own.load, own.contacts, map, firmness_of(model)};
   const std::vector<bool> closed = closed_ones(model, contacts);
-  const Vector load = static_load(model.loads, model.size());
+  const Vector load = assembly::static_load(model.loads, model.size());
   const SparseMatrix k =
-      StaticProblem{model.stiffness, load, model.contacts, map, firmness_of(model)}.matrix(closed);
+      statics::StaticProblem{model.stiffness, load, model.contacts, map, firmness_of(model)}.matrix(closed);
   std::vector<std::string> names;
-  for (const FreeMotion& f : hold_motions(problem, null_motions(k).topRows(own.size), closed, true)) {
+  for (const statics::FreeMotion& f :
+       statics::hold_motions(problem, statics::null_motions(k).topRows(own.size), closed, true)) {
     // A contact without friction or a spring follows the motion and does not hold it.
     const Contact* holder = f.holder < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.holder)];
     const bool holds =
         holder != nullptr && closed[static_cast<std::size_t>(f.holder)] && holder->has_friction();
-    names.push_back(describe_motion(f.motion, map) +
+    names.push_back(assembly::describe_motion(f.motion, map) +
                     (holds ? fmt::format(", restrained only by friction at contact '{}'", holder->name)
-                     : has_negative_energy(k, own.with_points(model, f.motion))
+                     : modes::has_negative_energy(k, own.with_points(model, f.motion))
                          ? std::string(", unstable")
                          : std::string(", not restrained")));
   }
   return names;
 }
 
-std::vector<StiffnessRatio> stiffness_ratios(const Model& model) {
+std::vector<check::StiffnessRatio> stiffness_ratios(const Model& model) {
   const std::vector<bool> all(model.contacts.size(), true);
-  const Holding holding = hold_contacts(model.contacts, all);
-  const SparseMatrix k = with_springs(model.stiffness, holding.springs);
-  if (holding.springs.empty() || null_motions(with_grips(k, holding.fixed)).cols() > 0) return {};
-  const HeldStructure structure(k, holding.fixed);
-  std::vector<StiffnessRatio> result;
+  const modes::Holding holding = modes::hold_contacts(model.contacts, all);
+  const SparseMatrix k = assembly::with_springs(model.stiffness, holding.springs);
+  if (holding.springs.empty() || statics::null_motions(modes::with_grips(k, holding.fixed)).cols() > 0)
+    return {};
+  const modes::HeldStructure structure(k, holding.fixed);
+  std::vector<check::StiffnessRatio> result;
   const auto add = [&](std::size_t contact, bool normal, const Combination& form, double stiffness) {
-    const double give = form.dot(structure.solve(full(form, model.size())));
+    const double give = form.dot(structure.solve(assembly::full(form, model.size())));
     // 1 / give is the sum of the spring and the rest in parallel; below rounding there is no rest.
     const double rest = give > 0.0 ? 1.0 / give - stiffness : 0.0;
     result.push_back({static_cast<int>(contact), normal, stiffness, rest > 1e-12 * stiffness ? rest : 0.0});

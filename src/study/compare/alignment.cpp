@@ -7,14 +7,14 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 bool same_time(double a, double b) {
   constexpr double roundoff = 1e-13;  // for time grids made by summation instead of multiplication
   return std::abs(a - b) <= roundoff * std::max(std::abs(a), std::abs(b));
 }
 
-bool TimeJoin::read(CsvReader& reader, std::size_t& count) const {
+bool TimeJoin::read(result::CsvReader& reader, std::size_t& count) const {
   if (!reader.next() || beyond(reader.t(), until_)) return false;
   ++count;
   return true;
@@ -188,4 +188,4 @@ Alignment align(const std::vector<LoggedEvent>& reference, const std::vector<Log
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::compare

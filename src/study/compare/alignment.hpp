@@ -20,7 +20,7 @@
 #include "result/csv.hpp"
 #include "signorini/event.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 // The largest of many differences, and its place.
 
@@ -82,13 +82,13 @@ class TimeJoin {
   /// Rows of a (reference) and b (other).
   [[nodiscard]] const RowCount& rows() const { return rows_; }
   [[nodiscard]] double t() const { return t_; }
-  [[nodiscard]] const CsvReader& a() const { return a_; }
-  [[nodiscard]] const CsvReader& b() const { return b_; }
+  [[nodiscard]] const result::CsvReader& a() const { return a_; }
+  [[nodiscard]] const result::CsvReader& b() const { return b_; }
 
  private:
-  bool read(CsvReader& reader, std::size_t& count) const;
+  bool read(result::CsvReader& reader, std::size_t& count) const;
 
-  CsvReader a_, b_;
+  result::CsvReader a_, b_;
   double until_, t_ = 0.0;
   RowCount rows_;
 };
@@ -106,7 +106,7 @@ class ContactRowReader {
   [[nodiscard]] const std::map<std::string, Forces>& forces() const { return forces_; }
 
  private:
-  CsvReader reader_;
+  result::CsvReader reader_;
   std::size_t contact_, N_, T_;
   bool pending_ = false;  // the reader is at the first row of the next time
   double t_ = 0.0;
@@ -157,4 +157,4 @@ struct AlignmentSettings {
 [[nodiscard]] Alignment align(const std::vector<LoggedEvent>& reference,
                               const std::vector<LoggedEvent>& other, const AlignmentSettings& settings);
 
-}  // namespace signorini
+}  // namespace signorini::compare

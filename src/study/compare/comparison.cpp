@@ -14,7 +14,7 @@
 #include "study/compare/alignment.hpp"
 #include "study/compare/comparison_files.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The quantity to which a column of history.csv belongs.
 Deviation& quantity(Comparison& c, const std::string& column) {
-  const NamedMotion motion = motion_named(column);
+  const scene::NamedMotion motion = scene::motion_named(column);
   if (motion.rotation) return motion.rate ? c.angular_velocity : c.rotation;
   return motion.rate ? c.velocity : c.displacement;
 }
@@ -33,8 +33,8 @@ struct CommonColumn {
   Deviation* quantity;
 };
 
-std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b, Comparison& c,
-                                         const char* table) {
+std::vector<CommonColumn> common_columns(const result::CsvReader& a, const result::CsvReader& b,
+                                         Comparison& c, const char* table) {
   std::vector<CommonColumn> columns;
   std::vector<std::string> alone;
   for (std::size_t i = 1; i < a.header().size(); ++i) {
@@ -54,18 +54,18 @@ std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b,
     }
   if (!alone.empty()) {
     c.notes.push_back(fmt::format("{}: {} in one of the two runs only, the first is \"{}\"", table,
-                                  count_of(alone.size(), "column"), alone[0]));
+                                  base::count_of(alone.size(), "column"), alone[0]));
   }
   return columns;
 }
 
 /// Output file for a table of differences over time, if requested.
 template <class Row>
-std::optional<TableFile<Row>> series_of(const ComparisonSettings& settings, const char* kind,
-                                        const CsvTable<Row>& table) {
+std::optional<result::TableFile<Row>> series_of(const ComparisonSettings& settings, const char* kind,
+                                                const result::CsvTable<Row>& table) {
   if (settings.folder.empty()) return std::nullopt;
-  return std::optional<TableFile<Row>>(std::in_place, settings.folder / (kind + settings.slug + ".csv"),
-                                       table);
+  return std::optional<result::TableFile<Row>>(std::in_place,
+                                               settings.folder / (kind + settings.slug + ".csv"), table);
 }
 
 void compare_motion(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
@@ -239,7 +239,7 @@ void note_contacts(const ComparedRun& a, const ComparedRun& b, Comparison& c) {
 }  // namespace
 
 ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name) {
-  check_run_files(directory);
+  base::check_run_files(directory);
   ComparedRun run{read_run_figures(directory), read_events(directory)};
   run.figures.name = name;
   return run;
@@ -276,4 +276,4 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   return c;
 }
 
-}  // namespace signorini
+}  // namespace signorini::compare

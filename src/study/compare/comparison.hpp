@@ -16,7 +16,7 @@
 #include "study/compare/alignment.hpp"
 #include "study/compare/run_figures.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 /// A run's figures and events.
 struct ComparedRun {
@@ -64,4 +64,4 @@ struct Comparison {
 [[nodiscard]] Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
                                       const ComparisonSettings& settings = {});
 
-}  // namespace signorini
+}  // namespace signorini::compare

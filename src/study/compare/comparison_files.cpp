@@ -6,28 +6,28 @@
 #include "result/summary_parts.hpp"
 #include "study/figures.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 namespace {
 
 using Audit = std::map<std::string, double>;
 
 /// Table of runs; audits have the columns of the reference.
-CsvTable<RunFigures> run_table(const Audit& audit) {
+result::CsvTable<RunFigures> run_table(const Audit& audit) {
   using R = RunFigures;
-  CsvTable<R> table = {{"run", &R::name},
-                       {"engine", &R::engine},
-                       {"directory", [](const R& r) { return r.directory.string(); }},
-                       {"outcome", [](const R& r) { return r.facts.outcome; }},
-                       {"t", &R::t},
-                       {"reason", &R::reason},
-                       {"events", [](const R& r) { return changes_in(r.events_by_type); }},
-                       {"wall_time", &R::wall_time},
-                       {"steps", &R::steps},
-                       {"factorisations", &R::factorisations},
-                       {"solves", &R::solves},
-                       {"restarts", &R::restarts},
-                       {"friction", &R::friction},
-                       {"damping", &R::damping}};
+  result::CsvTable<R> table = {{"run", &R::name},
+                               {"engine", &R::engine},
+                               {"directory", [](const R& r) { return r.directory.string(); }},
+                               {"outcome", [](const R& r) { return r.facts.outcome; }},
+                               {"t", &R::t},
+                               {"reason", &R::reason},
+                               {"events", [](const R& r) { return changes_in(r.events_by_type); }},
+                               {"wall_time", &R::wall_time},
+                               {"steps", &R::steps},
+                               {"factorisations", &R::factorisations},
+                               {"solves", &R::solves},
+                               {"restarts", &R::restarts},
+                               {"friction", &R::friction},
+                               {"damping", &R::damping}};
   for (const auto& [name, value] : audit)
     table.add("audit_" + name, [name = name](const R& r) {
       const auto found = r.audit.find(name);
@@ -37,8 +37,8 @@ CsvTable<RunFigures> run_table(const Audit& audit) {
 }
 
 std::string runs_csv(const ComparisonReport& report) {
-  const CsvTable<RunFigures> table = run_table(report.runs.front().figures.audit);
-  CsvBlock block;
+  const result::CsvTable<RunFigures> table = run_table(report.runs.front().figures.audit);
+  result::CsvBlock block;
   table.put_header(block);
   for (const ComparedRun& run : report.runs) table.put_row(block, run.figures);
   for (const auto& [name, reason] : report.refused) {
@@ -47,7 +47,7 @@ std::string runs_csv(const ComparisonReport& report) {
         {"run", name}, {"engine", name}, {"outcome", "refused"}, {"reason", reason}};
     for (const auto& column : table.columns()) {
       const auto found = cells.find(column.name);
-      put_cell(block, found == cells.end() ? std::nullopt : std::optional(found->second));
+      result::put_cell(block, found == cells.end() ? std::nullopt : std::optional(found->second));
     }
     block.end_row();
   }
@@ -64,15 +64,15 @@ struct Difference {
 
 std::string differences_csv(const ComparisonReport& report) {
   using D = Difference;
-  const CsvTable<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
-                             {"quantity", [](const D& d) { return d.quantity.name; }},
-                             {"unit", [](const D& d) { return d.quantity.unit; }},
-                             {"value", [](const D& d) { return d.whole().value; }},
-                             {"t", [](const D& d) { return d.whole().t; }},
-                             {"where", [](const D& d) { return d.whole().where; }},
-                             {"value_until_split", [](const D& d) { return d.until_split().value; }},
-                             {"t_until_split", [](const D& d) { return d.until_split().t; }},
-                             {"where_until_split", [](const D& d) { return d.until_split().where; }}};
+  const result::CsvTable<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
+                                     {"quantity", [](const D& d) { return d.quantity.name; }},
+                                     {"unit", [](const D& d) { return d.quantity.unit; }},
+                                     {"value", [](const D& d) { return d.whole().value; }},
+                                     {"t", [](const D& d) { return d.whole().t; }},
+                                     {"where", [](const D& d) { return d.whole().where; }},
+                                     {"value_until_split", [](const D& d) { return d.until_split().value; }},
+                                     {"t_until_split", [](const D& d) { return d.until_split().t; }},
+                                     {"where_until_split", [](const D& d) { return d.until_split().where; }}};
   std::vector<D> rows;
   for (const Comparison& c : report.comparisons)
     for (const Quantity& q : quantities(c, report.runs.front().figures.facts.units))
@@ -88,12 +88,13 @@ struct ColumnDifference {
 
 std::string columns_csv(const ComparisonReport& report) {
   using D = ColumnDifference;
-  const CsvTable<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
-                             {"column", [](const D& d) { return std::string_view(d.column); }},
-                             {"value", [](const D& d) { return d.deviation.whole.value; }},
-                             {"t", [](const D& d) { return d.deviation.whole.t; }},
-                             {"value_until_split", [](const D& d) { return d.deviation.until_split.value; }},
-                             {"t_until_split", [](const D& d) { return d.deviation.until_split.t; }}};
+  const result::CsvTable<D> table = {
+      {"run", [](const D& d) { return std::string_view(d.run); }},
+      {"column", [](const D& d) { return std::string_view(d.column); }},
+      {"value", [](const D& d) { return d.deviation.whole.value; }},
+      {"t", [](const D& d) { return d.deviation.whole.t; }},
+      {"value_until_split", [](const D& d) { return d.deviation.until_split.value; }},
+      {"t_until_split", [](const D& d) { return d.deviation.until_split.t; }}};
   std::vector<D> rows;
   for (const Comparison& c : report.comparisons)
     for (const auto& [name, deviation] : c.columns) rows.push_back({c.name, name, deviation});
@@ -112,7 +113,7 @@ std::string events_csv(const ComparisonReport& report) {
   return event_pair_table().text(rows);
 }
 
-Json event_json(const LoggedEvent& event) {
+base::Json event_json(const LoggedEvent& event) {
   return {{"t", event.t},
           {"contact", event.contact},
           {"event", event.type},
@@ -120,13 +121,13 @@ Json event_json(const LoggedEvent& event) {
           {"to", event.to}};
 }
 
-Json greatest_json(const Greatest& greatest) {
-  Json json = {{"value", greatest.value}, {"t", greatest.t}};
+base::Json greatest_json(const Greatest& greatest) {
+  base::Json json = {{"value", greatest.value}, {"t", greatest.t}};
   if (!greatest.where.empty()) json["where"] = greatest.where;
   return json;
 }
 
-Json run_json(const RunFigures& run) {
+base::Json run_json(const RunFigures& run) {
   return {{"name", run.name},
           {"engine", run.engine},
           {"directory", run.directory.string()},
@@ -134,19 +135,19 @@ Json run_json(const RunFigures& run) {
           {"t", run.t},
           {"reason", run.reason},
           {"events", {{"total", changes_in(run.events_by_type)}, {"by_type", run.events_by_type}}},
-          {"wall_time", json_of(run.wall_time)},
-          {"steps", json_of(run.steps)},
-          {"factorisations", json_of(run.factorisations)},
-          {"solves", json_of(run.solves)},
-          {"restarts", json_of(run.restarts)},
-          {"friction", json_of(run.friction)},
-          {"damping", json_of(run.damping)},
+          {"wall_time", study::json_of(run.wall_time)},
+          {"steps", study::json_of(run.steps)},
+          {"factorisations", study::json_of(run.factorisations)},
+          {"solves", study::json_of(run.solves)},
+          {"restarts", study::json_of(run.restarts)},
+          {"friction", study::json_of(run.friction)},
+          {"damping", study::json_of(run.damping)},
           {"friction_work", run.friction_work},
           {"audit", run.audit}};
 }
 
-Json rows_json(const Comparison::Rows& rows) {
-  Json json = Json::object();
+base::Json rows_json(const Comparison::Rows& rows) {
+  base::Json json = base::Json::object();
   const auto add = [&](const char* file, const RowCount& count) {
     if (count.reference + count.other > 0)
       json[file] = {{"compared", count.compared}, {"reference", count.reference}, {"run", count.other}};
@@ -158,24 +159,24 @@ Json rows_json(const Comparison::Rows& rows) {
   return json;
 }
 
-Json comparison_json_of(const ComparisonReport& report, std::size_t i) {
+base::Json comparison_json_of(const ComparisonReport& report, std::size_t i) {
   const Comparison& c = report.comparisons[i];
   const auto &reference = report.runs.front().events, &other = report.runs[i + 1].events;
-  Json json = {{"run", c.name},
-               {"t_end", c.t_end},
-               {"common_times", c.common_times},
-               {"rows", rows_json(c.rows)},
-               {"aligned", c.alignment.pairs.size()},
-               {"swapped", c.alignment.swapped},
-               {"first_difference", Json()}};
+  base::Json json = {{"run", c.name},
+                     {"t_end", c.t_end},
+                     {"common_times", c.common_times},
+                     {"rows", rows_json(c.rows)},
+                     {"aligned", c.alignment.pairs.size()},
+                     {"swapped", c.alignment.swapped},
+                     {"first_difference", base::Json()}};
   if (const auto& split = c.alignment.split) {
     json["first_difference"] = {
         {"t", split->t},
-        {"reference", split->reference ? event_json(reference[*split->reference]) : Json()},
-        {"run", split->other ? event_json(other[*split->other]) : Json()},
+        {"reference", split->reference ? event_json(reference[*split->reference]) : base::Json()},
+        {"run", split->other ? event_json(other[*split->other]) : base::Json()},
         {"unaligned", split->unaligned}};
   }
-  json["differences"] = Json::object();
+  json["differences"] = base::Json::object();
   for (const Quantity& q : quantities(c, report.runs.front().figures.facts.units)) {
     if (q.deviation->count == 0) continue;
     json["differences"][q.name] = greatest_json(q.deviation->whole);
@@ -183,7 +184,7 @@ Json comparison_json_of(const ComparisonReport& report, std::size_t i) {
     if (c.alignment.split)
       json["differences"][q.name]["until_first_difference"] = greatest_json(q.deviation->until_split);
   }
-  json["columns"] = Json::object();
+  json["columns"] = base::Json::object();
   for (const auto& [name, deviation] : c.columns) json["columns"][name] = greatest_json(deviation.whole);
   json["notes"] = c.notes;
   return json;
@@ -202,29 +203,29 @@ std::string split_text(const ComparedRun& reference, const ComparedRun& other,
 }
 
 std::string comparison_json(const ComparisonReport& report) {
-  const RunFacts& facts = report.runs.front().figures.facts;
-  Json json = {{"title", facts.title},
-               {"units", units_json(facts.units)},
-               {"reference", report.runs.front().figures.name}};
-  json["runs"] = Json::array();
+  const result::RunFacts& facts = report.runs.front().figures.facts;
+  base::Json json = {{"title", facts.title},
+                     {"units", result::units_json(facts.units)},
+                     {"reference", report.runs.front().figures.name}};
+  json["runs"] = base::Json::array();
   for (const ComparedRun& run : report.runs) json["runs"].push_back(run_json(run.figures));
   for (const auto& [name, reason] : report.refused)
     json["runs"].push_back({{"name", name}, {"outcome", "refused"}, {"reason", reason}});
-  json["comparisons"] = Json::array();
+  json["comparisons"] = base::Json::array();
   for (std::size_t i = 0; i < report.comparisons.size(); ++i)
     json["comparisons"].push_back(comparison_json_of(report, i));
-  json["limits"] = Json::object();
+  json["limits"] = base::Json::object();
   for (const Limit& limit : report.limits) json["limits"][limit.name] = limit.value;
   json["exceeded"] = report.exceeded;
-  return json_text(json);
+  return base::json_text(json);
 }
 
 void write_comparison(const std::filesystem::path& directory, const ComparisonReport& report) {
-  write_file(directory / "runs.csv", runs_csv(report));
-  write_file(directory / "differences.csv", differences_csv(report));
-  write_file(directory / "columns.csv", columns_csv(report));
-  write_file(directory / "events.csv", events_csv(report));
-  write_file(directory / "compare.json", comparison_json(report));
+  result::write_file(directory / "runs.csv", runs_csv(report));
+  result::write_file(directory / "differences.csv", differences_csv(report));
+  result::write_file(directory / "columns.csv", columns_csv(report));
+  result::write_file(directory / "events.csv", events_csv(report));
+  result::write_file(directory / "compare.json", comparison_json(report));
 }
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -15,7 +15,7 @@
 #include "study/compare/alignment.hpp"
 #include "study/compare/limits.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 // The tables of a comparison for its pictures, as lists of columns.
 //
@@ -27,9 +27,9 @@ namespace signorini {
 struct MotionDifference {
   double t, displacement, velocity;
 };
-[[nodiscard]] inline const CsvTable<MotionDifference>& motion_difference_table() {
+[[nodiscard]] inline const result::CsvTable<MotionDifference>& motion_difference_table() {
   using D = MotionDifference;
-  static const CsvTable<D> table = {
+  static const result::CsvTable<D> table = {
       {"t", &D::t}, {"displacement", &D::displacement}, {"velocity", &D::velocity}};
   return table;
 }
@@ -38,9 +38,9 @@ struct MotionDifference {
 struct ForceDifference {
   double t, N, T;
 };
-[[nodiscard]] inline const CsvTable<ForceDifference>& force_difference_table() {
+[[nodiscard]] inline const result::CsvTable<ForceDifference>& force_difference_table() {
   using D = ForceDifference;
-  static const CsvTable<D> table = {{"t", &D::t}, {"N", &D::N}, {"T", &D::T}};
+  static const result::CsvTable<D> table = {{"t", &D::t}, {"N", &D::N}, {"T", &D::T}};
   return table;
 }
 
@@ -51,17 +51,18 @@ struct EventPair {
   double t;  ///< time in the other run
   bool swapped;
 };
-[[nodiscard]] inline const CsvTable<EventPair>& event_pair_table() {
+[[nodiscard]] inline const result::CsvTable<EventPair>& event_pair_table() {
   using P = EventPair;
-  static const CsvTable<P> table = {{"run", [](const P& p) { return std::string_view(p.run); }},
-                                    {"t_reference", [](const P& p) { return p.reference.t; }},
-                                    {"t", &P::t},
-                                    {"difference", [](const P& p) { return p.t - p.reference.t; }},
-                                    {"contact", [](const P& p) { return p.reference.contact; }},
-                                    {"event", [](const P& p) { return p.reference.type; }},
-                                    {"from", [](const P& p) { return p.reference.from; }},
-                                    {"to", [](const P& p) { return p.reference.to; }},
-                                    {"swapped", [](const P& p) { return p.swapped ? "true" : "false"; }}};
+  static const result::CsvTable<P> table = {
+      {"run", [](const P& p) { return std::string_view(p.run); }},
+      {"t_reference", [](const P& p) { return p.reference.t; }},
+      {"t", &P::t},
+      {"difference", [](const P& p) { return p.t - p.reference.t; }},
+      {"contact", [](const P& p) { return p.reference.contact; }},
+      {"event", [](const P& p) { return p.reference.type; }},
+      {"from", [](const P& p) { return p.reference.from; }},
+      {"to", [](const P& p) { return p.reference.to; }},
+      {"swapped", [](const P& p) { return p.swapped ? "true" : "false"; }}};
   return table;
 }
 
@@ -83,4 +84,4 @@ struct ComparisonReport {
 /// Errors: FileError.
 void write_comparison(const std::filesystem::path& directory, const ComparisonReport& report);
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -12,7 +12,7 @@
 #include "result/run_tables.hpp"
 #include "study/compare/comparison_files.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 namespace fs = std::filesystem;
 
@@ -29,7 +29,7 @@ std::string look(std::size_t run) {
   return fmt::format("linewidth 1.3 dashtype {} linecolor '{}'", run + 1, colour);
 }
 
-std::string plain(const std::string& name) { return file_name(name, 60, "-", '_'); }
+std::string plain(const std::string& name) { return base::file_name(name, 60, "-", '_'); }
 
 /// Path relative to the folder of the scripts.
 std::string path_from(const fs::path& folder, const fs::path& file) {
@@ -42,8 +42,8 @@ std::string path_from(const fs::path& folder, const fs::path& file) {
 struct ContactCurve {
   std::string label;
   const char* column;  ///< column of contacts.csv
-  Range ContactRanges::*range;
-  double ContactScales::*scale;
+  result::Range result::ContactRanges::*range;
+  double result::ContactScales::*scale;
 };
 
 /// A panel of differences.
@@ -54,36 +54,38 @@ struct DifferenceCurve {
 
 class Pictures {
  public:
-  Pictures(fs::path folder, const ComparisonReport& report, const PictureLook& look)
+  Pictures(fs::path folder, const ComparisonReport& report, const result::PictureLook& look)
       : folder_(std::move(folder)), report_(report) {
     double t_end = 0.0;
     for (const ComparedRun& run : report.runs) t_end = std::max(t_end, run.figures.t);
     std::vector<std::string> names;
     for (const ComparedRun& run : report.runs) {
-      runs_.push_back(read_compared(TableFolder(run.figures.directory), run.figures.facts, t_end));
+      runs_.push_back(
+          result::read_compared(result::TableFolder(run.figures.directory), run.figures.facts, t_end));
       names.push_back(run.figures.name);
     }
-    for (PlottedRun& run : runs_) {
-      run.legend = room_for(names);
+    for (result::PlottedRun& run : runs_) {
+      run.legend = result::room_for(names);
       run.look = look;
     }
   }
 
   [[nodiscard]] bool any() const { return runs_.front().times >= 2; }
 
-  [[nodiscard]] Picture contact(std::size_t k, const std::string& name) const {
-    const PlottedRun& first = runs_.front();
-    const RunFacts::Contact& contact = first.facts.contacts[k];
+  [[nodiscard]] result::Picture contact(std::size_t k, const std::string& name) const {
+    const result::PlottedRun& first = runs_.front();
+    const result::RunFacts::Contact& contact = first.facts.contacts[k];
     const Units& units = first.facts.units;
     const std::string length = " [" + units.length + "]", force = " [" + units.force + "]";
-    std::vector<ContactCurve> curves = {{"ut" + length, "ut", &ContactRanges::ut, &ContactScales::length}};
+    std::vector<ContactCurve> curves = {
+        {"ut" + length, "ut", &result::ContactRanges::ut, &result::ContactScales::length}};
     if (!contact.slider)
-      curves.push_back({"gap" + length, "gap", &ContactRanges::gap, &ContactScales::length});
-    curves.push_back({"N" + force, "N", &ContactRanges::N, &ContactScales::force});
-    curves.push_back({"T" + force, "T", &ContactRanges::T, &ContactScales::force});
-    Picture picture{name, "Contact '" + contact.name + "': motion and forces", canvas(curves.size())};
+      curves.push_back({"gap" + length, "gap", &result::ContactRanges::gap, &result::ContactScales::length});
+    curves.push_back({"N" + force, "N", &result::ContactRanges::N, &result::ContactScales::force});
+    curves.push_back({"T" + force, "T", &result::ContactRanges::T, &result::ContactScales::force});
+    result::Picture picture{name, "Contact '" + contact.name + "': motion and forces", canvas(curves.size())};
     for (const ContactCurve& curve : curves) {
-      Panel panel{curve.label, {}, axis(contact.name, curve)};
+      result::Panel panel{curve.label, {}, axis(contact.name, curve)};
       for (std::size_t r = 0; r < runs_.size(); ++r) {
         const auto& contacts = runs_[r].facts.contacts;
         const auto found = std::find_if(contacts.begin(), contacts.end(),
@@ -91,17 +93,18 @@ class Pictures {
         if (found == contacts.end() || runs_[r].times < 2) continue;
         const auto index = static_cast<std::size_t>(found - contacts.begin());
         panel.curves.push_back(
-            {contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
-             fmt::format("{}:{}", contact_table().number("t"), contact_table().number(curve.column)),
-             "with lines " + look(r), legend_name(report_.runs[r].figures.name)});
+            {result::contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
+             fmt::format("{}:{}", result::contact_table().number("t"),
+                         result::contact_table().number(curve.column)),
+             "with lines " + look(r), result::legend_name(report_.runs[r].figures.name)});
       }
       picture.panels.push_back(panel);
     }
     return picture;
   }
 
-  [[nodiscard]] Picture differences() const {
-    const PlottedRun& first = runs_.front();
+  [[nodiscard]] result::Picture differences() const {
+    const result::PlottedRun& first = runs_.front();
     const Units& units = first.facts.units;
     std::vector<DifferenceCurve> curves = {
         {"displacement [" + units.length + "]", "motion", motion_difference_table().number("displacement")}};
@@ -114,46 +117,46 @@ class Pictures {
     if (events)
       curves.push_back(
           {"event time [" + units.time + "]", "events", event_pair_table().number("difference")});
-    Picture picture{"differences", "Greatest differences from " + report_.runs.front().figures.name,
-                    canvas(curves.size())};
+    result::Picture picture{"differences", "Greatest differences from " + report_.runs.front().figures.name,
+                            canvas(curves.size())};
     picture.setup = "set logscale y\n";
     for (const DifferenceCurve& curve : curves) {
-      Panel panel{curve.label, {}};
+      result::Panel panel{curve.label, {}};
       for (std::size_t r = 1; r < runs_.size(); ++r) panel.curves.push_back(difference(curve, r));
       panel.axes = "set format y '%.0e'\n" + y_range(curve, panel.curves);
       for (std::size_t r = 1; r < runs_.size(); ++r)
         if (const auto& split = report_.comparisons[r - 1].alignment.split)
-          panel.axes +=
-              upright(r, split->t, fmt::format("dashtype 3 linecolor '{}'", colours[r % colours.size()]));
+          panel.axes += result::upright(
+              r, split->t, fmt::format("dashtype 3 linecolor '{}'", colours[r % colours.size()]));
       picture.panels.push_back(panel);
     }
     return picture;
   }
 
-  [[nodiscard]] const PlottedRun& first() const { return runs_.front(); }
+  [[nodiscard]] const result::PlottedRun& first() const { return runs_.front(); }
 
  private:
-  [[nodiscard]] Canvas canvas(std::size_t panels) const {
-    return canvas_of(runs_.front().look, 142.0 + 230.0 * static_cast<double>(panels), true);
+  [[nodiscard]] result::Canvas canvas(std::size_t panels) const {
+    return result::canvas_of(runs_.front().look, 142.0 + 230.0 * static_cast<double>(panels), true);
   }
 
   /// A fixed axis if the curves of all runs together are nearly constant.
   [[nodiscard]] std::string axis(const std::string& contact, const ContactCurve& curve) const {
-    Range all;
-    ContactScales scales;
-    for (const PlottedRun& run : runs_) {
-      const ContactScales own = scales_of(run.ranges);
+    result::Range all;
+    result::ContactScales scales;
+    for (const result::PlottedRun& run : runs_) {
+      const result::ContactScales own = result::scales_of(run.ranges);
       scales = {std::max(scales.length, own.length), std::max(scales.force, own.force)};
       for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
         if (run.facts.contacts[k].name == contact) all.take(run.ranges[k].*curve.range);
       }
     }
-    return steady(all, scales.*curve.scale);
+    return result::steady(all, scales.*curve.scale);
   }
 
   /// At most 12 decades below the largest value. A logarithmic axis needs a positive value, even if all runs agree
   /// exactly.
-  [[nodiscard]] std::string y_range(const DifferenceCurve& curve, std::vector<Curve>& curves) const {
+  [[nodiscard]] std::string y_range(const DifferenceCurve& curve, std::vector<result::Curve>& curves) const {
     double greatest = 0.0;
     for (const Comparison& c : report_.comparisons) {
       if (curve.name == "motion") greatest = std::max(greatest, c.displacement.whole.value);
@@ -164,37 +167,37 @@ class Pictures {
         if (column.ends_with(end)) greatest = std::max(greatest, deviation.whole.value);
     }
     if (greatest > 0.0 && greatest < 1e300) {
-      return "set yrange [" + shortest(greatest * 1e-12) + "<*:*]\n";
+      return "set yrange [" + base::shortest(greatest * 1e-12) + "<*:*]\n";
     }
     curves.push_back({"1e-18", "", "with lines linecolor '#ffffff'"});
     return "set yrange [1e-20:1e-10]\n";
   }
 
-  [[nodiscard]] Curve difference(const DifferenceCurve& curve, std::size_t r) const {
+  [[nodiscard]] result::Curve difference(const DifferenceCurve& curve, std::size_t r) const {
     const std::string name = report_.runs[r].figures.name;
     const std::string colour = fmt::format("linecolor '{}'", colours[r % colours.size()]);
     if (curve.name == "events") {
       const auto& table = event_pair_table();
       return {"'../events.csv' skip 1",
-              fmt::format("{2}:({3} eq {0} && {1} != 0 ? abs({1}) : NaN)", quoted(name),
+              fmt::format("{2}:({3} eq {0} && {1} != 0 ? abs({1}) : NaN)", result::quoted(name),
                           table.value("difference"), table.number("t_reference"), table.word("run")),
-              "with points pointtype 7 pointsize 0.7 " + colour, legend_name(name)};
+              "with points pointtype 7 pointsize 0.7 " + colour, result::legend_name(name)};
     }
     const std::size_t time =
         curve.name == "motion" ? motion_difference_table().number("t") : force_difference_table().number("t");
-    return {rows_over_time(curve.name + "-" + run_slug(name, r) + ".csv", runs_[r].times),
+    return {result::rows_over_time(curve.name + "-" + run_slug(name, r) + ".csv", runs_[r].times),
             fmt::format("{0}:(${1} > 0 ? ${1} : NaN)", time, curve.column),
-            "with lines linewidth 1.1 " + colour, legend_name(name)};
+            "with lines linewidth 1.1 " + colour, result::legend_name(name)};
   }
 
   fs::path folder_;
   const ComparisonReport& report_;
-  std::vector<PlottedRun> runs_;
+  std::vector<result::PlottedRun> runs_;
 };
 
 bool is_picture_of_comparison(const fs::path& file) {
   const std::string stem = file.stem().string();
-  if (is_picture(file)) return stem == "differences" || stem.starts_with("contact-");
+  if (result::is_picture(file)) return stem == "differences" || stem.starts_with("contact-");
   return file.extension() == ".csv" && (stem.starts_with("motion-") || stem.starts_with("forces-"));
 }
 
@@ -205,13 +208,13 @@ std::string run_slug(const std::string& name, std::size_t i) {
 }
 
 void begin_comparison_plots(const fs::path& directory) {
-  begin_plot_folder(directory / "plots", is_picture_of_comparison);
+  result::begin_plot_folder(directory / "plots", is_picture_of_comparison);
 }
 
 std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report,
-                                             const PictureLook& look) {
+                                             const result::PictureLook& look) {
   const Pictures pictures(directory / "plots", report, look);
-  PictureFiles files;  // their tables exist already
+  result::PictureFiles files;  // their tables exist already
   if (!pictures.any()) return {};
   const auto& contacts = report.runs.front().figures.facts.contacts;
   for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k)
@@ -221,4 +224,4 @@ std::vector<fs::path> write_comparison_plots(const fs::path& directory, const Co
   return files.write(directory);
 }
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -12,7 +12,7 @@
 #include "result/picture_look.hpp"
 #include "study/compare/comparison_files.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 /// File name part for run number i: "2-exact".
 [[nodiscard]] std::string run_slug(const std::string& name, std::size_t i);
@@ -24,6 +24,6 @@ void begin_comparison_plots(const std::filesystem::path& directory);
 /// FileError.
 std::vector<std::filesystem::path> write_comparison_plots(const std::filesystem::path& directory,
                                                           const ComparisonReport& report,
-                                                          const PictureLook& look = {});
+                                                          const result::PictureLook& look = {});
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -7,7 +7,7 @@
 #include "base/text.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 namespace {
 
@@ -44,7 +44,7 @@ std::string not_covered(const std::string& quantity, const RunFigures& reference
   };
   const auto fewer = [](const char* file, const std::string& name, std::size_t rows, std::size_t expected) {
     return fmt::format("{} of {} has {}, expected {} at the times of its history.csv", file, name,
-                       count_of(rows, "row"), expected);
+                       base::count_of(rows, "row"), expected);
   };
   const RowCount& history = c.rows.history;
   if (!history.all()) return sentence("history.csv", history);
@@ -123,8 +123,9 @@ std::vector<Limit> parse_limits(const std::vector<std::string>& texts) {
     const std::string name = text.substr(0, equals);
     const bool of_output = name.starts_with(response) && name != response;
     if (!of_output && std::find(names.begin(), names.end(), name) == names.end())
-      throw UsageError(fmt::format("--limit {}: no quantity \"{}\"{}", text, name, suggestion(name, names)));
-    const std::optional<double> value = parse_number(text.substr(equals + 1));
+      throw UsageError(
+          fmt::format("--limit {}: no quantity \"{}\"{}", text, name, base::suggestion(name, names)));
+    const std::optional<double> value = base::parse_number(text.substr(equals + 1));
     if (!value || !(*value >= 0.0))
       throw UsageError(
           fmt::format("--limit {}: found \"{}\", expected a number >= 0", text, text.substr(equals + 1)));
@@ -168,14 +169,14 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       std::any_of(limits.begin(), limits.end(), [](const Limit& l) { return l.name == sequence; });
   for (const Limit& limit : limits) {
     if (limit.name == "event_time" && split && !sequence_limited)
-      list.push_back(
-          fmt::format("{}: {} from t = {:.9g} on have no partner whose time could keep event_time {}",
-                      other.name, count_of(split->unaligned, "event"), split->t, shortest(limit.value)));
+      list.push_back(fmt::format(
+          "{}: {} from t = {:.9g} on have no partner whose time could keep event_time {}", other.name,
+          base::count_of(split->unaligned, "event"), split->t, base::shortest(limit.value)));
     if (limit.name == sequence) {
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
       list.push_back(fmt::format("{}: sequence parts at t = {:.9g}, {} from there on exceed {}", other.name,
-                                 split->t, count_of(unaligned, "event"), shortest(limit.value)));
+                                 split->t, base::count_of(unaligned, "event"), base::shortest(limit.value)));
       continue;
     }
     const std::vector<Quantity> known = quantities(comparison, reference.facts.units);
@@ -191,10 +192,10 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       if (!(greatest.value <= limit.value))
         list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds {}", other.name, limit.name,
                                    greatest.value, quantity.unit, greatest.t, greatest.where,
-                                   shortest(limit.value)));
+                                   base::shortest(limit.value)));
     }
   }
   return list;
 }
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -8,7 +8,7 @@
 
 #include "study/compare/comparison.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 struct Limit {
   std::string name;
@@ -40,4 +40,4 @@ struct Quantity {
 [[nodiscard]] std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFigures& reference,
                                                 const RunFigures& other, const Comparison& comparison);
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -8,27 +8,27 @@
 #include "result/csv.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 namespace {
 
 template <class Value>
-std::optional<Value> optional_value(const Json& json, const char* key) {
+std::optional<Value> optional_value(const base::Json& json, const char* key) {
   const auto found = json.find(key);
   if (found == json.end() || found->is_null()) return std::nullopt;
   return found->get<Value>();
 }
 
-double last_output_time(const TableFolder& tables) {
+double last_output_time(const result::TableFolder& tables) {
   double t = 0.0;
-  CsvReader history = tables.open("history.csv");
+  result::CsvReader history = tables.open("history.csv");
   while (history.next()) t = history.t();
   return t;
 }
 
-void read_counters(const Json& json, RunFigures& run) {
+void read_counters(const base::Json& json, RunFigures& run) {
   if (!json.contains("counters")) return;
-  const Json& counters = json["counters"];
+  const base::Json& counters = json["counters"];
   run.steps = optional_value<long>(counters, "steps");
   run.factorisations = optional_value<long>(counters, "factorisations");
   const auto again = optional_value<long>(counters, "refactorisations");
@@ -37,12 +37,12 @@ void read_counters(const Json& json, RunFigures& run) {
   run.restarts = optional_value<long>(counters, "restarts");
 }
 
-void read_energy(const Json& json, RunFigures& run) {
-  for (const Json& contact : json.at("contacts"))
+void read_energy(const base::Json& json, RunFigures& run) {
+  for (const base::Json& contact : json.at("contacts"))
     if (const auto work = optional_value<double>(contact, "friction_work"))
       run.friction_work[contact.at("name")] = *work;
   if (!json.contains("energy")) return;
-  const Json& last = json["energy"].at("final");
+  const base::Json& last = json["energy"].at("final");
   run.friction = optional_value<double>(last, "friction");
   run.damping = optional_value<double>(last, "damping");
 }
@@ -51,13 +51,13 @@ void read_energy(const Json& json, RunFigures& run) {
 
 RunFigures read_run_figures(const std::filesystem::path& directory) {
   RunFigures run;
-  run.facts = read_run_facts(directory);
+  run.facts = result::read_run_facts(directory);
   run.directory = directory;
   const std::filesystem::path path = directory / "summary.json";
   std::ifstream file(path, std::ios::binary);
   try {
-    const Json json = parse_json(file);
-    const Json& outcome = json.at("outcome");
+    const base::Json json = base::parse_json(file);
+    const base::Json& outcome = json.at("outcome");
     run.engine = json.value("engine", "");
     run.reason = outcome.value("reason", "");
     run.wall_time = optional_value<double>(json, "wall_time");
@@ -69,8 +69,8 @@ RunFigures read_run_figures(const std::filesystem::path& directory) {
       for (const auto& [name, extreme] : json["audit"].items())
         if (const auto relative = optional_value<double>(extreme, "relative")) run.audit[name] = *relative;
     const auto t = optional_value<double>(outcome, "t");
-    run.t = t ? *t : last_output_time(TableFolder(directory));
-  } catch (const Json::exception& error) {
+    run.t = t ? *t : last_output_time(result::TableFolder(directory));
+  } catch (const base::Json::exception& error) {
     throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());
   }
   return run;
@@ -78,7 +78,7 @@ RunFigures read_run_figures(const std::filesystem::path& directory) {
 
 std::vector<LoggedEvent> read_events(const std::filesystem::path& directory) {
   std::vector<LoggedEvent> events;
-  CsvReader reader(directory / "events.csv");
+  result::CsvReader reader(directory / "events.csv");
   const auto at = [&](auto field) { return reader.column(event_column(field)); };
   const std::size_t t = at(&Event::t), contact = at(&Event::contact), type = at(&Event::type);
   const std::size_t from = at(&Event::from), to = at(&Event::to);
@@ -99,4 +99,4 @@ std::vector<LoggedEvent> read_events(const std::filesystem::path& directory) {
   return events;
 }
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -15,12 +15,12 @@
 #include "result/summary.hpp"
 #include "study/compare/alignment.hpp"
 
-namespace signorini {
+namespace signorini::compare {
 
 struct RunFigures {
   std::string name;  ///< name in tables: the engine, or the directory as given
   std::filesystem::path directory;
-  RunFacts facts;              ///< outcome: done, stopped, interrupted, running
+  result::RunFacts facts;      ///< outcome: done, stopped, interrupted, running
   std::string engine, reason;  ///< reason: empty when done
   double t = 0.0;              ///< time reached; the last output time if the summary lacks it
   std::optional<double> wall_time;
@@ -39,4 +39,4 @@ struct RunFigures {
 /// The rows of events.csv. Errors: FileError.
 [[nodiscard]] std::vector<LoggedEvent> read_events(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::compare

@@ -20,45 +20,48 @@
 #include "study/law_check/table_rows.hpp"
 #include "study/prepared_run.hpp"
 
-namespace signorini {
+namespace signorini::directory_check {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_violations = 100;  // limit of stored violations; all are counted
 
-PreparedRun prepared_of(const fs::path& directory) {
+study::PreparedRun prepared_of(const fs::path& directory) {
   const fs::path path = directory / "run.toml";
   std::error_code missing;
   if (!fs::exists(path, missing))
     throw FileError(path.string(), "not found; give a directory written by `signorini run`");
-  if (!fs::exists(directory / instants_file, missing))
-    throw FileError((directory / instants_file).string(), "not found; `signorini run --instants` writes it");
-  check_run_files(directory);
-  return prepare_run(path.string(), {});
+  if (!fs::exists(directory / result::instants_file, missing))
+    throw FileError((directory / result::instants_file).string(),
+                    "not found; `signorini run --instants` writes it");
+  base::check_run_files(directory);
+  return study::prepare_run(path.string(), {});
 }
 
-RunSpec spec_of(const Scene& scene, const ToldSummary& told) {
+RunSpec spec_of(const Scene& scene, const RecordedSummary& recorded) {
   RunSpec spec = scene.run;
-  spec.engine = told.engine;
+  spec.engine = recorded.engine;
   return spec;
 }
 
-class DirectoryWitness {
+class DirectoryLawChecker {
  public:
-  DirectoryWitness(const fs::path& directory, const Scene& scene, DirectoryTestimony& result)
+  DirectoryLawChecker(const fs::path& directory, const Scene& scene, DirectoryTestimony& result)
       : directory_(directory),
         scene_(scene),
         model_(result.model),
         result_(result),
-        told_(told_summary(directory, model_)),
-        engine_(witnessed_engine(spec_of(scene, told_), tolerance_of(model_, scene.run), told_.flow,
-                                 engine_row(told_.engine).can.knows_low_flights(model_))),
+        recorded_(read_recorded_summary(directory, model_)),
+        engine_(run::checked_engine(spec_of(scene, recorded_), engine::tolerance_of(model_, scene.run),
+                                    recorded_.flow,
+                                    run::engine_row(recorded_.engine).can.knows_low_flights(model_))),
         witness_(model_, engine_.limits),
         motion_(model_, engine_),
-        rows_(model_, engine_, witness_, told_.stopped) {
-    result_.complete = told_.ended;
-    for (Event& event : told_events(directory, model_, told_.ended)) events_.push_back(std::move(event));
+        rows_(model_, engine_, witness_, recorded_.stopped) {
+    result_.complete = recorded_.ended;
+    for (Event& event : read_recorded_events(directory, model_, recorded_.ended))
+      events_.push_back(std::move(event));
     if (!events_.empty()) last_event_ = events_.back().t;
     result_.events = static_cast<long>(events_.size());
   }
@@ -68,11 +71,12 @@ class DirectoryWitness {
     instants();
     while (!events_.empty()) unmatched();
     const auto found = [this](Violation v) { add(std::move(v)); };
-    const RunSpan span{scene_.run.grid(), told_.ended, told_.stopped, told_.ended ? told_.t : t_};
+    const RunSpan span{scene_.run.grid(), recorded_.ended, recorded_.stopped,
+                       recorded_.ended ? recorded_.t : t_};
     result_.rows = rows_.contacts(directory_ / "contacts.csv", span, found);
     if (has_motion()) result_.rows += rows_.motion(directory_ / "motion.csv", span, found);
-    rows_.check_peaks(told_.peaks, found);
-    rows_.check_loads(told_.loads, told_.peaks, found);
+    rows_.check_peaks(recorded_.peaks, found);
+    rows_.check_loads(recorded_.loads, recorded_.peaks, found);
     result_.testimony.checked = result_.instants;
   }
 
@@ -82,9 +86,9 @@ class DirectoryWitness {
     if (result_.testimony.violations.size() < most_violations)
       result_.testimony.violations.push_back(std::move(v));
   }
-  void missing(double t, const char* law) { add({t, instants_file, -1, law, 1.0, 0.0, {}, true}); }
+  void missing(double t, const char* law) { add({t, result::instants_file, -1, law, 1.0, 0.0, {}, true}); }
   void instants() {
-    InstantReader reader(directory_, model_);
+    result::InstantReader reader(directory_, model_);
     while (const auto row = reader.next()) {
       if (result_.instants == 0 && !row->start) missing(row->t, "start");
       if (row->t < t_) missing(row->t, "order");
@@ -97,17 +101,17 @@ class DirectoryWitness {
 
   /// A completed run must have an instant at its end; every event must be at an instant, and every change must have its
   /// event.
-  void refuse_if_cut(const CsvReader& reader) const {
+  void refuse_if_cut(const result::CsvReader& reader) const {
     const auto refuse = [](const std::string& file, const std::string& why) { throw FileError(file, why); };
-    const double end = told_.ended && !told_.stopped ? told_.t : last_event_;
-    const std::string path = (directory_ / instants_file).string();
-    if (told_.ended && t_ < end - rounding::of_few * end)
+    const double end = recorded_.ended && !recorded_.stopped ? recorded_.t : last_event_;
+    const std::string path = (directory_ / result::instants_file).string();
+    if (recorded_.ended && t_ < end - rounding::of_few * end)
       refuse(path, cut_at(reader, fmt::format("the instant at t = {:.9g}", end)));
-    if (told_.ended && reader.is_cut()) refuse(path, cut_at(reader, "a line break"));
+    if (recorded_.ended && reader.is_cut()) refuse(path, cut_at(reader, "a line break"));
     if (last_change_ > last_event_ && lacking_ > 0)
       refuse((directory_ / "events.csv").string(),
              fmt::format("line {}: found no more, expected {}, up to t = {:.9g}; the file is cut",
-                         result_.events + 2, count_of(static_cast<std::size_t>(lacking_), "event"),
+                         result_.events + 2, base::count_of(static_cast<std::size_t>(lacking_), "event"),
                          last_change_));
   }
 
@@ -127,23 +131,23 @@ class DirectoryWitness {
   }
 
   void count_events() {
-    if (!told_.ended) return;
+    if (!recorded_.ended) return;
     std::map<std::string, long> counts;
     const auto of_summary = [this](const char* law, double off) {
-      if (off > 0.0) add({told_.t, "summary.json", -1, law, off, 0.0, {}, true});
+      if (off > 0.0) add({recorded_.t, "summary.json", -1, law, off, 0.0, {}, true});
     };
-    for (const auto& [type, count] : told_.events_by_type) lacking_ += count;
-    of_summary("count of events", std::abs(static_cast<double>(lacking_ - told_.total)));
+    for (const auto& [type, count] : recorded_.events_by_type) lacking_ += count;
+    of_summary("count of events", std::abs(static_cast<double>(lacking_ - recorded_.total)));
     of_summary("engine",
-               scene_.run.engine != Engine::automatic && scene_.run.engine != told_.engine ? 1.0 : 0.0);
+               scene_.run.engine != Engine::automatic && scene_.run.engine != recorded_.engine ? 1.0 : 0.0);
     for (const Event& event : events_)
       if (event.type != EventType::time || event.contact < 0) {
         ++counts[to_string(event.type)];
         --lacking_;
       }
-    for (const auto& [type, count] : told_.events_by_type)
+    for (const auto& [type, count] : recorded_.events_by_type)
       if (const long off = std::abs(count - counts[type]); off > 0)
-        add({told_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
+        add({recorded_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
   }
 
   /// Rows of events.csv that belong to the instant: in the order of contacts, starting from the states before it.
@@ -166,10 +170,10 @@ class DirectoryWitness {
     return std::string(to_string(state)) == to_string(event.from);
   }
 
-  [[nodiscard]] RecordedEvent recorded(const Event& event, const InstantRow& row) const {
-    RecordedEvent result = recorded_event(event);
-    const auto plain = [](State told, State kept) {
-      return is_own(kept) && kind_of(kept) == told ? kept : told;
+  [[nodiscard]] law_check::RecordedEvent recorded(const Event& event, const InstantRow& row) const {
+    law_check::RecordedEvent result = run::recorded_event(event);
+    const auto plain = [](State recorded, State kept) {
+      return is_own(kept) && kind_of(kept) == recorded ? kept : recorded;
     };
     result.from = plain(event.from, row.before.states[result.contact].state);
     result.to = plain(event.to, row.after.states[result.contact].state);
@@ -179,10 +183,11 @@ class DirectoryWitness {
 
   void instant(const InstantRow& row) {
     motion_.reach(witness_, row.before.u, row.before.v);
-    InstantRecord record;
-    const Side side = row.breakpoint && !row.start ? Side::before : Side::after;
-    record.before = motion_.side(Forcing(model_, row.t, side), row.t, row.dependence);
-    record.after = motion_.side(Forcing(model_, row.t, Side::after), row.t, row.dependence);
+    law_check::InstantRecord record;
+    const motion::Side side = row.breakpoint && !row.start ? motion::Side::before : motion::Side::after;
+    record.before = motion_.side(motion::Forcing(model_, row.t, side), row.t, row.eigenvector_condition);
+    record.after =
+        motion_.side(motion::Forcing(model_, row.t, motion::Side::after), row.t, row.eigenvector_condition);
     point_to(row, record);
     for (const Event& event : events_of(row)) {
       if (event.contact < 0) continue;
@@ -193,7 +198,7 @@ class DirectoryWitness {
     for (Violation& v : witness_.instant(record)) add(std::move(v));
     beside_others(row, record);
     rows_.instant(row, record);
-    motion_.leave(Forcing(model_, row.t, Side::after), row.t);
+    motion_.leave(motion::Forcing(model_, row.t, motion::Side::after), row.t);
     for (std::size_t k = 0; k < model_.contacts.size() && !row.start; ++k)
       if (to_string(row.before.states[k].state) != std::string(to_string(row.after.states[k].state)))
         last_change_ = row.t;
@@ -201,10 +206,10 @@ class DirectoryWitness {
 
   /// Checks that a run's own witness does not need: continuity with the previous instant, the start of the scene, and
   /// the forces on the structure.
-  void beside_others(const InstantRow& row, const InstantRecord& record) {
+  void beside_others(const InstantRow& row, const law_check::InstantRecord& record) {
     if (row.start) given_start(row);
     if (last_ && engine_.located) {
-      WitnessedSide from = record.before;
+      law_check::CheckedSide from = record.before;
       from.u = &last_->after.u;
       from.v = &last_->after.v;
       from.mode = &last_->after.states;
@@ -213,7 +218,7 @@ class DirectoryWitness {
       for (Violation& v : witness_.stretch(row.t, from, record.before)) add(std::move(v));
     }
     Vector load = Vector::Zero(model_.size());
-    Forcing(model_, row.t, Side::after).add_load(row.t, 0, load.data());
+    motion::Forcing(model_, row.t, motion::Side::after).add_load(row.t, 0, load.data());
     for (Violation& v : witness_.equilibrium(row.t, record.after, load)) add(std::move(v));
     last_ = row;
     left_driven_ = record.after.driven;
@@ -222,25 +227,25 @@ class DirectoryWitness {
   /// Initial values of the scene; those of a static start are checked by their forces.
   void given_start(const InstantRow& row) {
     if (model_.static_start || model_.reduction) return;
-    for (const auto& [told, asked, unit] : {std::tuple(&row.before.u, &model_.u0, seen::length),
-                                            std::tuple(&row.before.v, &model_.v0, seen::velocity)}) {
+    for (const auto& [recorded, asked, unit] : {std::tuple(&row.before.u, &model_.u0, seen::length),
+                                                std::tuple(&row.before.v, &model_.v0, seen::velocity)}) {
       const double limit = rounding::of_few * asked->lpNorm<Eigen::Infinity>();
-      const double off = (*told - *asked).lpNorm<Eigen::Infinity>();
+      const double off = (*recorded - *asked).lpNorm<Eigen::Infinity>();
       if (off > limit) add({row.t, "start", -1, "initial values", off, limit, unit, false});
     }
   }
 
-  void point_to(const InstantRow& row, InstantRecord& record) const {
+  void point_to(const InstantRow& row, law_check::InstantRecord& record) const {
     record.t = row.t;
     record.resolution = row.resolution;
     record.forgiven = row.forgiven;
-    record.dependence = row.dependence;
+    record.eigenvector_condition = row.eigenvector_condition;
     record.start = row.start;
     record.continues = row.start && !model_.continues.empty();
     record.breakpoint = row.breakpoint;
     record.load_jumps = row.load_jumps;
     record.located = row.located;
-    const auto point = [](const InstantSide& side, WitnessedSide& to) {
+    const auto point = [](const InstantSide& side, law_check::CheckedSide& to) {
       to.u = &side.u;
       to.v = &side.v;
       to.a = side.a.size() > 0 ? &side.a : nullptr;
@@ -249,12 +254,14 @@ class DirectoryWitness {
     };
     point(row.before, record.before);
     point(row.after, record.after);
-    record.after.a_reach = motion_.of_accelerations(witness_, row.after.a, row.dependence);
+    record.after.a_reach = motion_.of_accelerations(witness_, row.after.a, row.eigenvector_condition);
     for (const InstantBlow& blow : row.blows)
       record.impulses.push_back(
           {static_cast<std::size_t>(blow.contact), blow.turn, blow.normal, blow.tangent});
     std::stable_sort(record.impulses.begin(), record.impulses.end(),
-                     [](const RecordedImpulse& a, const RecordedImpulse& b) { return a.turn < b.turn; });
+                     [](const law_check::RecordedImpulse& a, const law_check::RecordedImpulse& b) {
+                       return a.turn < b.turn;
+                     });
     record.captures = row.captures;
     for (const int k : row.released) record.released.push_back(static_cast<std::size_t>(k));
   }
@@ -263,14 +270,14 @@ class DirectoryWitness {
   const Scene& scene_;
   const Model& model_;
   DirectoryTestimony& result_;
-  ToldSummary told_;
-  WitnessedEngine engine_;
-  Witness witness_;
-  WitnessedMotion motion_;
+  RecordedSummary recorded_;
+  run::CheckedEngine engine_;
+  law_check::LawChecker witness_;
+  run::CheckedMotion motion_;
   TableRows rows_;
   std::deque<Event> events_;
   std::optional<InstantRow> last_;               // the last instant
-  std::vector<Driven> left_driven_;              // after it
+  std::vector<law_check::Driven> left_driven_;   // after it
   double t_ = 0.0;                               // time of the last instant
   double last_event_ = 0.0, last_change_ = 0.0;  // of a state
   long lacking_ = 0;                             // number of events missing in events.csv
@@ -279,11 +286,11 @@ class DirectoryWitness {
 }  // namespace
 
 DirectoryTestimony witness_directory(const fs::path& directory) {
-  PreparedRun prepared = prepared_of(directory);
+  study::PreparedRun prepared = prepared_of(directory);
   DirectoryTestimony result;
   result.model = std::move(prepared.model);
-  DirectoryWitness(directory, prepared.scene, result).run();
+  DirectoryLawChecker(directory, prepared.scene, result).run();
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::directory_check

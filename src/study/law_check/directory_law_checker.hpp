@@ -16,7 +16,7 @@
 
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::directory_check {
 
 /// The first hundred violations, in the units of the scene; for violations of tables Violation::event is the table's
 /// name.
@@ -30,4 +30,4 @@ struct DirectoryTestimony {
 
 [[nodiscard]] DirectoryTestimony witness_directory(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::directory_check

@@ -10,7 +10,7 @@
 #include "result/csv.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::directory_check {
 namespace {
 
 constexpr const char* heading[] = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T", "ratio"};
@@ -19,7 +19,7 @@ constexpr std::size_t columns = std::size(heading), ratio_column = columns - 1;
 
 }  // namespace
 
-ToldRowReader::ToldRowReader(const std::filesystem::path& file, const Model& model)
+RecordedRowReader::RecordedRowReader(const std::filesystem::path& file, const Model& model)
     : file_(file), names_(model), reader_(file) {
   const std::vector<std::string>& found = reader_.header();
   ratios_ = found.size() == columns;
@@ -28,18 +28,18 @@ ToldRowReader::ToldRowReader(const std::filesystem::path& file, const Model& mod
     throw FileError(file.string(), "line 1: expected t,contact,state,gap,ut,vt,slip,N,T,ratio");
 }
 
-double ToldRowReader::number(std::size_t column) const {
-  const std::optional<double> value = parse_number(reader_.cell(column));
+double RecordedRowReader::number(std::size_t column) const {
+  const std::optional<double> value = base::parse_number(reader_.cell(column));
   if (!value || !std::isfinite(*value))
     throw FileError(file_.string(),
                     fmt::format("line {}: {}: found \"{}\", expected a number", reader_.line(),
-                                heading[column], excerpt(reader_.cell(column))));
+                                heading[column], base::excerpt(reader_.cell(column))));
   return *value;
 }
 
-std::optional<ToldRow> ToldRowReader::next() {
+std::optional<RecordedRow> RecordedRowReader::next() {
   if (!reader_.next()) return std::nullopt;
-  ToldRow row;
+  RecordedRow row;
   row.t = number(0);
   row.contact = static_cast<std::size_t>(names_.at(reader_.cell(1), file_, reader_.line()));
   row.state = reader_.cell(2);
@@ -50,7 +50,7 @@ std::optional<ToldRow> ToldRowReader::next() {
   return row;
 }
 
-void ToldRowReader::refuse_as_cut(const std::string& lacks) const {
+void RecordedRowReader::refuse_as_cut(const std::string& lacks) const {
   throw FileError(file_.string(), cut_at(reader_, lacks));
 }
 
@@ -89,13 +89,13 @@ class EventCells {
  private:
   [[noreturn]] void fail(const std::string& expected) const {
     throw FileError(file_.string(), fmt::format("line {}: {}: found \"{}\", expected {}", reader_.line(),
-                                                name_, excerpt(*cell_), expected));
+                                                name_, base::excerpt(*cell_), expected));
   }
   static bool optional(const EventColumn::Field& field) {
     return std::holds_alternative<std::optional<double> Event::*>(field);
   }
   void take(double& value) const {
-    const std::optional<double> found = parse_number(*cell_);
+    const std::optional<double> found = base::parse_number(*cell_);
     if (!found || !std::isfinite(*found)) fail("a number");
     value = *found;
   }
@@ -120,53 +120,54 @@ class EventCells {
 
   std::filesystem::path file_;
   ContactNames names_;
-  CsvReader reader_;
+  result::CsvReader reader_;
   std::vector<std::size_t> at_;
   const std::string* cell_ = nullptr;
   const char* name_ = "";
 };
 
-std::optional<Peak> peak_of(const Json& contact) {
+std::optional<Peak> peak_of(const base::Json& contact) {
   const auto peaks = contact.find("peaks");
   if (peaks == contact.end()) return std::nullopt;
   return Peak{peaks->at("tangential").get<double>(), peaks->at("normal").get<double>(),
               peaks->at("N").get<double>(), peaks->at("T").get<double>()};
 }
 
-std::optional<ToldSummary::Load> load_of(const Json& contact) {
+std::optional<RecordedSummary::Load> load_of(const base::Json& contact) {
   const auto load = contact.find("load");
   if (load == contact.end()) return std::nullopt;
   const auto value = [&](const char* force, const char* which) {
     return load->at(force).at(which).at("value").get<double>();
   };
-  return ToldSummary::Load{value("N", "least"), value("N", "greatest"), value("T", "least"),
-                           value("T", "greatest")};
+  return RecordedSummary::Load{value("N", "least"), value("N", "greatest"), value("T", "least"),
+                               value("T", "greatest")};
 }
 
 /// Reads the results of a completed run.
-void take_end(const Json& json, const Model& model, const std::string& file, ToldSummary& told) {
+void take_end(const base::Json& json, const Model& model, const std::string& file,
+              RecordedSummary& recorded) {
   const auto refuse = [&](const std::string& why) { throw FileError(file, why); };
-  const Json& outcome = json.at("outcome");
-  told.t = outcome.at("t").get<double>();
+  const base::Json& outcome = json.at("outcome");
+  recorded.t = outcome.at("t").get<double>();
   const std::string kind = outcome.value("kind", "");
   if (kind != "done" && kind != "stopped" && kind != "interrupted")
-    refuse("outcome.kind: found \"" + excerpt(kind) + "\" beside the events of a run that has ended");
-  told.stopped = kind != "done";
-  told.total = json.at("events").at("total").get<long>();
-  told.events_by_type = json.at("events").at("by_type").get<std::map<std::string, long>>();
-  const Json& contacts = json.at("contacts");
+    refuse("outcome.kind: found \"" + base::excerpt(kind) + "\" beside the events of a run that has ended");
+  recorded.stopped = kind != "done";
+  recorded.total = json.at("events").at("total").get<long>();
+  recorded.events_by_type = json.at("events").at("by_type").get<std::map<std::string, long>>();
+  const base::Json& contacts = json.at("contacts");
   if (contacts.size() != model.contacts.size())
     refuse(fmt::format("contacts: found {}, expected {} as in run.toml", contacts.size(),
                        model.contacts.size()));
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     if (const std::string name = contacts[k].value("name", ""); name != model.contacts[k].name)
-      refuse("contacts: found \"" + excerpt(name) + "\", expected \"" + model.contacts[k].name + "\"");
-    told.peaks.push_back(peak_of(contacts[k]));
-    told.loads.push_back(load_of(contacts[k]));
+      refuse("contacts: found \"" + base::excerpt(name) + "\", expected \"" + model.contacts[k].name + "\"");
+    recorded.peaks.push_back(peak_of(contacts[k]));
+    recorded.loads.push_back(load_of(contacts[k]));
   }
 }
 
-void check_units(const Json& json, const Model& model, const std::string& file) {
+void check_units(const base::Json& json, const Model& model, const std::string& file) {
   const auto units = json.find("units");
   if (units == json.end()) return;
   for (const auto& [what, asked] :
@@ -174,7 +175,7 @@ void check_units(const Json& json, const Model& model, const std::string& file) 
         std::pair("length", &model.units.length), std::pair("time", &model.units.time)})
     if (const std::string found = units->value(what, *asked); found != *asked)
       throw FileError(file, fmt::format("units.{}: found \"{}\", expected \"{}\" as in run.toml", what,
-                                        excerpt(found), *asked));
+                                        base::excerpt(found), *asked));
 }
 
 }  // namespace
@@ -187,18 +188,19 @@ ContactNames::ContactNames(const Model& model) {
 int ContactNames::at(const std::string& name, const std::filesystem::path& file, int line) const {
   const auto found = places_.find(name);
   if (found == places_.end())
-    throw FileError(
-        file.string(),
-        fmt::format("line {}: contact: found \"{}\", expected a contact of run.toml", line, excerpt(name)));
+    throw FileError(file.string(),
+                    fmt::format("line {}: contact: found \"{}\", expected a contact of run.toml", line,
+                                base::excerpt(name)));
   return found->second;
 }
 
-std::string cut_at(const CsvReader& reader, const std::string& lacks) {
+std::string cut_at(const result::CsvReader& reader, const std::string& lacks) {
   return fmt::format("line {}: found {}, expected {}; the file is cut", reader.line(),
                      reader.is_cut() ? "no line break" : "no more", lacks);
 }
 
-std::vector<Event> told_events(const std::filesystem::path& directory, const Model& model, bool ended) {
+std::vector<Event> read_recorded_events(const std::filesystem::path& directory, const Model& model,
+                                        bool ended) {
   EventCells cells(directory / "events.csv", model);
   std::vector<Event> events;
   while (auto event = cells.next()) events.push_back(std::move(*event));
@@ -206,32 +208,32 @@ std::vector<Event> told_events(const std::filesystem::path& directory, const Mod
   return events;
 }
 
-ToldSummary told_summary(const std::filesystem::path& directory, const Model& model) {
+RecordedSummary read_recorded_summary(const std::filesystem::path& directory, const Model& model) {
   const std::filesystem::path path = directory / "summary.json";
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw FileError(path.string(), "cannot be read; expected a directory that `signorini run` wrote");
   try {
-    const Json json = parse_json(file);
-    ToldSummary told;
+    const base::Json json = base::parse_json(file);
+    RecordedSummary recorded;
     static_cast<void>(json.at("outcome"));
-    told.ended = json.contains("events");
+    recorded.ended = json.contains("events");
     const std::string engine = json.value("engine", "");
     const std::optional<Engine> known = engine_called(engine);
     if (!known || *known == Engine::automatic) {
-      if (told.ended)
-        throw FileError(path.string(), "engine: found \"" + excerpt(engine) + "\", expected an engine");
-      return told;
+      if (recorded.ended)
+        throw FileError(path.string(), "engine: found \"" + base::excerpt(engine) + "\", expected an engine");
+      return recorded;
     }
-    told.engine = *known;
+    recorded.engine = *known;
     if (const auto settings = json.find("settings"); settings != json.end())
-      told.flow = settings->value("flow", "");
+      recorded.flow = settings->value("flow", "");
     check_units(json, model, path.string());
-    if (told.ended) take_end(json, model, path.string(), told);
-    return told;
-  } catch (const Json::exception& error) {
+    if (recorded.ended) take_end(json, model, path.string(), recorded);
+    return recorded;
+  } catch (const base::Json::exception& error) {
     throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::directory_check

@@ -10,11 +10,13 @@
 #include "result/csv.hpp"
 #include "signorini/result.hpp"
 
-namespace signorini {
-
+namespace signorini::result {
 class CsvReader;
+}  // namespace signorini::result
 
-struct ToldSummary {
+namespace signorini::directory_check {
+
+struct RecordedSummary {
   Engine engine = Engine::automatic;
   std::string flow;      ///< of exact: "modal" or "taylor"
   bool ended = true;     ///< false: it is still being written, or was killed
@@ -30,15 +32,16 @@ struct ToldSummary {
   std::vector<std::optional<Peak>> peaks;  ///< one per contact
 };
 /// Errors: FileError.
-[[nodiscard]] ToldSummary told_summary(const std::filesystem::path& directory, const Model& model);
+[[nodiscard]] RecordedSummary read_recorded_summary(const std::filesystem::path& directory,
+                                                    const Model& model);
 
 /// All rows of events.csv; user-law states are given as their kinds. ended: a last line without its line break then is
 /// an error. Errors: FileError.
-[[nodiscard]] std::vector<Event> told_events(const std::filesystem::path& directory, const Model& model,
-                                             bool ended);
+[[nodiscard]] std::vector<Event> read_recorded_events(const std::filesystem::path& directory,
+                                                      const Model& model, bool ended);
 
 /// Message for a table that ends too early: the line of its end, and the missing part.
-[[nodiscard]] std::string cut_at(const CsvReader& reader, const std::string& lacks);
+[[nodiscard]] std::string cut_at(const result::CsvReader& reader, const std::string& lacks);
 
 /// Index of a contact by name; an unknown name is a FileError for this file and line.
 class ContactNames {
@@ -52,12 +55,12 @@ class ContactNames {
 
 // Reads the rows of contacts.csv and motion.csv.
 //
-//   ToldRowReader reader(directory / "contacts.csv", model);
+//   RecordedRowReader reader(directory / "contacts.csv", model);
 //   while (const auto row = reader.next()) ...
 //
 // Errors: FileError with line and column.
 
-struct ToldRow {
+struct RecordedRow {
   double t = 0.0;
   std::size_t contact = 0;
   std::string state;
@@ -65,11 +68,11 @@ struct ToldRow {
   double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
 };
 
-class ToldRowReader {
+class RecordedRowReader {
  public:
-  ToldRowReader(const std::filesystem::path& file, const Model& model);
+  RecordedRowReader(const std::filesystem::path& file, const Model& model);
 
-  [[nodiscard]] std::optional<ToldRow> next();
+  [[nodiscard]] std::optional<RecordedRow> next();
   /// False for tables of older runs, which lack the column.
   [[nodiscard]] bool has_ratios() const { return ratios_; }
   /// True if a last line without its line break was omitted.
@@ -82,8 +85,8 @@ class ToldRowReader {
 
   std::filesystem::path file_;
   ContactNames names_;
-  CsvReader reader_;
+  result::CsvReader reader_;
   bool ratios_ = false;
 };
 
-}  // namespace signorini
+}  // namespace signorini::directory_check

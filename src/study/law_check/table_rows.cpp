@@ -8,7 +8,7 @@
 #include "contact/motion.hpp"
 #include "law_check/laws.hpp"
 
-namespace signorini {
+namespace signorini::directory_check {
 
 /// Equal up to the rounding of a conversion of units and back.
 bool TableSpan::same(double a, double b) {
@@ -20,7 +20,7 @@ void TableSpan::misplaced(const char* file, double t, std::size_t contact) {
   found_({t, file, static_cast<int>(contact), "rows", 1.0, 0.0, {}, false});
 }
 
-void TableSpan::grid_row(const ToldRow& row) {
+void TableSpan::grid_row(const RecordedRow& row) {
   const std::vector<double>& grid = run_.grid;
   if (place_ >= grid.size() || row.contact != due_ || !same(row.t, grid[place_])) {
     misplaced("contacts.csv", row.t, due_);
@@ -35,7 +35,7 @@ void TableSpan::grid_row(const ToldRow& row) {
   ++place_;
 }
 
-void TableSpan::end_of_grid(const ToldRowReader& reader) const {
+void TableSpan::end_of_grid(const RecordedRowReader& reader) const {
   if (model_.contacts.empty()) return;
   // The rows of a time that the run has reached exactly exist only if the instant there was completed.
   const std::size_t least =
@@ -52,7 +52,7 @@ void TableSpan::end_of_grid(const ToldRowReader& reader) const {
   if (reader.is_cut() && run_.ended) reader.refuse_as_cut("a line break");
 }
 
-void TableSpan::block_row(const ToldRow& row) {
+void TableSpan::block_row(const RecordedRow& row) {
   const bool next = last_ ? row.contact == last_->contact + 1 : row.contact == 0;
   const bool goes_on = last_ && row.contact == last_->contact && row.t >= last_->t;
   const bool whole = !last_ || !comes_to_its_end() || same(last_->t, run_.reached);
@@ -60,7 +60,7 @@ void TableSpan::block_row(const ToldRow& row) {
   last_ = row;
 }
 
-void TableSpan::end_of_blocks(const ToldRowReader& reader) const {
+void TableSpan::end_of_blocks(const RecordedRowReader& reader) const {
   if (!run_.ended || model_.contacts.empty()) return;
   const std::size_t all = model_.contacts.size();
   if (!last_ || last_->contact + 1 != all)
@@ -81,7 +81,8 @@ Violation violation(const char* file, double t, std::size_t contact, const char*
 
 }  // namespace
 
-TableRows::TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness, bool stopped)
+TableRows::TableRows(const Model& model, const run::CheckedEngine& engine,
+                     const law_check::LawChecker& witness, bool stopped)
     : model_(model),
       engine_(engine),
       witness_(witness),
@@ -91,16 +92,16 @@ TableRows::TableRows(const Model& model, const WitnessedEngine& engine, const Wi
       loads_(model.contacts.size()),
       reached_(model.contacts.size(), false) {}
 
-void TableRows::instant(const InstantRow& row, const InstantRecord& record) {
+void TableRows::instant(const InstantRow& row, const law_check::InstantRecord& record) {
   states_.push_back({row.t, row.resolution, row.before.states, row.after.states});
   const double held = witness_.held_forces(record.after);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     Size& size = sizes_[k];
-    const Sight m = see(model_.contacts[k], k, record.after);
+    const law_check::ContactKinematics m = law_check::kinematics(model_.contacts[k], k, record.after);
     if (row.start) {
       const bool touches = model_.contacts[k].compliance_split() && !is_open(row.after.states[k].state);
       size.gap_at_start = touches ? 0.0 : m.g;
-      size.ut_at_start = touches ? slip_of(model_.contacts[k], m.ut, m.T) : m.ut;
+      size.ut_at_start = touches ? contact::slip_of(model_.contacts[k], m.ut, m.T) : m.ut;
     }
     size.place = std::max(size.place, m.place);
     size.speed = std::max(size.speed, m.speed);
@@ -133,7 +134,7 @@ long TableRows::motion(const std::filesystem::path& file, const RunSpan& run, co
 
 long TableRows::read(const std::filesystem::path& file, const char* name, const Order& order,
                      const RunSpan& run, const Found& found) {
-  ToldRowReader reader(file, model_);
+  RecordedRowReader reader(file, model_);
   TableSpan span(model_, run, found);
   long rows = 0;
   for (; const auto row = reader.next(); ++rows) {
@@ -144,7 +145,8 @@ long TableRows::read(const std::filesystem::path& file, const char* name, const 
   return rows;
 }
 
-void TableRows::check(const ToldRow& row, const ToldRowReader& reader, const char* file, const Found& found) {
+void TableRows::check(const RecordedRow& row, const RecordedRowReader& reader, const char* file,
+                      const Found& found) {
   if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
   std::optional<std::vector<Violation>> least;  // over the states at its time with the row's name
@@ -163,10 +165,10 @@ void TableRows::check(const ToldRow& row, const ToldRowReader& reader, const cha
 }
 
 /// Violations of a row whose contact is in this state.
-std::vector<Violation> TableRows::broken_by(const ToldRow& row, const ContactState& state,
+std::vector<Violation> TableRows::broken_by(const RecordedRow& row, const ContactState& state,
                                             const char* file) const {
   const Contact& c = model_.contacts[row.contact];
-  Sight m;
+  law_check::ContactKinematics m;
   const Size& size = sizes_[row.contact];
   m.N = row.N;
   m.T = row.T;
@@ -190,7 +192,7 @@ std::vector<Violation> TableRows::broken_by(const ToldRow& row, const ContactSta
   return broken;
 }
 
-void TableRows::check_forces(const ToldRow& row, const ContactState& state, const char* file,
+void TableRows::check_forces(const RecordedRow& row, const ContactState& state, const char* file,
                              const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
   const double kn = c.normal_stiffness, kt = c.tangential_stiffness.value_or(0.0),
@@ -198,7 +200,7 @@ void TableRows::check_forces(const ToldRow& row, const ContactState& state, cons
   const double held = c.takes_impulses() ? sizes_[row.contact].force : 0.0;
   const double limit =
       rounding::of_elimination * ((kn + kt) * place + std::abs(row.N) + std::abs(row.T) + held) +
-      of_tolerance * (kn + kt) * (engine_.limits.rtol * place + engine_.limits.displacement);
+      law_check::of_tolerance * (kn + kt) * (engine_.limits.rtol * place + engine_.limits.displacement);
   const auto check = [&](const char* law, double force, double asked) {
     if (const double off = std::abs(force - asked); off > limit)
       found(violation(file, row.t, row.contact, law, off, limit, seen::force));
@@ -211,30 +213,32 @@ void TableRows::check_forces(const ToldRow& row, const ContactState& state, cons
   }
   if (c.normal_spring() && !c.compliance_split() && c.normal_damping == 0.0 && row.gap)
     check("normal force", row.N, kn * *row.gap);
-  if (const int s = sign_of_slip(state.state); s != 0 && !c.friction.varies())
-    check("friction force", row.T, -s * friction_in(c, state.state, 0.0, row.N) * row.N);
+  if (const int s = law_check::sign_of_slip(state.state); s != 0 && !c.friction.varies())
+    check("friction force", row.T, -s * law_check::friction_in(c, state.state, 0.0, row.N) * row.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", c.compliance_split() ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
 /// slip = ut - T/kt; with borrowed springs ut is that of the surfaces. of_force: error of T.
-void TableRows::check_slip(const ToldRow& row, const char* file, double of_force, const Found& found) const {
+void TableRows::check_slip(const RecordedRow& row, const char* file, double of_force,
+                           const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
   const double kt = c.compliance_split() ? 0.0 : c.tangential_stiffness.value_or(0.0);
   const double by_force = kt > 0.0 ? row.T / kt : 0.0;
   // For a moving surface the position is only known at instants.
-  const double surface = c.surface_motion.is_constant()
-                             ? 0.0
-                             : std::abs(Forcing(model_, row.t, Side::after).surface(row.contact, row.t, 0));
+  const double surface =
+      c.surface_motion.is_constant()
+          ? 0.0
+          : std::abs(motion::Forcing(model_, row.t, motion::Side::after).surface(row.contact, row.t, 0));
   const double size = sizes_[row.contact].place + surface + std::abs(row.ut) + std::abs(by_force);
   const double limit = rounding::of_elimination * size +
-                       of_tolerance * (engine_.limits.rtol * size + engine_.limits.displacement) +
+                       law_check::of_tolerance * (engine_.limits.rtol * size + engine_.limits.displacement) +
                        (kt > 0.0 ? of_force / kt : 0.0);
   if (const double off = std::abs(row.slip - (row.ut - by_force)); off > limit)
     found(violation(file, row.t, row.contact, "slip", off, limit, seen::length));
 }
 
-void TableRows::check_ratio(const ToldRow& row, const char* file, const Found& found) const {
+void TableRows::check_ratio(const RecordedRow& row, const char* file, const Found& found) const {
   const bool due =
       model_.contacts[row.contact].has_friction() && row.state != to_string(State::open) && row.N != 0.0;
   const double asked = due ? std::abs(row.T / row.N) : 0.0, limit = rounding::of_few * asked;
@@ -243,7 +247,7 @@ void TableRows::check_ratio(const ToldRow& row, const char* file, const Found& f
     found(violation(file, row.t, row.contact, "ratio", off, limit, {}));
 }
 
-void TableRows::reach(const ToldRow& row) {
+void TableRows::reach(const RecordedRow& row) {
   // A stopped run has rows of a step without an instant at its end; no peak includes them.
   if (stopped_ && !states_.empty() && row.t > states_.back().t) return;
   Peak& peak = peaks_[row.contact];
@@ -254,7 +258,7 @@ void TableRows::reach(const ToldRow& row) {
   if (row.gap) peak.normal = std::max(peak.normal, std::abs(*row.gap - size.gap_at_start));
   peak.N = std::max(peak.N, std::abs(row.N));
   peak.T = std::max(peak.T, std::abs(row.T));
-  ToldSummary::Load& load = loads_[row.contact];
+  RecordedSummary::Load& load = loads_[row.contact];
   if (!reached_[row.contact]) load = {row.N, row.N, row.T, row.T};
   reached_[row.contact] = true;
   load.least_N = std::min(load.least_N, row.N);
@@ -265,21 +269,22 @@ void TableRows::reach(const ToldRow& row) {
 
 double TableRows::noise_of_length(std::size_t k) const {
   return rounding::of_elimination * (sizes_[k].place + model_.scales.displacement) +
-         of_tolerance * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
+         law_check::of_tolerance * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
 }
 
 double TableRows::noise_of_force(std::size_t k) const {
   const Contact& c = model_.contacts[k];
-  return (rounding::of_elimination + of_tolerance * engine_.limits.rtol) * (peaks_[k].N + peaks_[k].T) +
-         of_tolerance * engine_.limits.force +
+  return (rounding::of_elimination + law_check::of_tolerance * engine_.limits.rtol) *
+             (peaks_[k].N + peaks_[k].T) +
+         law_check::of_tolerance * engine_.limits.force +
          (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * noise_of_length(k);
 }
 
 /// No row may exceed the extremes, and the larger extreme of a force in magnitude is its peak.
-void TableRows::check_loads(const std::vector<std::optional<ToldSummary::Load>>& told,
+void TableRows::check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
                             const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
-  for (std::size_t k = 0; k < told.size(); ++k) {
-    if (!told[k]) continue;
+  for (std::size_t k = 0; k < recorded.size(); ++k) {
+    if (!recorded[k]) continue;
     const bool held = !model_.contacts[k].normal_spring();
     const double noise = noise_of_force(k) + (held ? rounding::of_elimination * sizes_[k].force : 0.0);
     const auto check = [&](double off, double limit) {
@@ -290,32 +295,32 @@ void TableRows::check_loads(const std::vector<std::optional<ToldSummary::Load>>&
       check(std::abs(farthest - peak), noise);
     };
     if (peaks[k]) {
-      check_peak(told[k]->least_N, told[k]->greatest_N, peaks[k]->N);
-      check_peak(told[k]->least_T, told[k]->greatest_T, peaks[k]->T);
+      check_peak(recorded[k]->least_N, recorded[k]->greatest_N, peaks[k]->N);
+      check_peak(recorded[k]->least_T, recorded[k]->greatest_T, peaks[k]->T);
     }
     if (engine_.limits.step > 0.0 || !reached_[k]) continue;
-    check(told[k]->least_N - loads_[k].least_N, noise);
-    check(loads_[k].greatest_N - told[k]->greatest_N, noise);
-    check(told[k]->least_T - loads_[k].least_T, noise);
-    check(loads_[k].greatest_T - told[k]->greatest_T, noise);
+    check(recorded[k]->least_N - loads_[k].least_N, noise);
+    check(loads_[k].greatest_N - recorded[k]->greatest_N, noise);
+    check(recorded[k]->least_T - loads_[k].least_T, noise);
+    check(loads_[k].greatest_T - recorded[k]->greatest_T, noise);
   }
 }
 
-void TableRows::check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const {
+void TableRows::check_peaks(const std::vector<std::optional<Peak>>& recorded, const Found& found) const {
   if (engine_.limits.step > 0.0) return;  // extremes only at the ends of steps
-  for (std::size_t k = 0; k < told.size(); ++k) {
-    if (!told[k]) continue;
+  for (std::size_t k = 0; k < recorded.size(); ++k) {
+    if (!recorded[k]) continue;
     const double length = noise_of_length(k);
-    const auto check = [&](double seen_one, double told_one, double limit, const Unit& unit) {
-      if (const double off = seen_one - told_one; off > limit)
+    const auto check = [&](double seen_one, double recorded_one, double limit, const Unit& unit) {
+      if (const double off = seen_one - recorded_one; off > limit)
         found(violation("summary.json", 0.0, k, "peak", off, limit, unit));
     };
     const double force = noise_of_force(k);
-    check(peaks_[k].tangential, told[k]->tangential, length, seen::length);
-    check(peaks_[k].normal, told[k]->normal, length, seen::length);
-    check(peaks_[k].N, told[k]->N, force, seen::force);
-    check(peaks_[k].T, told[k]->T, force, seen::force);
+    check(peaks_[k].tangential, recorded[k]->tangential, length, seen::length);
+    check(peaks_[k].normal, recorded[k]->normal, length, seen::length);
+    check(peaks_[k].N, recorded[k]->N, force, seen::force);
+    check(peaks_[k].T, recorded[k]->T, force, seen::force);
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::directory_check

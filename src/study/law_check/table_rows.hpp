@@ -16,7 +16,7 @@
 #include "run/run_law_checker.hpp"
 #include "study/law_check/run_reader.hpp"
 
-namespace signorini {
+namespace signorini::directory_check {
 
 // Rows that contacts.csv and motion.csv must have.
 //
@@ -42,11 +42,11 @@ class TableSpan {
       : model_(model), run_(run), found_(found) {}
 
   /// Checks the next row of contacts.csv; at its end, completeness.
-  void grid_row(const ToldRow& row);
-  void end_of_grid(const ToldRowReader& reader) const;
+  void grid_row(const RecordedRow& row);
+  void end_of_grid(const RecordedRowReader& reader) const;
   /// Checks the next row of motion.csv; at its end, completeness.
-  void block_row(const ToldRow& row);
-  void end_of_blocks(const ToldRowReader& reader) const;
+  void block_row(const RecordedRow& row);
+  void end_of_blocks(const RecordedRowReader& reader) const;
 
  private:
   void misplaced(const char* file, double t, std::size_t contact);
@@ -58,7 +58,7 @@ class TableSpan {
   const Found& found_;
   std::size_t place_ = 0, due_ = 0;  // expected next row: index in the grid, and contact
   bool in_order_ = true;
-  std::optional<ToldRow> last_;  // last row of a contact's block
+  std::optional<RecordedRow> last_;  // last row of a contact's block
 };
 
 class TableRows {
@@ -66,16 +66,17 @@ class TableRows {
   using Found = std::function<void(Violation)>;
 
   /// All arguments must outlive the object. stopped: the run ended before t_end, by itself.
-  TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness, bool stopped);
+  TableRows(const Model& model, const run::CheckedEngine& engine, const law_check::LawChecker& witness,
+            bool stopped);
   /// To be called in the order of time.
-  void instant(const InstantRow& row, const InstantRecord& record);
+  void instant(const InstantRow& row, const law_check::InstantRecord& record);
   /// Check all rows of contacts.csv, of motion.csv, and their completeness; return the number of rows. Errors:
   /// FileError.
   long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   /// Compares peaks with the checked rows and instants.
-  void check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const;
-  void check_loads(const std::vector<std::optional<ToldSummary::Load>>& told,
+  void check_peaks(const std::vector<std::optional<Peak>>& recorded, const Found& found) const;
+  void check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
                    const std::vector<std::optional<Peak>>& peaks, const Found& found) const;
 
  private:
@@ -88,32 +89,32 @@ class TableRows {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
   struct Order {  // position in a table
-    void (TableSpan::*row)(const ToldRow&);
-    void (TableSpan::*end)(const ToldRowReader&) const;
+    void (TableSpan::*row)(const RecordedRow&);
+    void (TableSpan::*end)(const RecordedRowReader&) const;
   };
   long read(const std::filesystem::path& file, const char* name, const Order& order, const RunSpan& run,
             const Found& found);
   [[nodiscard]] std::vector<ContactState> states_at(std::size_t contact, double t) const;
-  void check(const ToldRow& row, const ToldRowReader& reader, const char* file, const Found& found);
-  [[nodiscard]] std::vector<Violation> broken_by(const ToldRow& row, const ContactState& state,
+  void check(const RecordedRow& row, const RecordedRowReader& reader, const char* file, const Found& found);
+  [[nodiscard]] std::vector<Violation> broken_by(const RecordedRow& row, const ContactState& state,
                                                  const char* file) const;
-  void check_forces(const ToldRow& row, const ContactState& state, const char* file,
+  void check_forces(const RecordedRow& row, const ContactState& state, const char* file,
                     const Found& found) const;
-  void check_slip(const ToldRow& row, const char* file, double of_force, const Found& found) const;
-  void check_ratio(const ToldRow& row, const char* file, const Found& found) const;
-  void reach(const ToldRow& row);
+  void check_slip(const RecordedRow& row, const char* file, double of_force, const Found& found) const;
+  void check_ratio(const RecordedRow& row, const char* file, const Found& found) const;
+  void reach(const RecordedRow& row);
   [[nodiscard]] double noise_of_length(std::size_t k) const;
   [[nodiscard]] double noise_of_force(std::size_t k) const;
 
   const Model& model_;
-  const WitnessedEngine& engine_;
-  const Witness& witness_;
+  const run::CheckedEngine& engine_;
+  const law_check::LawChecker& witness_;
   bool stopped_;
   std::vector<States> states_;
   std::vector<Size> sizes_;
   std::vector<Peak> peaks_;
-  std::vector<ToldSummary::Load> loads_;  // extremes over rows
-  std::vector<bool> reached_;             // true if a row reaches the peak
+  std::vector<RecordedSummary::Load> loads_;  // extremes over rows
+  std::vector<bool> reached_;                 // true if a row reaches the peak
 };
 
-}  // namespace signorini
+}  // namespace signorini::directory_check

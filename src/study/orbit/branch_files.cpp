@@ -18,7 +18,7 @@
 #include "study/figures.hpp"
 #include "study/orbit/orbit_files.hpp"
 
-namespace signorini {
+namespace signorini::orbit_study {
 
 namespace fs = std::filesystem;
 
@@ -46,7 +46,7 @@ void BranchWriter::add(const BranchPoint& point) {
 }
 
 std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outputs, std::size_t rows) {
-  CsvReader reader(directory / "branch.csv");
+  result::CsvReader reader(directory / "branch.csv");
   const auto at = [&](const char* name) { return reader.column(name); };
   const std::size_t first_output = at("amplitude") + 1;
   std::vector<BranchPoint> points;
@@ -85,16 +85,18 @@ fs::path mark_folder(const fs::path& directory) {
 }
 
 /// Identifies a branch: the scene at its beginning, and the options that determine the orbit.
-ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& options) {
-  ResolvedKeys keys = resolved_keys(branch_reader(read, options.path, options.from)({}));
-  const auto given = [](const std::optional<double>& value) { return value ? shortest(*value) : "none"; };
+scene::ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& options) {
+  scene::ResolvedKeys keys = scene::resolved_keys(orbit::branch_reader(read, options.path, options.from)({}));
+  const auto given = [](const std::optional<double>& value) {
+    return value ? base::shortest(*value) : "none";
+  };
   keys["--times"] = std::to_string(options.orbit.times);
   keys["--period"] = given(options.orbit.period);
   keys["--energy"] = given(options.orbit.energy);
   return keys;
 }
 
-Json mark_json(const SceneReader& read, const BranchOptions& options, const BranchMark& mark) {
+base::Json mark_json(const SceneReader& read, const BranchOptions& options, const BranchMark& mark) {
   return {{"path", options.path},
           {"from", options.from},
           {"to", options.to},
@@ -105,10 +107,10 @@ Json mark_json(const SceneReader& read, const BranchOptions& options, const Bran
           {"scene", owner_of(read, options)}};
 }
 
-void check_owner(const fs::path& directory, const Json& kept, const SceneReader& read,
+void check_owner(const fs::path& directory, const base::Json& kept, const SceneReader& read,
                  const BranchOptions& options) {
   constexpr std::size_t most = 3;
-  const auto differ = differing_keys(kept.get<ResolvedKeys>(), owner_of(read, options));
+  const auto differ = scene::differing_keys(kept.get<scene::ResolvedKeys>(), owner_of(read, options));
   if (differ.empty()) return;
   const std::size_t shown = std::min(most, differ.size());
   std::string text =
@@ -124,15 +126,15 @@ void check_owner(const fs::path& directory, const Json& kept, const SceneReader&
 
 void write_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options,
                 const BranchMark& mark) {
-  const SceneReader there = branch_reader(read, options.path, mark.parameter);
+  const SceneReader there = orbit::branch_reader(read, options.path, mark.parameter);
   const fs::path last = directory / "last", next = directory / "last.next",
                  before = directory / "last.before";
   std::error_code error;
   fs::remove_all(next, error);
-  make_directory(next);
+  base::make_directory(next);
   const Scene scene = scene_beginning_in(orbit_scene(there, mark.orbit), last);
   write_orbit(next, scene, build_model(scene), mark.orbit);
-  write_file(next / "mark.json", json_text(mark_json(read, options, mark)));
+  result::write_file(next / "mark.json", base::json_text(mark_json(read, options, mark)));
   fs::remove_all(before, error);
   fs::rename(last, before, error);  // there may be none yet
   fs::rename(next, last, error);
@@ -150,11 +152,11 @@ BranchMark read_mark(const fs::path& directory, const SceneReader& read, const B
   BranchMark mark;
   try {
     std::ifstream branch_stream(directory / "branch.json", std::ios::binary);
-    if (parse_json(branch_stream).value("complete", false))
+    if (base::parse_json(branch_stream).value("complete", false))
       throw UsageError(fmt::format("--resume: the branch in {} is complete", directory.string()));
     std::ifstream stream(last / "mark.json", std::ios::binary);
     std::ifstream orbit_stream(last / "orbit.json", std::ios::binary);
-    const Json saved = parse_json(stream);
+    const base::Json saved = base::parse_json(stream);
     if (saved.at("path") != options.path || saved.at("from") != options.from || saved.at("to") != options.to)
       throw UsageError(fmt::format("--resume: {} follows {} from {} to {}", directory.string(),
                                    saved.at("path").get<std::string>(), saved.at("from").get<double>(),
@@ -164,22 +166,22 @@ BranchMark read_mark(const fs::path& directory, const SceneReader& read, const B
     mark.towards_to = saved.at("towards_to");
     mark.sequences = saved.at("sequences");
     mark.points = saved.at("points");
-    const Json orbit = parse_json(orbit_stream);
+    const base::Json orbit = base::parse_json(orbit_stream);
     mark.orbit.found = true;
     mark.orbit.period = orbit.at("period");
     mark.orbit.phase = orbit.at("phase");
     mark.orbit.autonomous = orbit.at("autonomous");
-  } catch (const Json::exception&) {
+  } catch (const base::Json::exception&) {
     throw FileError(directory.string(), "has no point of a branch to continue from");
   }
-  mark.orbit.start = branch_reader(read, options.path, mark.parameter)(
-                         {{"run.initial", "{ run = " + Json((last / "start").string()).dump() + " }"}})
+  mark.orbit.start = orbit::branch_reader(read, options.path, mark.parameter)(
+                         {{"run.initial", "{ run = " + base::Json((last / "start").string()).dump() + " }"}})
                          .initial.saved.value();
   return mark;
 }
 
 std::string branch_json(const BranchOptions& options, const Units& units, const Branch& branch) {
-  Json sides = Json::array();
+  base::Json sides = base::Json::array();
   for (const SideBranch& side : branch.sides)
     sides.push_back({{"branch", side.number},
                      {"from", side.from},
@@ -187,19 +189,19 @@ std::string branch_json(const BranchOptions& options, const Units& units, const 
                      {"parameter", side.parameter},
                      {"complete", side.complete},
                      {"end", side.end}});
-  Json last;
+  base::Json last;
   if (branch.last) last = {{"parameter", branch.last->parameter}, {"towards_to", branch.last->towards_to}};
-  const Json json = {{"path", options.path},
-                     {"from", options.from},
-                     {"to", options.to},
-                     {"units", units_json(units)},
-                     {"points", branch.points.size()},
-                     {"complete", branch.complete},
-                     {"end", branch.end},
-                     {"sequences", branch.sequences},
-                     {"sides", sides},
-                     {"last", last}};
-  return json_text(json);
+  const base::Json json = {{"path", options.path},
+                           {"from", options.from},
+                           {"to", options.to},
+                           {"units", result::units_json(units)},
+                           {"points", branch.points.size()},
+                           {"complete", branch.complete},
+                           {"end", branch.end},
+                           {"sequences", branch.sequences},
+                           {"sides", sides},
+                           {"last", last}};
+  return base::json_text(json);
 }
 
 namespace {
@@ -251,7 +253,7 @@ class BranchTable {
     column("amplitude", [](const BranchPoint& p) { return p.amplitude; });
   }
   void column(const std::string& name, const Cell& cell) {
-    table_.add_put(name, [cell](CsvBlock& block, const DrawnPoint& p) {
+    table_.add_put(name, [cell](result::CsvBlock& block, const DrawnPoint& p) {
       if (p.point == nullptr)
         block.text("NaN");
       else
@@ -272,14 +274,14 @@ class BranchTable {
   [[nodiscard]] std::string text(const std::vector<DrawnPoint>& points) const { return table_.text(points); }
 
  private:
-  CsvTable<DrawnPoint> table_;
+  result::CsvTable<DrawnPoint> table_;
 };
 
 const std::string rows = "'branch.csv' skip 1";
 
 /// unstable_too: the legend names the dashed parts.
 void add_line(const BranchTable& table, const std::string& name, const std::string& colour,
-              const std::string& title, bool unstable_too, Panel& panel) {
+              const std::string& title, bool unstable_too, result::Panel& panel) {
   const std::string dashed = "with lines linewidth 1.4 dashtype (6,5) linecolor '" + colour + "'";
   panel.curves.push_back(
       {rows, table.parts(name, "stable"), "with lines linewidth 1.8 linecolor '" + colour + "'", title});
@@ -305,7 +307,7 @@ constexpr std::array marks{
 
 /// Marks of the kinds that occur, with their names in the first panel.
 void add_marks(const BranchTable& table, const Branch& branch, const std::string& name, bool first,
-               Panel& panel) {
+               result::Panel& panel) {
   for (const MarkOfPoint& mark : marks) {
     const bool occurs = std::any_of(branch.points.begin(), branch.points.end(), [&](const BranchPoint& p) {
       return p.special.find(mark.special) != std::string::npos;
@@ -333,27 +335,27 @@ std::string bands(const Branch& branch) {
       s += fmt::format(
           "set object {} rectangle from first {},graph 0 to first {},graph 1 behind fillstyle solid noborder "
           "fillcolor '#f0f0f0'\n",
-          object++, shortest(std::min(from, to)), shortest(std::max(from, to)));
+          object++, base::shortest(std::min(from, to)), base::shortest(std::max(from, to)));
     i = j + 1;
   }
   return s;
 }
 
-Panel multiplier_panel(const BranchTable& table, const Branch& branch) {
-  Panel panel{"greatest multiplier", {}, "set yrange [0:*]\n", 0.7};
+result::Panel multiplier_panel(const BranchTable& table, const Branch& branch) {
+  result::Panel panel{"greatest multiplier", {}, "set yrange [0:*]\n", 0.7};
   add_line(table, "multiplier", "#1a1a1a", "stable", has_unstable(branch), panel);
   panel.curves.push_back({"1", "", "with lines linewidth 0.8 linecolor '#c0182b'", "unit circle"});
   add_marks(table, branch, "multiplier", false, panel);
   return panel;
 }
 
-Panel sequence_panel(const BranchTable& table, const Branch& branch, const std::string& x_name) {
-  Panel panel{"sequence",
-              {{rows, table.plain("sequence"), "with points pointtype 7 pointsize 0.4 linecolor '#1b9e77'",
-                "sequence"}},
-              fmt::format("set yrange [0:{}]\nset ytics 1\nset xlabel {}\n", branch.sequences.size() + 1,
-                          signorini::quoted(x_name)),
-              0.5};
+result::Panel sequence_panel(const BranchTable& table, const Branch& branch, const std::string& x_name) {
+  result::Panel panel{"sequence",
+                      {{rows, table.plain("sequence"),
+                        "with points pointtype 7 pointsize 0.4 linecolor '#1b9e77'", "sequence"}},
+                      fmt::format("set yrange [0:{}]\nset ytics 1\nset xlabel {}\n",
+                                  branch.sequences.size() + 1, signorini::result::quoted(x_name)),
+                      0.5};
   return panel;
 }
 
@@ -361,12 +363,12 @@ Panel sequence_panel(const BranchTable& table, const Branch& branch, const std::
 
 bool is_picture_of_branch(const std::filesystem::path& file) { return file.stem() == "branch"; }
 
-PictureFiles branch_pictures(const std::string& title, const Units& units, const BranchOptions& options,
-                             const std::vector<std::string>& outputs, const Branch& branch,
-                             const PictureLook& look) {
-  PictureFiles files(is_picture_of_branch);
+result::PictureFiles branch_pictures(const std::string& title, const Units& units,
+                                     const BranchOptions& options, const std::vector<std::string>& outputs,
+                                     const Branch& branch, const result::PictureLook& look) {
+  result::PictureFiles files(is_picture_of_branch);
   if (branch.points.size() < 2) return files;
-  const PlottedRun run = untold_run(title, units, look);
+  const result::PlottedRun run = result::unreported_run(title, units, look);
   BranchTable table;
   const std::size_t shown = std::min(outputs.size(), most_outputs);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -375,29 +377,31 @@ PictureFiles branch_pictures(const std::string& title, const Units& units, const
   }
   files.add_table("branch", table.text(drawn_points(branch)));
   const std::size_t panels = std::max<std::size_t>(1, shown);
-  Picture picture{"branch", "Orbits over " + key_with_unit(options.path, units) + ": " + branch.end,
-                  canvas_of(look, 420.0 + 260.0 * static_cast<double>(panels), false), false};
+  result::Picture picture{"branch",
+                          "Orbits over " + study::key_with_unit(options.path, units) + ": " + branch.end,
+                          result::canvas_of(look, 420.0 + 260.0 * static_cast<double>(panels), false), false};
   picture.space = 24.0;
-  picture.setup = "set offsets 0,0,graph 0.05,graph 0.05\n" +
-                  range_of('x', std::min(options.from, options.to), std::max(options.from, options.to)) +
-                  bands(branch);
+  picture.setup =
+      "set offsets 0,0,graph 0.05,graph 0.05\n" +
+      result::range_of('x', std::min(options.from, options.to), std::max(options.from, options.to)) +
+      bands(branch);
   for (std::size_t i = 0; i < shown; ++i) {
-    Panel panel{outputs[i], {}, "set yrange [*:*]\n"};
+    result::Panel panel{outputs[i], {}, "set yrange [*:*]\n"};
     add_line(table, fmt::format("high {}", i), high_colour, "greatest", has_unstable(branch), panel);
     add_line(table, fmt::format("low {}", i), low_colour, "least", false, panel);
     add_marks(table, branch, fmt::format("high {}", i), i == 0, panel);
     picture.panels.push_back(panel);
   }
   if (shown == 0) {
-    Panel panel{"amplitude [" + units.length + "]", {}, "set yrange [0:*]\n"};
+    result::Panel panel{"amplitude [" + units.length + "]", {}, "set yrange [0:*]\n"};
     add_line(table, "amplitude", high_colour, "stable", has_unstable(branch), panel);
     add_marks(table, branch, "amplitude", true, panel);
     picture.panels.push_back(panel);
   }
   picture.panels.push_back(multiplier_panel(table, branch));
-  picture.panels.push_back(sequence_panel(table, branch, key_with_unit(options.path, units)));
+  picture.panels.push_back(sequence_panel(table, branch, study::key_with_unit(options.path, units)));
   files.add(run, picture);
   return files;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit_study

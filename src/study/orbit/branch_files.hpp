@@ -15,7 +15,7 @@
 #include "result/picture_files.hpp"
 #include "signorini/orbit.hpp"
 
-namespace signorini {
+namespace signorini::orbit_study {
 
 class BranchWriter {
  public:
@@ -24,8 +24,8 @@ class BranchWriter {
   void add(const BranchPoint& point);
 
  private:
-  CsvBlock block_;
-  CsvFile file_;
+  result::CsvBlock block_;
+  result::CsvFile file_;
 };
 
 /// The first rows of branch.csv. Errors: FileError, also if there are fewer.
@@ -52,11 +52,12 @@ void remove_mark(const std::filesystem::path& directory);
 //   plots/branch.csv    the curves: x, stable 1 or 0, sequence, special, multiplier, amplitude, outputs
 
 /// outputs: names with units, in the order of BranchPoint::minima; at most six panels of them.
-[[nodiscard]] PictureFiles branch_pictures(const std::string& title, const Units& units,
-                                           const BranchOptions& options,
-                                           const std::vector<std::string>& outputs, const Branch& branch,
-                                           const PictureLook& look = {});
+[[nodiscard]] result::PictureFiles branch_pictures(const std::string& title, const Units& units,
+                                                   const BranchOptions& options,
+                                                   const std::vector<std::string>& outputs,
+                                                   const Branch& branch,
+                                                   const result::PictureLook& look = {});
 
 [[nodiscard]] bool is_picture_of_branch(const std::filesystem::path& file);
 
-}  // namespace signorini
+}  // namespace signorini::orbit_study

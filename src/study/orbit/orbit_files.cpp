@@ -18,13 +18,13 @@
 #include "result/summary_parts.hpp"
 #include "result/table.hpp"
 
-namespace signorini {
+namespace signorini::orbit_study {
 namespace {
 
 namespace fs = std::filesystem;
 
-Json sequence_json(const Model& model, const Orbit& orbit) {
-  Json list = Json::array();
+base::Json sequence_json(const Model& model, const Orbit& orbit) {
+  base::Json list = base::Json::array();
   for (const Event& event : orbit.sequence)
     list.push_back({{"t", event.t},
                     {"contact", model.contacts[static_cast<std::size_t>(event.contact)].name},
@@ -34,8 +34,8 @@ Json sequence_json(const Model& model, const Orbit& orbit) {
   return list;
 }
 
-Json cycle_json(const Energy& cycle) {
-  Json json = Json::object();
+base::Json cycle_json(const Energy& cycle) {
+  base::Json json = base::Json::object();
   for (const EnergyColumn& column : energy_columns) json[column.name] = cycle.*column.value;
   return json;
 }
@@ -53,12 +53,13 @@ std::string quoted(const fs::path& path) {
 /// Contains only the data from which a run continues (scene/read_initial.cpp).
 std::string start_summary(const Model& model) {
   const Scales& s = model.scales;
-  const Json scales = {{"displacement", s.displacement},
-                       {"rotation", s.rotation},
-                       {"velocity", s.velocity},
-                       {"angular_velocity", s.angular_velocity},
-                       {"force", s.force}};
-  return json_text({{"what", "start of an orbit"}, {"model", {{"alpha", model.alpha}, {"scales", scales}}}});
+  const base::Json scales = {{"displacement", s.displacement},
+                             {"rotation", s.rotation},
+                             {"velocity", s.velocity},
+                             {"angular_velocity", s.angular_velocity},
+                             {"force", s.force}};
+  return base::json_text(
+      {{"what", "start of an orbit"}, {"model", {{"alpha", model.alpha}, {"scales", scales}}}});
 }
 
 /// The state at t = 0, from the model that begins with it.
@@ -76,36 +77,36 @@ void write_start(const fs::path& directory, const Model& model, const Orbit& orb
       if (name == contact.name + ".slip") c.slip = value - contact.surface_motion.value(0.0);
     sample.contacts.push_back(c);
   }
-  StateWriter(directory, model).write(sample);
+  result::StateWriter(directory, model).write(sample);
 }
 
 }  // namespace
 
 std::string orbit_json(const Model& model, const Orbit& orbit) {
-  Json multipliers = Json::array();
+  base::Json multipliers = base::Json::array();
   for (const auto& mu : orbit.multipliers) multipliers.push_back({mu.real(), mu.imag()});
-  Json steps = Json::array();
+  base::Json steps = base::Json::array();
   for (const OrbitStep& step : orbit.steps)
     steps.push_back({{"residual", step.residual}, {"damping", step.damping}});
-  Json json = {{"found", orbit.found},
-               {"reason", orbit.reason},
-               {"units", units_json(model.units)},
-               {"period", orbit.period},
-               {"autonomous", orbit.autonomous},
-               {"phase", orbit.phase},
-               {"section", orbit.section},
-               {"residual", orbit.residual},
-               {"amplitude", orbit.amplitude},
-               {"multipliers", multipliers},
-               {"multiplier_error", orbit.multiplier_error},
-               {"max_multiplier", orbit.max_multiplier},
-               {"stable", orbit.stable ? Json(*orbit.stable) : Json()},
-               {"loss", to_string(orbit.loss)},
-               {"families", orbit.families},
-               {"cycle", cycle_json(orbit.cycle)},
-               {"sequence", sequence_json(model, orbit)},
-               {"steps", steps}};
-  return json_text(json);
+  base::Json json = {{"found", orbit.found},
+                     {"reason", orbit.reason},
+                     {"units", result::units_json(model.units)},
+                     {"period", orbit.period},
+                     {"autonomous", orbit.autonomous},
+                     {"phase", orbit.phase},
+                     {"section", orbit.section},
+                     {"residual", orbit.residual},
+                     {"amplitude", orbit.amplitude},
+                     {"multipliers", multipliers},
+                     {"multiplier_error", orbit.multiplier_error},
+                     {"max_multiplier", orbit.max_multiplier},
+                     {"stable", orbit.stable ? base::Json(*orbit.stable) : base::Json()},
+                     {"loss", to_string(orbit.loss)},
+                     {"families", orbit.families},
+                     {"cycle", cycle_json(orbit.cycle)},
+                     {"sequence", sequence_json(model, orbit)},
+                     {"steps", steps}};
+  return base::json_text(json);
 }
 
 Scene scene_beginning_in(Scene scene, const fs::path& directory) {
@@ -124,8 +125,8 @@ Scene scene_beginning_in(Scene scene, const fs::path& directory) {
     if (skipping) continue;
     text += line + "\n";
     if (line == "[run]")
-      text += fmt::format("t_end = {}\noutput_dt = {}\ninitial = {{ run = {} }}\n", shortest(scene.run.t_end),
-                          shortest(*scene.run.output_dt),
+      text += fmt::format("t_end = {}\noutput_dt = {}\ninitial = {{ run = {} }}\n",
+                          base::shortest(scene.run.t_end), base::shortest(*scene.run.output_dt),
                           quoted(fs::absolute(directory / "start").lexically_normal()));
   }
   scene.resolved = std::move(text);
@@ -133,23 +134,24 @@ Scene scene_beginning_in(Scene scene, const fs::path& directory) {
 }
 
 void write_orbit(const fs::path& directory, const Scene& scene, const Model& model, const Orbit& orbit) {
-  write_file(directory / "orbit.json", orbit_json(model, orbit));
+  result::write_file(directory / "orbit.json", orbit_json(model, orbit));
   const fs::path start = directory / "start";
-  make_directory(start);
-  remove_manifest(start);
+  base::make_directory(start);
+  base::remove_manifest(start);
   write_start(start, model, orbit);
-  write_file(start / "run.toml", scene.resolved);
-  write_file(start / "summary.json", start_summary(model));
-  write_file(start / manifest_file, manifest_of(start, to_string(Outcome::Kind::done)).text());
+  result::write_file(start / "run.toml", scene.resolved);
+  result::write_file(start / "summary.json", start_summary(model));
+  result::write_file(start / base::manifest_file,
+                     base::manifest_of(start, result::to_string(Outcome::Kind::done)).text());
 }
 
 namespace {
 
-constexpr std::size_t most_portraits = 3;
-constexpr const char* portrait_colours[] = {"#1f77b4", "#d95f02", "#1b9e77"};
+constexpr std::size_t most_phase_plots = 3;
+constexpr const char* phase_plot_colours[] = {"#1f77b4", "#d95f02", "#1b9e77"};
 
 /// Columns of history.csv for one degree of freedom.
-struct Portrait {
+struct PhasePlot {
   std::string u_name;
   std::size_t u, v;  // columns
   double least = 0.0, greatest = 0.0;
@@ -157,8 +159,8 @@ struct Portrait {
 };
 
 /// "A.ux" and "A.vx", "d0.u" and "d0.v": a name, a dot, u or v, a direction.
-std::vector<Portrait> portraits_of(const std::vector<std::string>& header) {
-  std::vector<Portrait> list;
+std::vector<PhasePlot> phase_plots_of(const std::vector<std::string>& header) {
+  std::vector<PhasePlot> list;
   for (std::size_t i = 0; i < header.size(); ++i) {
     const std::size_t point = header[i].rfind('.');
     if (point == std::string::npos || point + 1 >= header[i].size() || header[i][point + 1] != 'u') continue;
@@ -172,35 +174,37 @@ std::vector<Portrait> portraits_of(const std::vector<std::string>& header) {
 }
 
 /// The phase portraits with the largest ranges.
-std::vector<Portrait> greatest_portraits(const std::filesystem::path& directory) {
-  CsvReader reader(directory / "history.csv");
-  std::vector<Portrait> list = portraits_of(reader.header());
+std::vector<PhasePlot> greatest_phase_plots(const std::filesystem::path& directory) {
+  result::CsvReader reader(directory / "history.csv");
+  std::vector<PhasePlot> list = phase_plots_of(reader.header());
   for (bool first = true; reader.next(); first = false)
-    for (Portrait& p : list) {
+    for (PhasePlot& p : list) {
       const double u = reader.number(p.u);
       p.least = first ? u : std::min(p.least, u);
       p.greatest = first ? u : std::max(p.greatest, u);
     }
   std::stable_sort(list.begin(), list.end(),
-                   [](const Portrait& a, const Portrait& b) { return a.range() > b.range(); });
-  if (list.size() > most_portraits) list.resize(most_portraits);
+                   [](const PhasePlot& a, const PhasePlot& b) { return a.range() > b.range(); });
+  if (list.size() > most_phase_plots) list.resize(most_phase_plots);
   return list;
 }
 
-Picture phase_picture(const std::vector<Portrait>& portraits, const Units& units, const PictureLook& look) {
-  Picture picture{"phase", "Velocity over displacement, one period",
-                  canvas_of(look, 120.0 + 420.0 * static_cast<double>(portraits.size()), false), false};
+result::Picture phase_picture(const std::vector<PhasePlot>& portraits, const Units& units,
+                              const result::PictureLook& look) {
+  result::Picture picture{
+      "phase", "Velocity over displacement, one period",
+      result::canvas_of(look, 120.0 + 420.0 * static_cast<double>(portraits.size()), false), false};
   picture.space = 70.0;
-  for (const Portrait& p : portraits) {
+  for (const PhasePlot& p : portraits) {
     const std::size_t i = static_cast<std::size_t>(&p - portraits.data());
     std::string rate = p.u_name;
     rate[rate.rfind('.') + 1] = 'v';
-    Panel panel{
-        rate + " [" + units.length + "/" + units.time + "]",
-        {{"'../history.csv' skip 1", fmt::format("{}:{}", p.u + 1, p.v + 1),
-          fmt::format("with lines linewidth 1.6 linecolor '{}'", portrait_colours[i]),
-          p.u_name.substr(0, p.u_name.rfind('.'))}},
-        "set xrange [*:*]\nset xlabel " + signorini::quoted(p.u_name + " [" + units.length + "]") + "\n"};
+    result::Panel panel{rate + " [" + units.length + "/" + units.time + "]",
+                        {{"'../history.csv' skip 1", fmt::format("{}:{}", p.u + 1, p.v + 1),
+                          fmt::format("with lines linewidth 1.6 linecolor '{}'", phase_plot_colours[i]),
+                          p.u_name.substr(0, p.u_name.rfind('.'))}},
+                        "set xrange [*:*]\nset xlabel " +
+                            signorini::result::quoted(p.u_name + " [" + units.length + "]") + "\n"};
     panel.own_axis = true;
     picture.panels.push_back(panel);
   }
@@ -215,17 +219,18 @@ std::vector<std::complex<double>> unit_circle() {
   return list;
 }
 
-Picture multiplier_picture(const Orbit& orbit, const PictureLook& look) {
+result::Picture multiplier_picture(const Orbit& orbit, const result::PictureLook& look) {
   const double greatest =
       std::max(1.0, orbit.multipliers.empty() ? 0.0 : std::abs(orbit.multipliers.front()));
-  Picture picture{"multipliers", "Floquet multipliers and the unit circle", canvas_of(look, 760.0, false),
-                  false};
-  Panel panel{"imaginary part",
-              {{"'circle.csv' skip 1", "1:2", "with lines linewidth 1.0 linecolor '#888888'", "unit circle"},
-               {"'multipliers.csv' skip 1", "1:2",
-                "with points pointtype 7 pointsize 1.0 linecolor '#c0182b'", "multipliers"}},
-              "set size ratio -1\n" + range_of('x', -1.1 * greatest, 1.1 * greatest) +
-                  range_of('y', -1.1 * greatest, 1.1 * greatest) + "set xlabel 'real part'\n"};
+  result::Picture picture{"multipliers", "Floquet multipliers and the unit circle",
+                          result::canvas_of(look, 760.0, false), false};
+  result::Panel panel{
+      "imaginary part",
+      {{"'circle.csv' skip 1", "1:2", "with lines linewidth 1.0 linecolor '#888888'", "unit circle"},
+       {"'multipliers.csv' skip 1", "1:2", "with points pointtype 7 pointsize 1.0 linecolor '#c0182b'",
+        "multipliers"}},
+      "set size ratio -1\n" + result::range_of('x', -1.1 * greatest, 1.1 * greatest) +
+          result::range_of('y', -1.1 * greatest, 1.1 * greatest) + "set xlabel 'real part'\n"};
   panel.after = "set size noratio\n";
   picture.panels.push_back(panel);
   return picture;
@@ -237,21 +242,21 @@ bool is_picture_of_orbit(const std::filesystem::path& file) {
   return file.stem() == "multipliers" || file.stem() == "circle" || file.stem() == "phase";
 }
 
-PictureFiles orbit_pictures(const std::filesystem::path& directory, const std::string& title,
-                            const Units& units, const Orbit& orbit, const PictureLook& look) {
-  PictureFiles files(is_picture_of_orbit);
-  const PlottedRun run = untold_run(title, units, look);
+result::PictureFiles orbit_pictures(const std::filesystem::path& directory, const std::string& title,
+                                    const Units& units, const Orbit& orbit, const result::PictureLook& look) {
+  result::PictureFiles files(is_picture_of_orbit);
+  const result::PlottedRun run = result::unreported_run(title, units, look);
   if (!orbit.multipliers.empty()) {
     using Row = std::complex<double>;
-    const CsvTable<Row> table = {{"real", [](const Row& mu) { return mu.real(); }},
-                                 {"imaginary", [](const Row& mu) { return mu.imag(); }}};
+    const result::CsvTable<Row> table = {{"real", [](const Row& mu) { return mu.real(); }},
+                                         {"imaginary", [](const Row& mu) { return mu.imag(); }}};
     files.add_table("multipliers", table.text(orbit.multipliers));
     files.add_table("circle", table.text(unit_circle()));
     files.add(run, multiplier_picture(orbit, look));
   }
-  const std::vector<Portrait> portraits = greatest_portraits(directory);
+  const std::vector<PhasePlot> portraits = greatest_phase_plots(directory);
   if (!portraits.empty()) files.add(run, phase_picture(portraits, units, look));
   return files;
 }
 
-}  // namespace signorini
+}  // namespace signorini::orbit_study

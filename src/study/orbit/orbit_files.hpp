@@ -10,7 +10,7 @@
 #include "result/picture_files.hpp"
 #include "signorini/orbit.hpp"
 
-namespace signorini {
+namespace signorini::orbit_study {
 
 [[nodiscard]] std::string orbit_json(const Model& model, const Orbit& orbit);
 
@@ -27,10 +27,10 @@ void write_orbit(const std::filesystem::path& directory, const Scene& scene, con
 //   plots/phase.gp         v over u of the degrees of freedom with the largest motion, from history.csv; three at most
 
 /// directory: contains the run of a period. Errors: FileError.
-[[nodiscard]] PictureFiles orbit_pictures(const std::filesystem::path& directory, const std::string& title,
-                                          const Units& units, const Orbit& orbit,
-                                          const PictureLook& look = {});
+[[nodiscard]] result::PictureFiles orbit_pictures(const std::filesystem::path& directory,
+                                                  const std::string& title, const Units& units,
+                                                  const Orbit& orbit, const result::PictureLook& look = {});
 
 [[nodiscard]] bool is_picture_of_orbit(const std::filesystem::path& file);
 
-}  // namespace signorini
+}  // namespace signorini::orbit_study

@@ -10,7 +10,7 @@
 
 #include "study/quake/spectra.hpp"
 
-namespace signorini {
+namespace signorini::quake {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::vector<double> quake(const QuakeSpec& spec) {
   return a;
 }
 
-}  // namespace signorini
+}  // namespace signorini::quake

@@ -15,7 +15,7 @@
 #include <functional>
 #include <vector>
 
-namespace signorini {
+namespace signorini::quake {
 
 struct QuakeSpec {
   double duration = 20.0;  ///< D, s
@@ -41,4 +41,4 @@ struct GroundMotion {
 };
 [[nodiscard]] GroundMotion ground_motion(const std::vector<double>& a, double dt);
 
-}  // namespace signorini
+}  // namespace signorini::quake

@@ -9,7 +9,7 @@
 #include "scene/data_file.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::quake {
 namespace {
 
 /// One step h of the oscillator: from the state (u, v) and the accelerations at both ends to the next state.
@@ -91,7 +91,7 @@ TargetSpectrum TargetSpectrum::read(const std::string& name_or_file, double ag) 
   std::ifstream file(name_or_file, std::ios::binary);
   if (!file)
     throw FileError(name_or_file, "cannot be read; --spectrum takes ec8-A to ec8-E, or a file of rows T,PSA");
-  const TimeTable table = read_time_table(file, name_or_file, "--spectrum");
+  const scene::TimeTable table = scene::read_time_table(file, name_or_file, "--spectrum");
   for (std::size_t i = 0; i < table.times.size(); ++i) {
     const double T = table.times[i], value = table.values[i];
     if (!(T > 0.0) || !(value > 0.0) || (i > 0 && T == table.times[i - 1]))
@@ -120,4 +120,4 @@ double TargetSpectrum::operator()(double T) const {
   return T < TD_ ? 2.5 * ground * TC_ / T : 2.5 * ground * TC_ * TD_ / (T * T);
 }
 
-}  // namespace signorini
+}  // namespace signorini::quake

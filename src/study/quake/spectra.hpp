@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace signorini {
+namespace signorini::quake {
 
 /// `a`: samples at equal distances dt > 0. Unit: that of a; T > 0 and dt in one unit of time; 0 <= z < 1. The
 /// oscillator is also followed for one period after the last sample, with a = 0.
@@ -39,4 +39,4 @@ class TargetSpectrum {
   std::vector<std::pair<double, double>> rows_;  // rows of a file
 };
 
-}  // namespace signorini
+}  // namespace signorini::quake

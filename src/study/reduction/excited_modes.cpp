@@ -5,7 +5,7 @@
 #include "base/eigen_dense.hpp"
 #include "model/assembly/springs.hpp"
 
-namespace signorini {
+namespace signorini::reduction {
 namespace {
 
 // Terms of the series in each force. Chosen; tests/unit/study/reduction/excited_modes compares them with all modes.
@@ -41,15 +41,17 @@ class Span {
 
 }  // namespace
 
-ExcitedModes excited_modes(const Model& structure, const KeptModes& kept) {
+ExcitedModes excited_modes(const Model& structure, const reduce::KeptModes& kept) {
   const int n = structure.size();
-  const ResidualFlexibility flexibility(structure.mass, structure.stiffness, kept);
+  const reduce::ResidualFlexibility flexibility(structure.mass, structure.stiffness, kept);
   std::vector<Vector> answers;
   for (const Contact& contact : structure.contacts) {
-    if (!contact.normal_force_given()) answers.push_back(flexibility.answer(full(contact.normal, n)));
-    if (contact.has_friction()) answers.push_back(flexibility.answer(full(contact.tangent, n)));
+    if (!contact.normal_force_given())
+      answers.push_back(flexibility.answer(assembly::full(contact.normal, n)));
+    if (contact.has_friction()) answers.push_back(flexibility.answer(assembly::full(contact.tangent, n)));
   }
-  for (const Load& load : structure.loads) answers.push_back(flexibility.answer(full(load.direction, n)));
+  for (const Load& load : structure.loads)
+    answers.push_back(flexibility.answer(assembly::full(load.direction, n)));
   for (const Vector& state : {structure.u0, structure.v0})
     answers.push_back(state - kept.shapes * (kept.shapes.transpose() * (structure.mass * state)));
   Span span(structure.stiffness);
@@ -61,9 +63,11 @@ ExcitedModes excited_modes(const Model& structure, const KeptModes& kept) {
   const Eigen::MatrixXd h = span.vectors();
   ExcitedModes result{Eigen::VectorXd(0), Eigen::MatrixXd(n, 0)};
   if (h.cols() == 0) return result;
-  const EigenPairs ritz = symmetric_eigen(h.transpose() * (structure.mass * h));  // 1/omega^2, ascending
+  const base::EigenPairs ritz =
+      base::symmetric_eigen(h.transpose() * (structure.mass * h));  // 1/omega^2, ascending
   const Eigen::Index all = ritz.values.size();
-  if (all == 0 || !ritz.values.allFinite()) throw NotReducible("the modes left out cannot be estimated");
+  if (all == 0 || !ritz.values.allFinite())
+    throw reduce::NotReducible("the modes left out cannot be estimated");
   const Eigen::Index count = (ritz.values.array() > needs_no_mass * ritz.values[all - 1]).count();
   const Eigen::VectorXd inverse = ritz.values.tail(count).reverse();
   result.squares = inverse.cwiseInverse();
@@ -72,4 +76,4 @@ ExcitedModes excited_modes(const Model& structure, const KeptModes& kept) {
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::reduction

@@ -11,7 +11,7 @@
 #include "model/reduce/kept_modes.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::reduction {
 
 struct ExcitedModes {
   Eigen::VectorXd squares;  ///< omega^2, ascending
@@ -19,6 +19,6 @@ struct ExcitedModes {
 };
 
 /// structure: build_structure's; `kept`: its modes up to the cutoff. Throws NotReducible.
-[[nodiscard]] ExcitedModes excited_modes(const Model& structure, const KeptModes& kept);
+[[nodiscard]] ExcitedModes excited_modes(const Model& structure, const reduce::KeptModes& kept);
 
-}  // namespace signorini
+}  // namespace signorini::reduction

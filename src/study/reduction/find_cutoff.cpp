@@ -13,7 +13,7 @@
 #include "signorini/simulate.hpp"
 #include "study/reduction/excited_modes.hpp"
 
-namespace signorini {
+namespace signorini::reduction {
 namespace {
 
 Vector vector_of(const Combination& form, Eigen::Index n) {
@@ -31,8 +31,8 @@ Vector form_of(const Column& column, const Model& full) {
 
 }  // namespace
 
-std::vector<AskedPlace> asked_places(const Model& full) {
-  std::vector<AskedPlace> places;
+std::vector<RequestedPlace> requested_places(const Model& full) {
+  std::vector<RequestedPlace> places;
   const Eigen::Index n = full.size();
   for (const Contact& contact : full.contacts) {
     if (!contact.normal_force_given())
@@ -46,14 +46,14 @@ std::vector<AskedPlace> asked_places(const Model& full) {
   return places;
 }
 
-LeftOut::LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes,
-                 Eigen::Index kept, double step)
+TruncationError::TruncationError(const Model& full, const Eigen::VectorXd& square,
+                                 const Eigen::MatrixXd& shapes, Eigen::Index kept, double step)
     : full_(full), step_(step) {
   const Eigen::Index n = full.size(), modes = square.size() - kept;
   const Eigen::MatrixXd phi = shapes.rightCols(modes);
   square_ = square.tail(modes).array();
   decay_ = (phi.array() * (full.damping * phi).array()).colwise().sum().transpose();
-  const std::vector<AskedPlace> places = asked_places(full);
+  const std::vector<RequestedPlace> places = requested_places(full);
   const Eigen::MatrixXd seen = full.basis ? Eigen::MatrixXd(*full.basis * phi) : phi;
   places_.resize(static_cast<Eigen::Index>(places.size()), modes);
   for (std::size_t p = 0; p < places.size(); ++p)
@@ -90,7 +90,7 @@ LeftOut::LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::
 }
 
 /// Advances from one sample to the next, with their neighbours: F = a0 + a1 s + a2 s^2 + a3 s^3, slopes by parabolas.
-void LeftOut::advance(const Array& before, const Array& from, const Array& to, const Array& after) {
+void TruncationError::advance(const Array& before, const Array& from, const Array& to, const Array& after) {
   const double h = step_;
   const Array slope = 0.5 * (to - before) / h, end_slope = 0.5 * (after - from) / h, rise = (to - from) / h;
   const Array a3 = (slope + end_slope - 2.0 * rise) / (h * h),
@@ -104,13 +104,13 @@ void LeftOut::advance(const Array& before, const Array& from, const Array& to, c
   observe(to);
 }
 
-void LeftOut::observe(const Array& force) {
+void TruncationError::observe(const Array& force) {
   const Eigen::VectorXd off = places_ * (z_ - force / square_).matrix();
   for (std::size_t p = 0; p < missed_.size(); ++p)
     missed_[p] = std::max(missed_[p], std::abs(off[static_cast<Eigen::Index>(p)]));
 }
 
-void LeftOut::sample(double t, const std::vector<double>& forces) {
+void TruncationError::sample(double t, const std::vector<double>& forces) {
   if (square_.size() == 0) return;
   Eigen::VectorXd acting(static_cast<Eigen::Index>(full_.loads.size()));
   for (std::size_t i = 0; i < full_.loads.size(); ++i)
@@ -127,7 +127,7 @@ void LeftOut::sample(double t, const std::vector<double>& forces) {
   forces_.erase(forces_.begin());
 }
 
-void LeftOut::finish() {
+void TruncationError::finish() {
   if (forces_.size() == 3) advance(forces_[0], forces_[1], forces_[2], forces_[2]);
 }
 
@@ -155,13 +155,13 @@ constexpr Eigen::Index most_compared = 1 << 22;  // displacements that a trial k
 
 /// Places where displacements are asked for, as the only ones that a reduced model has: a run then computes as before, and
 /// its samples cost what few rows cost. Other parts of the model know the structure's degrees of freedom and must not be left in it.
-void see_places_alone(const std::vector<AskedPlace>& asked, Model& model) {
+void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
   const auto count = static_cast<Eigen::Index>(asked.size());
   Reduction& reduction = *model.reduction;
   Eigen::MatrixXd forms(count, reduction.shapes.rows());
   reduction.dofs.clear();
   for (Eigen::Index p = 0; p < count; ++p) {
-    const AskedPlace& place = asked[static_cast<std::size_t>(p)];
+    const RequestedPlace& place = asked[static_cast<std::size_t>(p)];
     forms.row(p) = place.form.transpose();
     reduction.dofs.push_back({place.name, "rate of " + place.name, false, false});
   }
@@ -179,7 +179,7 @@ void see_places_alone(const std::vector<AskedPlace>& asked, Model& model) {
 class Watcher final : public Recorder {
  public:
   /// samples: steps of the run; both numbers are fewest_compared times a power of two.
-  Watcher(LeftOut& left_out, Eigen::Index places, Eigen::Index samples, Eigen::Index instants,
+  Watcher(TruncationError& left_out, Eigen::Index places, Eigen::Index samples, Eigen::Index instants,
           const std::function<bool()>& go_on)
       : left_out_(left_out), every_(samples / instants), go_on_(go_on) {
     at.setZero(places, instants + 1);
@@ -204,21 +204,23 @@ class Watcher final : public Recorder {
   Eigen::MatrixXd at;     ///< places x instants of comparison
 
  private:
-  LeftOut& left_out_;
+  TruncationError& left_out_;
   Eigen::Index every_, samples_ = 0;
   const std::function<bool()>& go_on_;
   std::vector<double> forces_;
 };
 
 /// The structure and, where they are few enough, all of its modes.
-class Structure {
+class SystemMatrices {
  public:
-  explicit Structure(const Scene& scene)
-      : model(built(scene)), null_(null_motions(model.stiffness)), heavies_(degrees_with_mass(model.mass)) {
-    if (heavies_ > all_modes_up_to) return;
+  explicit SystemMatrices(const Scene& scene)
+      : model(built(scene)),
+        null_(statics::null_motions(model.stiffness)),
+        heavies_(assembly::degrees_with_mass(model.mass)) {
+    if (heavies_ > reduce::all_modes_up_to) return;
     try {
-      all_ = modes_up_to(std::numeric_limits<double>::max(), model.mass, model.stiffness, null_);
-    } catch (const NotReducible& e) {
+      all_ = reduce::modes_up_to(std::numeric_limits<double>::max(), model.mass, model.stiffness, null_);
+    } catch (const reduce::NotReducible& e) {
       refuse(scene, e.what());
     }
   }
@@ -241,7 +243,7 @@ class Structure {
       return {kept == all() ? 2.0 * last : 0.5 * (last + std::sqrt(all_->squares[kept])), kept};
     }
     for (int failures = 0; failures < most_moves;) {
-      const int below = modes_below(model.mass, model.stiffness, omega * omega);
+      const int below = modes::modes_below(model.mass, model.stiffness, omega * omega);
       if (below >= least) return {omega, below};
       failures += below < 0;
       omega *= below < 0 ? move_by : raised;
@@ -249,10 +251,10 @@ class Structure {
     return {omega, -1};
   }
 
-  [[nodiscard]] LeftOut left_out(const Cutoff& cutoff, double step) const {
+  [[nodiscard]] TruncationError left_out(const Cutoff& cutoff, double step) const {
     if (all_) return {model, all_->squares, all_->shapes, cutoff.kept, step};
     const ExcitedModes others =
-        excited_modes(model, modes_up_to(cutoff.omega, model.mass, model.stiffness, null_));
+        excited_modes(model, reduce::modes_up_to(cutoff.omega, model.mass, model.stiffness, null_));
     return {model, others.squares, others.shapes, 0, step};
   }
 
@@ -261,21 +263,21 @@ class Structure {
  private:
   static Model built(Scene scene) {
     scene.reduction->cutoff_omega = 1.0;  // gaps at the start are judged as those of a reduced model
-    return build_structure(scene);
+    return model::build_structure(scene);
   }
 
   Eigen::MatrixXd null_;
   Eigen::Index heavies_;
-  std::optional<KeptModes> all_;
+  std::optional<reduce::KeptModes> all_;
 };
 
 /// A trial run with one cutoff.
 struct Trial {
-  bool ended = false;   // it was told to
+  bool ended = false;   // as requested
   std::string failure;  // why there is none
   double missed = 0.0, greatest = 0.0;
   Eigen::MatrixXd at;
-  CutoffTrial told = {};
+  CutoffTrial reported = {};
 };
 
 /// Number of steps that resolve this frequency.
@@ -285,14 +287,14 @@ Eigen::Index samples_for(double omega, double t_end) {
   return samples;
 }
 
-Trial trial(const Scene& scene, const Structure& structure, const Structure::Cutoff& cutoff,
+Trial trial(const Scene& scene, const SystemMatrices& structure, const SystemMatrices::Cutoff& cutoff,
             const std::function<bool()>& go_on) {
   Model model = build_model(scene);
   const double highest = std::max(model.reduction->highest_kept, 1.0 / scene.run.t_end);
   const Eigen::Index samples = samples_for(highest, scene.run.t_end);
   const double step = scene.run.t_end / static_cast<double>(samples);
-  LeftOut left_out = structure.left_out(cutoff, step);
-  const std::vector<AskedPlace> asked = asked_places(structure.model);
+  TruncationError left_out = structure.left_out(cutoff, step);
+  const std::vector<RequestedPlace> asked = requested_places(structure.model);
   see_places_alone(asked, model);
   RunSpec run = scene.run;
   run.output_times.reset();
@@ -328,24 +330,24 @@ double apart(const Trial& a, const Trial& b, double t_end) {
   double most = 0.0;
   for (Eigen::Index i = 0; i <= n; ++i)
     most = std::max(most, (a.at.col(i * every_a) - b.at.col(i * every_b)).cwiseAbs().maxCoeff());
-  const double half_a_step = a.told.cutoff_omega * t_end / static_cast<double>(n);
+  const double half_a_step = a.reported.cutoff_omega * t_end / static_cast<double>(n);
   return most / std::cos(std::min(half_a_step, most_radians));
 }
 
 /// Factor by which the missing part turned out to be underestimated; 1: it was not.
 double feedback(const Trial& trial) {
-  return trial.missed > 0.0 ? std::max(1.0, trial.told.error / trial.missed) : 1.0;
+  return trial.missed > 0.0 ? std::max(1.0, trial.reported.error / trial.missed) : 1.0;
 }
 
 /// Error of a trial, from one with more modes: error = moved + missed_finer max(1, error / missed), solved.
 void judge(Trial& trial, const Trial& finer, double t_end) {
   if (!(finer.greatest > 0.0)) return;
   const double moved = apart(trial, finer, t_end) / finer.greatest;
-  trial.told.moved = moved;
-  trial.told.error = moved + finer.missed;
+  trial.reported.moved = moved;
+  trial.reported.error = moved + finer.missed;
   if (finer.missed == 0.0 || trial.missed == 0.0) return;
   const double left = finer.missed / trial.missed;
-  trial.told.error = std::max(trial.told.error, left < 1.0 ? moved / (1.0 - left) : nothing_known);
+  trial.reported.error = std::max(trial.reported.error, left < 1.0 ? moved / (1.0 - left) : nothing_known);
 }
 
 /// Runs trials with increasing numbers of modes, until the first one that is accurate enough.
@@ -368,19 +370,19 @@ class Search {
         continue;
       }
       failures_ = 0;
-      now.told = {cutoff_.omega, static_cast<int>(cutoff_.kept), now.missed, 0.0, now.missed};
+      now.reported = {cutoff_.omega, static_cast<int>(cutoff_.kept), now.missed, 0.0, now.missed};
       trials_.push_back(std::move(now));
       if (trials_.size() > 1 && needed) judge(trials_[trials_.size() - 2], trials_.back(), scene_.run.t_end);
       for (std::size_t i = 0; i + 1 < trials_.size() && needed; ++i)
-        if (trials_[i].told.error <= *spec.tolerance) return found(i);
+        if (trials_[i].reported.error <= *spec.tolerance) return found(i);
       if (cutoff_.kept == all) return found(trials_.size() - 1);
     }
   }
 
  private:
   /// Where modes are only counted, from the lowest frequency that the structure has on its contacts.
-  [[nodiscard]] Structure::Cutoff first() const {
-    const bool known = structure_.all() <= all_modes_up_to;
+  [[nodiscard]] SystemMatrices::Cutoff first() const {
+    const bool known = structure_.all() <= reduce::all_modes_up_to;
     const double lowest = structure_.model.omega1 > 0.0 ? structure_.model.omega1 : 1.0 / scene_.run.t_end;
     return structure_.cutoff_above(known ? 0.0 : lowest, structure_.free() + fewest_modes);
   }
@@ -394,10 +396,10 @@ class Search {
         return trial(scene_, structure_, cutoff_, go_on_);
       } catch (const SceneError& e) {
         failed.failure = e.what();
-      } catch (const NotReducible& e) {
+      } catch (const reduce::NotReducible& e) {
         failed.failure = e.what();
       }
-      if (structure_.all() <= all_modes_up_to || cutoff_.kept == structure_.all()) break;
+      if (structure_.all() <= reduce::all_modes_up_to || cutoff_.kept == structure_.all()) break;
       cutoff_ = structure_.cutoff_above(move_by * cutoff_.omega, cutoff_.kept);
     }
     return failed;
@@ -409,15 +411,15 @@ class Search {
     return trials_.back().missed * before;
   }
 
-  [[nodiscard]] Structure::Cutoff next() const {
+  [[nodiscard]] SystemMatrices::Cutoff next() const {
     if (trials_.empty()) return structure_.cutoff_above(least_growth * cutoff_.omega, cutoff_.kept + 1);
     double order = usual_order;
     const Trial& last = trials_.back();
     if (trials_.size() > 1 && last.missed > 0.0) {
       const Trial& before = trials_[trials_.size() - 2];
-      order = std::clamp(
-          std::log(before.missed / last.missed) / std::log(last.told.cutoff_omega / before.told.cutoff_omega),
-          1.0, 6.0);
+      order = std::clamp(std::log(before.missed / last.missed) /
+                             std::log(last.reported.cutoff_omega / before.reported.cutoff_omega),
+                         1.0, 6.0);
     }
     const double growth = std::clamp(1.1 * std::pow(estimated() / *scene_.reduction->tolerance, 1.0 / order),
                                      least_growth, most_growth);
@@ -428,16 +430,16 @@ class Search {
   Scene found(std::size_t i) {
     ReductionSpec& spec = *scene_.reduction;
     for (std::size_t j = 0; j < trials_.size(); ++j)
-      if (j != i) spec.tried.push_back(trials_[j].told);
-    spec.tried.push_back(trials_[i].told);
-    spec.cutoff_omega = trials_[i].told.cutoff_omega;
+      if (j != i) spec.tried.push_back(trials_[j].reported);
+    spec.tried.push_back(trials_[i].reported);
+    spec.cutoff_omega = trials_[i].reported.cutoff_omega;
     return std::move(scene_);
   }
 
   Scene scene_;
   const std::function<bool()>& go_on_;
-  const Structure structure_;
-  Structure::Cutoff cutoff_;
+  const SystemMatrices structure_;
+  SystemMatrices::Cutoff cutoff_;
   int failures_ = 0;  // since the last trial that ran
   std::vector<Trial> trials_;
 };
@@ -455,4 +457,4 @@ Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found) {
   return find_cutoff(std::move(scene));
 }
 
-}  // namespace signorini
+}  // namespace signorini::reduction

@@ -18,7 +18,7 @@
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::reduction {
 
 // Dynamic contribution of the modes that a reduction leaves out.
 //
@@ -29,20 +29,20 @@ namespace signorini {
 // contacts on their forces is neglected.
 
 /// A place at which displacements are evaluated.
-struct AskedPlace {
+struct RequestedPlace {
   std::string name;  ///< "normal of contact 'first'", "A.ux"
   Vector form;       ///< on displacements of the structure; the motion of supports is left aside
 };
 
 /// Contacts along normal and tangent, and named nodes; rotations left aside. The model: build_structure's.
-[[nodiscard]] std::vector<AskedPlace> asked_places(const Model& full);
+[[nodiscard]] std::vector<RequestedPlace> requested_places(const Model& full);
 
-class LeftOut {
+class TruncationError {
  public:
   /// full: build_structure's, must outlive it; `square`, `shapes`: its modes, ascending; `kept`: how many of
   /// them the reduction keeps. Or, with 0, what stands for those left out (excited_modes.hpp).
-  LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes, Eigen::Index kept,
-          double step);
+  TruncationError(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes,
+                  Eigen::Index kept, double step);
 
   [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
   /// Forces of contacts, in the order of the model's layout, at times 0, step, 2 step, ...
@@ -76,4 +76,4 @@ class LeftOut {
 /// search is done once.
 [[nodiscard]] Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found);
 
-}  // namespace signorini
+}  // namespace signorini::reduction

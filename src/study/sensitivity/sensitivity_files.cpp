@@ -14,13 +14,13 @@
 #include "result/table.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity_study {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::optional<double> known(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
-Json json_number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+base::Json json_number(double x) { return std::isfinite(x) ? base::Json(x) : base::Json(nullptr); }
 
 /// Row of a figure for one key.
 template <class Figure>
@@ -40,11 +40,11 @@ std::vector<KeyRow<Figure>> rows_of(const std::vector<Figure>& figures, const Se
 /// Text of sensitivities.csv.
 std::string event_text(const Sensitivities& s) {
   using R = KeyRow<Event>;
-  CsvTable<R> table = {{"event_index", [](const R& r) { return std::to_string(r.index + 1); }},
-                       {"t", [](const R& r) { return r.figure.t; }},
-                       {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
-                       {"event", [](const R& r) { return to_string(r.figure.type); }},
-                       {"parameter", [&s](const R& r) { return s.parameters[r.key].path; }}};
+  result::CsvTable<R> table = {{"event_index", [](const R& r) { return std::to_string(r.index + 1); }},
+                               {"t", [](const R& r) { return r.figure.t; }},
+                               {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
+                               {"event", [](const R& r) { return to_string(r.figure.type); }},
+                               {"parameter", [&s](const R& r) { return s.parameters[r.key].path; }}};
   for (const EventRateColumn& column : event_rate_columns)
     table.add(column.name,
               [&s, &column](const R& r) { return known(s.event_rates[r.index][r.key].*column.value); });
@@ -57,7 +57,7 @@ std::string event_text(const Sensitivities& s) {
 /// Text of figures.csv.
 std::string figure_text(const Sensitivities& s) {
   using R = KeyRow<Response>;
-  const CsvTable<R> table = {
+  const result::CsvTable<R> table = {
       {"figure", [](const R& r) { return r.figure.name; }},
       {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
       {"value", [](const R& r) { return r.figure.value; }},
@@ -77,7 +77,7 @@ std::string landing_text(const Sensitivities& s) {
   std::vector<int> numbers;  // number of each landing at its contact, from 1
   for (std::size_t i = 0; i < s.landings.size(); ++i)
     numbers.push_back(i > 0 && s.landings[i - 1].contact == s.landings[i].contact ? numbers.back() + 1 : 1);
-  const CsvTable<R> table = {
+  const result::CsvTable<R> table = {
       {"contact", [&s](const R& r) { return s.contacts[static_cast<std::size_t>(r.figure.contact)]; }},
       {"landing", [&numbers](const R& r) { return numbers[r.index]; }},
       {"start", [](const R& r) { return r.figure.value.start; }},
@@ -96,19 +96,20 @@ const char* kind_of(const Swap& swap) { return swap.vanish ? "vanish" : "swap"; 
 
 /// Text of sequence.csv.
 std::string sequence_text(const Sensitivities& s) {
-  const CsvTable<Swap> table = {{"parameter", [&s](const Swap& w) { return s.parameters[w.parameter].path; }},
-                                {"value", [&s](const Swap& w) { return s.parameters[w.parameter].value; }},
-                                {"change", &Swap::change},
-                                {"kind", kind_of},
-                                {"first", [](const Swap& w) { return w.first + 1; }},
-                                {"second", [](const Swap& w) { return w.second + 1; }},
-                                {"t", [&s](const Swap& w) { return s.events[w.first].t; }}};
+  const result::CsvTable<Swap> table = {
+      {"parameter", [&s](const Swap& w) { return s.parameters[w.parameter].path; }},
+      {"value", [&s](const Swap& w) { return s.parameters[w.parameter].value; }},
+      {"change", &Swap::change},
+      {"kind", kind_of},
+      {"first", [](const Swap& w) { return w.first + 1; }},
+      {"second", [](const Swap& w) { return w.second + 1; }},
+      {"t", [&s](const Swap& w) { return s.events[w.first].t; }}};
   return table.text(least_swaps(s));
 }
 
 /// Derivatives of history's columns by the p-th key.
 std::string column_text(const Sensitivities& s, std::size_t p) {
-  CsvTable<std::size_t> table = {{"t", [&s](std::size_t i) { return s.times[i]; }}};
+  result::CsvTable<std::size_t> table = {{"t", [&s](std::size_t i) { return s.times[i]; }}};
   for (std::size_t j = 0; j < s.columns.size(); ++j)
     table.add(s.columns[j], [&s, p, j](std::size_t i) { return known(s.value_rates[p][i][j]); });
   std::vector<std::size_t> rows(s.times.size());
@@ -124,10 +125,10 @@ struct SpreadRow {
 
 /// Text of spread.csv.
 std::string spread_text(const Sensitivities& s, const Spread& spread) {
-  const CsvTable<SpreadRow> table = {{"what", &SpreadRow::what},
-                                     {"contact", &SpreadRow::contact},
-                                     {"value", &SpreadRow::value},
-                                     {"sigma", [](const SpreadRow& r) { return known(r.sigma); }}};
+  const result::CsvTable<SpreadRow> table = {{"what", &SpreadRow::what},
+                                             {"contact", &SpreadRow::contact},
+                                             {"value", &SpreadRow::value},
+                                             {"sigma", [](const SpreadRow& r) { return known(r.sigma); }}};
   std::vector<SpreadRow> rows;
   for (std::size_t i = 0; i < s.events.size(); ++i)
     rows.push_back(
@@ -159,7 +160,7 @@ std::string contact_of(const Sensitivities& s, const Response& figure) {
 }
 
 std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
-  Json json = {{"title", s.title}, {"units", units_json(s.units)}, {"events", s.events.size()}};
+  base::Json json = {{"title", s.title}, {"units", result::units_json(s.units)}, {"events", s.events.size()}};
   json["outcome"] = s.report.outcome.reason.empty() ? "done" : s.report.outcome.reason;
   const Method& method = s.report.method;
   json["settings"] = {{"engine", to_string(method.engine)}, {"engine_reason", method.engine_reason()}};
@@ -173,16 +174,16 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
                        {"taken", s.stretches.taken},
                        {"correction", s.stretches.correction}};
   json["wall_time"] = s.report.wall_time;
-  json["parameters"] = Json::array();
+  json["parameters"] = base::Json::array();
   const std::vector<Swap> swaps = least_swaps(s);
   std::optional<Spread> spreads;
   if (!sigmas.empty()) spreads = spread(s, sigmas);
   for (std::size_t p = 0; p < s.parameters.size(); ++p) {
     const Parameter& parameter = s.parameters[p];
-    Json row = {{"path", parameter.path}, {"value", parameter.value}, {"step", parameter.step}};
+    base::Json row = {{"path", parameter.path}, {"value", parameter.value}, {"step", parameter.step}};
     row["until"] = json_number(parameter.until);
     row["reason"] = parameter.reason;
-    row["sequence_changes"] = Json::array();
+    row["sequence_changes"] = base::Json::array();
     for (const Swap& swap : swaps)
       if (swap.parameter == p)
         row["sequence_changes"].push_back({{"change", swap.change},
@@ -195,46 +196,46 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
     json["parameters"].push_back(std::move(row));
   }
   json["warnings"] = s.report.warnings;
-  return json_text(json);
+  return base::json_text(json);
 }
 
 void write_sensitivities(const fs::path& directory, const Sensitivities& s, const Sigmas& sigmas) {
-  write_file(directory / "sensitivities.csv", event_text(s));
-  write_file(directory / "figures.csv", figure_text(s));
-  write_file(directory / "sequence.csv", sequence_text(s));
-  if (!s.landings.empty()) write_file(directory / "landings.csv", landing_text(s));
+  result::write_file(directory / "sensitivities.csv", event_text(s));
+  result::write_file(directory / "figures.csv", figure_text(s));
+  result::write_file(directory / "sequence.csv", sequence_text(s));
+  if (!s.landings.empty()) result::write_file(directory / "landings.csv", landing_text(s));
   for (std::size_t p = 0; p < s.parameters.size(); ++p)
-    write_file(directory / fmt::format("columns-{}.csv", p + 1), column_text(s, p));
-  if (!sigmas.empty()) write_file(directory / "spread.csv", spread_text(s, spread(s, sigmas)));
+    result::write_file(directory / fmt::format("columns-{}.csv", p + 1), column_text(s, p));
+  if (!sigmas.empty()) result::write_file(directory / "spread.csv", spread_text(s, spread(s, sigmas)));
 }
 
 namespace {
 
-Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+base::Json number_or_null(double x) { return std::isfinite(x) ? base::Json(x) : base::Json(); }
 
 }  // namespace
 
 std::string fit_json(const Fit& fit, const Measurements& measured) {
-  Json json = {{"converged", fit.converged},   {"reason", fit.reason},
-               {"iterations", fit.iterations}, {"runs", fit.runs},
-               {"rows", measured.rows.size()}, {"chi_squared", fit.chi_squared}};
+  base::Json json = {{"converged", fit.converged},   {"reason", fit.reason},
+                     {"iterations", fit.iterations}, {"runs", fit.runs},
+                     {"rows", measured.rows.size()}, {"chi_squared", fit.chi_squared}};
   json["sigma_given"] = measured.has_sigma;
   json["freedom"] = fit.freedom;
   json["probability"] = number_or_null(fit.probability);
   json["doubts"] = fit.doubts;
-  json["keys"] = Json::array();
+  json["keys"] = base::Json::array();
   for (const FittedKey& key : fit.keys)
     json["keys"].push_back({{"path", key.path},
                             {"start", key.start},
                             {"value", number_or_null(key.value)},
                             {"sigma", number_or_null(key.sigma)}});
-  json["covariance"] = Json::array();
+  json["covariance"] = base::Json::array();
   for (const std::vector<double>& row : fit.covariance) {
-    Json numbers = Json::array();
+    base::Json numbers = base::Json::array();
     for (const double x : row) numbers.push_back(number_or_null(x));
     json["covariance"].push_back(numbers);
   }
-  return json_text(json);
+  return base::json_text(json);
 }
 
 void write_fit(const std::filesystem::path& directory, const Fit& fit, const Measurements& measured) {
@@ -242,7 +243,7 @@ void write_fit(const std::filesystem::path& directory, const Fit& fit, const Mea
   const auto given = [&](std::size_t i, double value) {
     return of_event(i) ? std::nullopt : std::optional(value);
   };
-  const CsvTable<std::size_t> table = {
+  const result::CsvTable<std::size_t> table = {
       {"row", [](std::size_t i) { return std::to_string(i + 1); }},
       {"event_index",
        [&](std::size_t i) { return of_event(i) ? std::to_string(measured.rows[i].event) : std::string(); }},
@@ -258,8 +259,8 @@ void write_fit(const std::filesystem::path& directory, const Fit& fit, const Mea
        }}};
   std::vector<std::size_t> rows(measured.rows.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  write_file(directory / "residuals.csv", table.text(rows));
-  write_file(directory / "fit.json", fit_json(fit, measured));
+  result::write_file(directory / "residuals.csv", table.text(rows));
+  result::write_file(directory / "fit.json", fit_json(fit, measured));
 }
 
 // read_sensitivities(): reads the data for pictures.
@@ -268,7 +269,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-double rate_in(const CsvReader& reader, std::size_t column) {
+double rate_in(const result::CsvReader& reader, std::size_t column) {
   return reader.cell(column).empty() ? EventRates::none : reader.number(column);
 }
 
@@ -283,18 +284,18 @@ int contact_numbered(Sensitivities& s, const std::string& name) {
 void read_parameters(const fs::path& file, Sensitivities& s, Sigmas& sigmas) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file.string(), "cannot be read" + because(errno));
+  if (!stream) throw FileError(file.string(), "cannot be read" + base::because(errno));
   try {
-    const Json json = parse_json(stream);
+    const base::Json json = base::parse_json(stream);
     s.title = json.at("title");
-    s.units = units_from(json.at("units"));
-    for (const Json& row : json.at("parameters")) {
+    s.units = result::units_from(json.at("units"));
+    for (const base::Json& row : json.at("parameters")) {
       Parameter& parameter = s.parameters.emplace_back();
       parameter.path = row.at("path");
       parameter.value = row.at("value");
       if (row.contains("sigma")) sigmas.push_back(row.at("sigma"));
     }
-  } catch (const Json::exception& error) {
+  } catch (const base::Json::exception& error) {
     throw FileError(file.string(), std::string("is not of sensitivities: ") + error.what());
   }
   if (s.parameters.empty() || (!sigmas.empty() && sigmas.size() != s.parameters.size()))
@@ -308,7 +309,7 @@ Sensitivities read_sensitivities(const fs::path& directory, Sigmas& sigmas) {
   sigmas.clear();
   read_parameters(directory / "sensitivity.json", s, sigmas);
   const std::size_t parameters = s.parameters.size();
-  CsvReader figures(directory / "figures.csv");
+  result::CsvReader figures(directory / "figures.csv");
   for (std::size_t row = 0; figures.next(); ++row) {
     if (row % parameters == 0) {
       Response& figure = s.responses.emplace_back();
@@ -319,7 +320,7 @@ Sensitivities read_sensitivities(const fs::path& directory, Sigmas& sigmas) {
     }
     s.responses.back().rates[row % parameters] = rate_in(figures, figures.column("dvalue_dp"));
   }
-  CsvReader events(directory / "sensitivities.csv");
+  result::CsvReader events(directory / "sensitivities.csv");
   for (std::size_t row = 0; events.next(); ++row) {
     if (row % parameters == 0) {
       Event& event = s.events.emplace_back();
@@ -358,4 +359,4 @@ Spread spread(const Sensitivities& s, const Sigmas& sigmas) {
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity_study

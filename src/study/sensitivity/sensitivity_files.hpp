@@ -18,7 +18,7 @@
 #include "signorini/fit.hpp"
 #include "signorini/sensitivity.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity_study {
 
 // Standard deviations of event times and figures from those of keys, to first order.
 //
@@ -67,4 +67,4 @@ void write_sensitivities(const std::filesystem::path& directory, const Sensitivi
 /// Writes both files. Errors: FileError.
 void write_fit(const std::filesystem::path& directory, const Fit& fit, const Measurements& measured);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity_study

@@ -12,7 +12,7 @@
 #include "study/figures.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity_study {
 
 namespace fs = std::filesystem;
 
@@ -31,7 +31,7 @@ constexpr const char* falling = "#c0182b";
 bool is_picture_of_sensitivities(const fs::path& file) {
   const std::string stem = file.stem().string();
   const bool named = stem == "tornado" || stem == "sequence" || stem.starts_with("times-");
-  return (is_picture(file) && named) ||
+  return (result::is_picture(file) && named) ||
          (file.extension() == ".csv" && (named || stem.starts_with("tornado-")));
 }
 
@@ -63,7 +63,7 @@ struct PlacedBar {
 };
 
 /// `length`: name of the column of lengths.
-CsvTable<PlacedBar> bar_table(const char* length) {
+result::CsvTable<PlacedBar> bar_table(const char* length) {
   return {{"place", &PlacedBar::place},
           {length, [](const PlacedBar& b) { return b.bar.length; }},
           {"parameter", [](const PlacedBar& b) { return std::string_view(b.bar.name); }}};
@@ -78,7 +78,7 @@ std::vector<PlacedBar> placed(const std::vector<Bar>& bars) {
 std::string bar_tics(const std::vector<Bar>& bars) {
   std::vector<std::pair<std::string, std::size_t>> names;
   for (const Bar& bar : bars) names.emplace_back(bar.name, names.size() + 1);
-  return named_tics('y', names) +
+  return result::named_tics('y', names) +
          fmt::format("\nset yrange [0.4:{:.1f}]\n", static_cast<double>(bars.size()) + 0.6);
 }
 
@@ -117,19 +117,21 @@ std::string axis_of(const Sensitivities& s, const Response& r, bool sigmas) {
          (sigmas ? "; change [" + unit_of(r, s.units) + "]" : "; change [%]");
 }
 
-void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const PlottedRun& run, PictureFiles& files) {
+void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const result::PlottedRun& run,
+                 result::PictureFiles& files) {
   const std::vector<const Response*> figures = moved_figures(s);
   const double each = 70.0 + 26.0 * static_cast<double>(std::min(s.parameters.size(), most_bars));
-  Picture picture{
-      "tornado",
-      sigmas.empty() ? "What one per cent more of each key does: blue more, red less"
-                     : "What one standard deviation more of each key does: blue more, red less",
-      canvas_of(run.look,
-                room_above + room_below - 64.0 + (each + 64.0) * static_cast<double>(figures.size()), false,
-                true),
-      false,
-      {},
-      64.0};
+  result::Picture picture{"tornado",
+                          sigmas.empty()
+                              ? "What one per cent more of each key does: blue more, red less"
+                              : "What one standard deviation more of each key does: blue more, red less",
+                          result::canvas_of(run.look,
+                                            result::room_above + result::room_below - 64.0 +
+                                                (each + 64.0) * static_cast<double>(figures.size()),
+                                            false, true),
+                          false,
+                          {},
+                          64.0};
   for (const Response* r : figures) {
     std::vector<Bar> bars;
     for (std::size_t p = 0; p < s.parameters.size(); ++p)
@@ -138,14 +140,14 @@ void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const PlottedRun&
         bars.push_back({s.parameters[p].path, x});
     sort_bars(bars);
     const std::string name = fmt::format("tornado-{}", picture.panels.size() + 1);
-    const CsvTable<PlacedBar> table = bar_table("length");
+    const result::CsvTable<PlacedBar> table = bar_table("length");
     files.add_table(name, table.text(placed(bars)));
-    Panel panel{"",
-                {{"'" + name + ".csv' skip 1",
-                  fmt::format("(0.5*{0}):{1}:(0.5*abs({0})):(0.36):({0} < 0 ? 0xc0182b : 0x2166ac)",
-                              table.value("length"), table.number("place")),
-                  "with boxxyerror fillstyle solid 0.75 noborder linecolor rgb variable"}}};
-    panel.axes = wide_margin + ("set xlabel " + quoted(axis_of(s, *r, !sigmas.empty()))) +
+    result::Panel panel{"",
+                        {{"'" + name + ".csv' skip 1",
+                          fmt::format("(0.5*{0}):{1}:(0.5*abs({0})):(0.36):({0} < 0 ? 0xc0182b : 0x2166ac)",
+                                      table.value("length"), table.number("place")),
+                          "with boxxyerror fillstyle solid 0.75 noborder linecolor rgb variable"}}};
+    panel.axes = wide_margin + ("set xlabel " + result::quoted(axis_of(s, *r, !sigmas.empty()))) +
                  "\nset xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\n"
                  "set xrange [*:*]\n" +
                  bar_tics(bars);
@@ -171,12 +173,12 @@ struct Tangent {
   int contact;  ///< from 1; 0: a load
 };
 
-const CsvTable<Tangent>& tangent_table() {
-  static const CsvTable<Tangent> table = {{"p", &Tangent::p},
-                                          {"t", &Tangent::t},
-                                          {"dp", &Tangent::dp},
-                                          {"dt", &Tangent::dt},
-                                          {"contact", &Tangent::contact}};
+const result::CsvTable<Tangent>& tangent_table() {
+  static const result::CsvTable<Tangent> table = {{"p", &Tangent::p},
+                                                  {"t", &Tangent::t},
+                                                  {"dp", &Tangent::dp},
+                                                  {"dt", &Tangent::dt},
+                                                  {"contact", &Tangent::contact}};
   return table;
 }
 
@@ -191,21 +193,22 @@ std::vector<Tangent> tangents_of(const Sensitivities& s, std::size_t p, double s
   return list;
 }
 
-void add_times(const Sensitivities& s, std::size_t p, const PlottedRun& run, PictureFiles& files) {
+void add_times(const Sensitivities& s, std::size_t p, const result::PlottedRun& run,
+               result::PictureFiles& files) {
   const Parameter& parameter = s.parameters[p];
   const double span = span_of(s, p);
   const std::string name = fmt::format("times-{}", p + 1);
-  const CsvTable<Tangent>& table = tangent_table();
+  const result::CsvTable<Tangent>& table = tangent_table();
   files.add_table(name, table.text(tangents_of(s, p, span)));
-  Panel panel{"t [" + s.units.time + "]", {}};
-  panel.axes = "set xlabel " + quoted(key_with_unit(parameter.path, s.units)) + "\n" +
-               range_of('x', parameter.value - span, parameter.value + span) + "set yrange [*:*]\n" +
-               upright(1, parameter.value, "dashtype 3 linecolor '#808080'");
+  result::Panel panel{"t [" + s.units.time + "]", {}};
+  panel.axes = "set xlabel " + result::quoted(study::key_with_unit(parameter.path, s.units)) + "\n" +
+               result::range_of('x', parameter.value - span, parameter.value + span) + "set yrange [*:*]\n" +
+               result::upright(1, parameter.value, "dashtype 3 linecolor '#808080'");
   std::size_t arrow = 2;
   const std::string meets = fmt::format("dashtype 2 linecolor '{}'", falling);
   for (const Swap& swap : least_swaps(s))
     if (swap.parameter == p && std::max(swap.first, swap.second) < first_events)
-      panel.axes += upright(arrow++, parameter.value + swap.change, meets);
+      panel.axes += result::upright(arrow++, parameter.value + swap.change, meets);
   const std::size_t count = std::min<std::size_t>(s.contacts.size(), std::size(contact_colours));
   for (std::size_t c = 0; c <= count; ++c)
     panel.curves.push_back(
@@ -221,12 +224,12 @@ void add_times(const Sensitivities& s, std::size_t p, const PlottedRun& run, Pic
                                  : "events";
   files.add(run, {name,
                   "Times of " + events + " over " + parameter.path + ", to first order",
-                  canvas_of(run.look, 760, false),
+                  result::canvas_of(run.look, 760, false),
                   false,
                   {panel}});
 }
 
-void add_sequence(const Sensitivities& s, const PlottedRun& run, PictureFiles& files) {
+void add_sequence(const Sensitivities& s, const result::PlottedRun& run, result::PictureFiles& files) {
   std::vector<Bar> bars;
   for (const Swap& swap : least_swaps(s)) {
     const Parameter& parameter = s.parameters[swap.parameter];
@@ -237,31 +240,33 @@ void add_sequence(const Sensitivities& s, const PlottedRun& run, PictureFiles& f
   if (bars.empty()) return;
   sort_bars(bars);
   std::reverse(bars.begin(), bars.end());  // the smallest change on top
-  const CsvTable<PlacedBar> table = bar_table("per_cent");
+  const result::CsvTable<PlacedBar> table = bar_table("per_cent");
   files.add_table("sequence", table.text(placed(bars)));
-  const auto points = [&](const char* sign, const char* colour, const char* title) -> Curve {
+  const auto points = [&](const char* sign, const char* colour, const char* title) -> result::Curve {
     return {
         "'sequence.csv' skip 1",
         fmt::format("({0} {1} 0 ? abs({0}) : NaN):{2}", table.value("per_cent"), sign, table.number("place")),
         fmt::format("with points pointtype 7 pointsize 1.4 linecolor '{}'", colour), title};
   };
-  Panel panel{"", {points(">", rising, "upwards"), points("<", falling, "downwards")}};
+  result::Panel panel{"", {points(">", rising, "upwards"), points("<", falling, "downwards")}};
   panel.axes = wide_margin +
                std::string("set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\n") +
                "set xrange [*:*]\n" + bar_tics(bars);
-  const double height = room_above + room_below + 38.0 + 30.0 * static_cast<double>(bars.size());
+  const double height =
+      result::room_above + result::room_below + 38.0 + 30.0 * static_cast<double>(bars.size());
   files.add(run, {"sequence",
                   "Least change of each key at which, to first order, two events meet",
-                  canvas_of(run.look, height, false, true),
+                  result::canvas_of(run.look, height, false, true),
                   false,
                   {panel}});
 }
 
 }  // namespace
 
-PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas, const PictureLook& look) {
-  PictureFiles files(is_picture_of_sensitivities);
-  const PlottedRun run = untold_run(s.title, s.units, look);
+result::PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
+                                          const result::PictureLook& look) {
+  result::PictureFiles files(is_picture_of_sensitivities);
+  const result::PlottedRun run = result::unreported_run(s.title, s.units, look);
   if (s.events.empty() && s.responses.empty()) return files;
   add_tornado(s, sigmas, run, files);
   if (!s.events.empty())
@@ -272,7 +277,7 @@ PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas, 
 }
 
 void remove_sensitivity_plots(const fs::path& directory) {
-  clear_plot_folder(directory / "plots", is_picture_of_sensitivities);
+  result::clear_plot_folder(directory / "plots", is_picture_of_sensitivities);
 }
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity_study

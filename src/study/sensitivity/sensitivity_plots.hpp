@@ -12,13 +12,13 @@
 #include "result/picture_files.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 
-namespace signorini {
+namespace signorini::sensitivity_study {
 
 /// Empty without events and figures.
-[[nodiscard]] PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
-                                                const PictureLook& look = {});
+[[nodiscard]] result::PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
+                                                        const result::PictureLook& look = {});
 
 /// Removes the files of these pictures and scripts from DIR/plots. Errors: FileError.
 void remove_sensitivity_plots(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::sensitivity_study

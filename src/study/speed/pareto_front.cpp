@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace signorini {
+namespace signorini::speed {
 namespace {
 
 /// Ratio of equal times or errors: a gain in time of less than a tenth is the machine's variation.
@@ -16,8 +16,8 @@ double ranked(const WorkRow& row, const std::string& quantity, const ErrorRange&
 
 }  // namespace
 
-std::vector<std::size_t> frontier(const std::vector<WorkRow>& rows, const std::string& quantity,
-                                  const ErrorRange& range) {
+std::vector<std::size_t> pareto_front(const std::vector<WorkRow>& rows, const std::string& quantity,
+                                      const ErrorRange& range) {
   std::vector<std::size_t> list;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const WorkError* error = rows[i].error(quantity);
@@ -37,11 +37,11 @@ std::vector<std::size_t> frontier(const std::vector<WorkRow>& rows, const std::s
   return best;
 }
 
-std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::string& quantity,
-                              const ErrorRange& range) {
+std::string pareto_sentence(const std::vector<WorkRow>& rows, const std::string& quantity,
+                            const ErrorRange& range) {
   std::string what = quantity;
   std::replace(what.begin(), what.end(), '_', ' ');
-  const std::vector<std::size_t> best = frontier(rows, quantity, range);
+  const std::vector<std::size_t> best = pareto_front(rows, quantity, range);
   if (best.empty()) {
     const bool complete =
         std::any_of(rows.begin(), rows.end(), [](const WorkRow& r) { return r.complete(); });
@@ -70,4 +70,4 @@ std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::strin
   return sentence + ".";
 }
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -11,7 +11,7 @@
 
 #include "study/speed/work_run.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 
 /// Range of errors in which runs can be distinguished.
 struct ErrorRange {
@@ -20,12 +20,13 @@ struct ErrorRange {
 };
 
 /// Errors decrease, times increase from entry to entry. Indices into `rows`.
-[[nodiscard]] std::vector<std::size_t> frontier(const std::vector<WorkRow>& rows, const std::string& quantity,
-                                                const ErrorRange& range = {});
+[[nodiscard]] std::vector<std::size_t> pareto_front(const std::vector<WorkRow>& rows,
+                                                    const std::string& quantity,
+                                                    const ErrorRange& range = {});
 
 /// One sentence: "For errors of event time down to 3e-05 s newmark is cheapest (dt=1e-04: 0.02 s), ..."; also if no run
 /// is complete, or none was timed.
-[[nodiscard]] std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::string& quantity,
-                                            const ErrorRange& range = {});
+[[nodiscard]] std::string pareto_sentence(const std::vector<WorkRow>& rows, const std::string& quantity,
+                                          const ErrorRange& range = {});
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -17,7 +17,7 @@
 #include "study/figures.hpp"
 #include "study/speed/pareto_front.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 namespace {
 
 /// Quantities in tables for readers; files have all quantities.
@@ -79,21 +79,22 @@ std::string study_csv(const WorkReport& report) {
       return error ? std::optional(error->*value) : std::nullopt;
     };
   };
-  CsvTable<R> table = {{"run", [](const R& r) { return r.point.name(); }},
-                       {"engine", [](const R& r) { return r.point.engine; }},
-                       {"setting", [](const R& r) { return r.point.setting(); }},
-                       {"line", [](const R& r) { return r.point.line(); }},
-                       {"reference", [](const R& r) { return r.reference ? "true" : "false"; }},
-                       {"outcome", &R::outcome},
-                       {"reason", &R::reason},
-                       {"t", &R::t},
-                       {"events", &R::events},
-                       {"events_of_reference", &R::events_of_reference},
-                       {"alike", [](const R& r) { return r.t ? std::optional(r.alike) : std::nullopt; }},
-                       {"complete", [](const R& r) { return r.complete() ? "true" : "false"; }},
-                       {"t_split", &R::t_split},
-                       {"split", &R::split}};
-  std::vector<std::string> names = quantity_names();
+  result::CsvTable<R> table = {
+      {"run", [](const R& r) { return r.point.name(); }},
+      {"engine", [](const R& r) { return r.point.engine; }},
+      {"setting", [](const R& r) { return r.point.setting(); }},
+      {"line", [](const R& r) { return r.point.line(); }},
+      {"reference", [](const R& r) { return r.reference ? "true" : "false"; }},
+      {"outcome", &R::outcome},
+      {"reason", &R::reason},
+      {"t", &R::t},
+      {"events", &R::events},
+      {"events_of_reference", &R::events_of_reference},
+      {"alike", [](const R& r) { return r.t ? std::optional(r.alike) : std::nullopt; }},
+      {"complete", [](const R& r) { return r.complete() ? "true" : "false"; }},
+      {"t_split", &R::t_split},
+      {"split", &R::split}};
+  std::vector<std::string> names = compare::quantity_names();
   for (std::string& name : response_names(report)) names.push_back(std::move(name));
   for (const std::string& name : names) table.add(name, error_of(name, &WorkError::value));
   table.add("displacement_whole_run", error_of("displacement", &WorkError::whole));
@@ -111,33 +112,33 @@ std::string study_csv(const WorkReport& report) {
   return table.text(report.rows);
 }
 
-Json row_json(const WorkRow& row) {
-  Json errors = Json::object();
+base::Json row_json(const WorkRow& row) {
+  base::Json errors = base::Json::object();
   for (const WorkError& error : row.errors)
     errors[error.quantity] = {{"value", error.value},
                               {"unit", error.unit},
                               {"t", error.t},
                               {"where", error.where},
                               {"whole_run", error.whole}};
-  Json json = {{"run", row.point.name()},
-               {"engine", row.point.engine},
-               {"setting", row.point.setting()},
-               {"directory", row.directory.string()},
-               {"outcome", row.outcome},
-               {"reason", row.reason},
-               {"t", json_of(row.t)},
-               {"reference", row.reference},
-               {"events", json_of(row.events)},
-               {"alike", row.alike},
-               {"complete", row.complete()}};
-  json["split"] = row.t_split ? Json{{"t", *row.t_split}, {"how", row.split}} : Json();
+  base::Json json = {{"run", row.point.name()},
+                     {"engine", row.point.engine},
+                     {"setting", row.point.setting()},
+                     {"directory", row.directory.string()},
+                     {"outcome", row.outcome},
+                     {"reason", row.reason},
+                     {"t", study::json_of(row.t)},
+                     {"reference", row.reference},
+                     {"events", study::json_of(row.events)},
+                     {"alike", row.alike},
+                     {"complete", row.complete()}};
+  json["split"] = row.t_split ? base::Json{{"t", *row.t_split}, {"how", row.split}} : base::Json();
   json["errors"] = std::move(errors);
   json["wall_times"] = row.wall_times;
-  json["steps"] = json_of(row.steps);
-  json["factorisations"] = json_of(row.factorisations);
-  json["solves"] = json_of(row.solves);
-  json["restarts"] = json_of(row.restarts);
-  json["energy_balance"] = json_of(row.balance);
+  json["steps"] = study::json_of(row.steps);
+  json["factorisations"] = study::json_of(row.factorisations);
+  json["solves"] = study::json_of(row.solves);
+  json["restarts"] = study::json_of(row.restarts);
+  json["energy_balance"] = study::json_of(row.balance);
   return json;
 }
 
@@ -204,7 +205,7 @@ std::vector<std::string> work_conclusions(const WorkReport& report) {
   std::vector<std::string> list;
   for (const char* name : {"event_time", "displacement"})
     if (!unit_of(report, name).empty())
-      list.push_back(frontier_sentence(report.rows, name, range_of(report, name)));
+      list.push_back(pareto_sentence(report.rows, name, range_of(report, name)));
   return list;
 }
 
@@ -229,9 +230,9 @@ std::vector<std::string> work_failures(const WorkReport& report) {
 
 std::string work_circumstances(const WorkReport& report) {
   return fmt::format("{}, {}; {}, {}; Signorini {}, SUNDIALS {}, {}; least of {} without output",
-                     count_of(report.unknowns, "dof"), count_of(report.contacts, "contact"),
-                     report.machine.processor, count_of(report.machine.cores, "core"), version,
-                     sundials_version, report.machine.compiler, count_of(report.repeats, "repeat"));
+                     base::count_of(report.unknowns, "dof"), base::count_of(report.contacts, "contact"),
+                     report.machine.processor, base::count_of(report.machine.cores, "core"), version,
+                     sundials_version, report.machine.compiler, base::count_of(report.repeats, "repeat"));
 }
 
 std::string work_reference(const WorkReport& report) {
@@ -243,10 +244,10 @@ std::string work_reference(const WorkReport& report) {
 }
 
 std::string work_json(const WorkReport& report) {
-  Json json = {
+  base::Json json = {
       {"scene", report.scene},
       {"title", report.title},
-      {"units", units_json(report.units)},
+      {"units", result::units_json(report.units)},
       {"t_end", report.t_end},
       {"degrees_of_freedom", report.unknowns},
       {"contacts", report.contacts},
@@ -257,26 +258,27 @@ std::string work_json(const WorkReport& report) {
       {"compared_until", report.compared_until},
       {"interrupted", report.interrupted},
       {"notes", report.notes}};
-  json["known_to"] = Json::object();
+  json["known_to"] = base::Json::object();
   for (const auto& [name, range] : report.range) json["known_to"][name] = range.floor;
-  json["rows"] = Json::array();
+  json["rows"] = base::Json::array();
   for (const WorkRow& row : report.rows) json["rows"].push_back(row_json(row));
-  json["frontier"] = Json::object();
+  json["frontier"] = base::Json::object();
   for (const std::string& name : shown_quantities(report)) {
-    Json names = Json::array();
-    for (const std::size_t i : frontier(report.rows, name, range_of(report, name)))
+    base::Json names = base::Json::array();
+    for (const std::size_t i : pareto_front(report.rows, name, range_of(report, name)))
       names.push_back(report.rows[i].point.name());
     json["frontier"][name] = std::move(names);
   }
   json["conclusions"] = work_conclusions(report);
-  return json_text(json);
+  return base::json_text(json);
 }
 
 void write_work(const std::filesystem::path& directory, const WorkReport& report) {
-  write_file(directory / "study.csv", study_csv(report));
-  write_file(directory / "study.json", work_json(report));
-  write_file(directory / "study.md",
-             study_markdown(report, std::filesystem::exists(directory / "plots" / "work-precision.png")));
+  result::write_file(directory / "study.csv", study_csv(report));
+  result::write_file(directory / "study.json", work_json(report));
+  result::write_file(
+      directory / "study.md",
+      study_markdown(report, std::filesystem::exists(directory / "plots" / "work-precision.png")));
 }
 
 namespace fs = std::filesystem;
@@ -309,12 +311,12 @@ std::vector<Line> lines_of(const WorkReport& report) {
 }
 
 /// Columns of line-N.csv.
-const CsvTable<const WorkRow*>& line_table() {
+const result::CsvTable<const WorkRow*>& line_table() {
   using R = const WorkRow*;
-  static const CsvTable<R> table = [] {
-    CsvTable<R> t = {{"setting", [](R row) { return row->point.setting(); }},
-                     {"complete", [](R row) { return row->complete() ? 1.0 : 0.0; }},
-                     {"wall_time", [](R row) { return row->wall_time(); }}};
+  static const result::CsvTable<R> table = [] {
+    result::CsvTable<R> t = {{"setting", [](R row) { return row->point.setting(); }},
+                             {"complete", [](R row) { return row->complete() ? 1.0 : 0.0; }},
+                             {"wall_time", [](R row) { return row->wall_time(); }}};
     for (const char* name : drawn)
       t.add(name, [name](R row) {
         const WorkError* error = row->error(name);
@@ -348,15 +350,15 @@ std::optional<Axis> axis_of(const std::vector<Line>& lines, const std::string& q
   return Axis{"error of " + name + " [" + unit + "]", std::pow(10.0, std::floor(std::log10(least)))};
 }
 
-Panel panel_of(std::size_t quantity, const Axis& axis, const std::vector<Line>& lines) {
-  const CsvTable<const WorkRow*>& table = line_table();
-  Panel panel{"wall time [s]", {}};
+result::Panel panel_of(std::size_t quantity, const Axis& axis, const std::vector<Line>& lines) {
+  const result::CsvTable<const WorkRow*>& table = line_table();
+  result::Panel panel{"wall time [s]", {}};
   panel.axes =
-      "set format y '%.0e'\nset format x '%.0e'\nset xlabel " + quoted(axis.label) +
+      "set format y '%.0e'\nset format x '%.0e'\nset xlabel " + result::quoted(axis.label) +
       "\nset yrange [*:*]\nset xrange [*:*]\nset offsets graph 0.02,graph 0.02,graph 0.06,graph 0.06\n";
   panel.own_axis = true;
   const std::string x = fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN",
-                                    table.number(drawn[quantity]), shortest(axis.floor));
+                                    table.number(drawn[quantity]), base::shortest(axis.floor));
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::string data = fmt::format("'line-{}.csv' skip 1", k + 1);
     const auto where = [&](int complete) {
@@ -378,7 +380,7 @@ Panel panel_of(std::size_t quantity, const Axis& axis, const std::vector<Line>& 
 
 bool is_picture_of_work(const fs::path& file) {
   const std::string stem = file.stem().string();
-  return (is_picture(file) && stem == "work-precision") ||
+  return (result::is_picture(file) && stem == "work-precision") ||
          (file.extension() == ".csv" && stem.starts_with("line-") && stem.size() > 5 &&
           stem.find_first_not_of("0123456789", 5) == std::string::npos);
 }
@@ -387,31 +389,32 @@ bool is_picture_of_work(const fs::path& file) {
 
 std::vector<fs::path> write_work_plots(const fs::path& directory, const WorkReport& report) {
   const std::vector<Line> lines = lines_of(report);
-  PictureFiles files(is_picture_of_work);
-  PlottedRun run = untold_run(report.title.empty() ? report.scene : report.title, report.units);
+  result::PictureFiles files(is_picture_of_work);
+  result::PlottedRun run =
+      result::unreported_run(report.title.empty() ? report.scene : report.title, report.units);
   std::vector<std::string> labels;
   for (const Line& line : lines) {
     labels.push_back(line.label);
     files.add_table(fmt::format("line-{}", labels.size()), line_table().text(line.rows));
   }
-  run.legend = room_for(labels);
-  Picture picture{"work-precision",
-                  "Time of a run over its error, reference " + report.reference +
-                      "; hollow: not all events, or not to the end",
-                  {},
-                  false};
+  run.legend = result::room_for(labels);
+  result::Picture picture{"work-precision",
+                          "Time of a run over its error, reference " + report.reference +
+                              "; hollow: not all events, or not to the end",
+                          {},
+                          false};
   picture.space = 80.0;
   picture.setup = "set logscale xy\n";
   for (std::size_t i = 0; i < drawn.size(); ++i)
     if (const auto axis = axis_of(lines, drawn[i])) picture.panels.push_back(panel_of(i, *axis, lines));
   picture.canvas =
-      canvas_of(run.look, 90.0 + panel_height * static_cast<double>(picture.panels.size()), false);
+      result::canvas_of(run.look, 90.0 + panel_height * static_cast<double>(picture.panels.size()), false);
   files.add(run, picture);
   return files.write(directory);
 }
 
 void remove_work_plots(const fs::path& directory) {
-  clear_plot_folder(directory / "plots", is_picture_of_work);
+  result::clear_plot_folder(directory / "plots", is_picture_of_work);
 }
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -11,7 +11,7 @@
 
 #include "study/speed/work_study.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 
 /// The table for readers: cells as text.
 struct WorkTable {
@@ -50,4 +50,4 @@ void write_work(const std::filesystem::path& directory, const WorkReport& report
 /// Removes the files of write_work_plots() and of its scripts. Errors: FileError.
 void remove_work_plots(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -7,7 +7,7 @@
 #include "base/text.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 namespace {
 
 constexpr double most_values = 100;
@@ -24,7 +24,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 double positive(const std::string& option, const std::string& text) {
-  const std::optional<double> number = parse_number(text);
+  const std::optional<double> number = base::parse_number(text);
   if (!number || !std::isfinite(*number) || !(*number > 0.0))
     throw UsageError(fmt::format("{}: found \"{}\", expected a number > 0", option, text));
   return *number;
@@ -32,7 +32,7 @@ double positive(const std::string& option, const std::string& text) {
 
 }  // namespace
 
-double tidy(double value) { return *parse_number(fmt::format("{:.12g}", value)); }
+double tidy(double value) { return *base::parse_number(fmt::format("{:.12g}", value)); }
 
 std::vector<double> parse_decades(const std::string& option, const std::string& text) {
   const std::string given = option + " " + text;
@@ -58,7 +58,7 @@ std::vector<double> parse_decades(const std::string& option, const std::string& 
   }
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::count(values.begin(), values.end(), values[i]) > 1)
-      throw UsageError(fmt::format("{}: {} stands twice", given, shortest(values[i])));
+      throw UsageError(fmt::format("{}: {} stands twice", given, base::shortest(values[i])));
   return values;
 }
 
@@ -79,12 +79,12 @@ std::string joined(const std::string& a, const std::string& b) {
 
 std::string accuracy_key(const std::string& engine) {
   const std::optional<Engine> known = engine_called(engine);
-  return known ? std::string(accuracy_key(name_of(*known).accuracy)) : "";
+  return known ? std::string(signorini::accuracy_key(name_of(*known).accuracy)) : "";
 }
 
 std::string WorkPoint::setting() const {
   const std::string key = accuracy_key(engine);
-  const std::string own = accuracy ? key.substr(key.find('.') + 1) + "=" + shortest(*accuracy) : "";
+  const std::string own = accuracy ? key.substr(key.find('.') + 1) + "=" + base::shortest(*accuracy) : "";
   return joined(own, text_of_varied(*this));
 }
 
@@ -101,7 +101,7 @@ std::string WorkPoint::label() const {
 
 std::vector<Override> WorkPoint::changes() const {
   std::vector<Override> list = {{"run.engine", engine}};
-  if (accuracy) list.push_back({accuracy_key(engine), shortest(*accuracy)});
+  if (accuracy) list.push_back({accuracy_key(engine), base::shortest(*accuracy)});
   list.insert(list.end(), varied.begin(), varied.end());
   return list;
 }
@@ -112,7 +112,7 @@ std::vector<WorkPoint> work_points(const WorkRanges& ranges) {
     const std::string key = accuracy_key(engine);
     for (const auto& varied : ranges.varied) {
       if (key.empty()) points.push_back({engine, std::nullopt, varied});
-      for (const double value : key == accuracy_key(Accuracy::step) ? ranges.dt : ranges.rtol)
+      for (const double value : key == signorini::accuracy_key(Accuracy::step) ? ranges.dt : ranges.rtol)
         if (!key.empty()) points.push_back({engine, value, varied});
     }
   }
@@ -121,7 +121,7 @@ std::vector<WorkPoint> work_points(const WorkRanges& ranges) {
 
 std::vector<double> usual_steps(double t_end) {
   const double first = std::pow(10.0, std::floor(std::log10(t_end / 50.0) + 1e-9));
-  return parse_decades("--dt", shortest(first) + ":" + shortest(first * 1e-4));
+  return parse_decades("--dt", base::shortest(first) + ":" + base::shortest(first * 1e-4));
 }
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -10,7 +10,7 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 
 // Parses settings on a logarithmic scale.
 //
@@ -57,4 +57,4 @@ struct WorkRanges {
 /// Five decades of steps starting with a fiftieth of the run, at round numbers.
 [[nodiscard]] std::vector<double> usual_steps(double t_end);
 
-}  // namespace signorini
+}  // namespace signorini::speed

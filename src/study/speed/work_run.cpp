@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-namespace signorini {
+namespace signorini::speed {
 
 const WorkError* WorkRow::error(const std::string& quantity) const {
   const auto found =
@@ -17,20 +17,20 @@ std::optional<double> WorkRow::wall_time() const {
   return *std::min_element(wall_times.begin(), wall_times.end());
 }
 
-void take_comparison(WorkRow& row, const ComparedRun& reference, const ComparedRun& run,
-                     const Comparison& comparison) {
+void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
+                     const compare::Comparison& comparison) {
   const auto& split = comparison.alignment.split;
   row.alike = comparison.alignment.pairs.size();
-  row.split = split ? split_text(reference, run, *split) : "";
+  row.split = split ? compare::split_text(reference, run, *split) : "";
   row.t_split = split ? std::optional(split->t) : std::nullopt;
   row.errors.clear();
-  for (const Quantity& quantity : quantities(comparison, reference.figures.facts.units)) {
-    const Deviation& deviation = *quantity.deviation;
+  for (const compare::Quantity& quantity : compare::quantities(comparison, reference.figures.facts.units)) {
+    const compare::Deviation& deviation = *quantity.deviation;
     const bool times = quantity.name == "event_time";  // aligned events are before the split
     const bool part = split && !times;
     if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
     if (part && comparison.alignment.pairs.empty()) continue;  // before the first event: insignificant
-    const Greatest& greatest = part ? deviation.until_split : deviation.whole;
+    const compare::Greatest& greatest = part ? deviation.until_split : deviation.whole;
     row.errors.push_back(
         {quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where, deviation.whole.value});
   }
@@ -41,13 +41,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Ends a run after its time. The clock is asked now and then: asking costs as much as a short step.
-class Deadline : public ForwardingRecorder {
+class Deadline : public run::ForwardingRecorder {
  public:
   explicit Deadline(const WorkLimits& limits, Recorder* next = nullptr)
-      : ForwardingRecorder(next), limits_(limits) {}
+      : run::ForwardingRecorder(next), limits_(limits) {}
 
   bool progress(double t) override {
-    if (!ForwardingRecorder::progress(t)) return false;
+    if (!run::ForwardingRecorder::progress(t)) return false;
     constexpr int seldom = 16;
     if (++calls_ % seldom != 0) return true;
     too_slow_ = std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds;
@@ -68,17 +68,17 @@ class Deadline : public ForwardingRecorder {
 
 }  // namespace
 
-WorkOutcome record_run(const PreparedRun& run, const std::filesystem::path& directory,
+WorkOutcome record_run(const study::PreparedRun& run, const std::filesystem::path& directory,
                        const WorkLimits& limits) {
-  RunDirectory recorder(directory, run.scene, run.model,
-                        {.command_line = limits.command_line, .pictures = false});
+  result::RunDirectory recorder(directory, run.scene, run.model,
+                                {.command_line = limits.command_line, .pictures = false});
   Deadline deadline(limits, &recorder);
   return deadline.outcome(run.keep(recorder, deadline).certified.report);
 }
 
-WorkOutcome time_run(const PreparedRun& run, const WorkLimits& limits) {
+WorkOutcome time_run(const study::PreparedRun& run, const WorkLimits& limits) {
   Deadline deadline(limits);
   return deadline.outcome(run.ends(deadline));
 }
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -11,7 +11,7 @@
 #include "study/prepared_run.hpp"
 #include "study/speed/work_plan.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 
 // Cost and error of one engine with one setting.
 //
@@ -52,8 +52,8 @@ struct WorkRow {
 };
 
 /// Enters the differences of a run from the reference into its row.
-void take_comparison(WorkRow& row, const ComparedRun& reference, const ComparedRun& run,
-                     const Comparison& comparison);
+void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
+                     const compare::Comparison& comparison);
 
 struct WorkLimits {
   double seconds = 60.0;                              ///< wall time per run
@@ -68,10 +68,10 @@ struct WorkOutcome {
 };
 
 /// Runs into a directory of its own. Errors: SceneError for scenes that the engine refuses; FileError.
-[[nodiscard]] WorkOutcome record_run(const PreparedRun& run, const std::filesystem::path& directory,
+[[nodiscard]] WorkOutcome record_run(const study::PreparedRun& run, const std::filesystem::path& directory,
                                      const WorkLimits& limits);
 
 /// Same without output: there are rows at both ends only, and nothing is stored.
-[[nodiscard]] WorkOutcome time_run(const PreparedRun& run, const WorkLimits& limits);
+[[nodiscard]] WorkOutcome time_run(const study::PreparedRun& run, const WorkLimits& limits);
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -18,7 +18,7 @@
 #include "scene/components.hpp"
 #include "study/speed/work_plan.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 
 namespace fs = std::filesystem;
 
@@ -40,21 +40,21 @@ constexpr double patience = 10.0;
 
 /// Folders are numbered, since names may differ in special characters only.
 std::string folder_name(std::size_t number, const std::string& name) {
-  return fmt::format("{:03}-{}", number, file_name(name, 80, ".", '-'));
+  return fmt::format("{:03}-{}", number, base::file_name(name, 80, ".", '-'));
 }
 
 std::vector<Override> capture_velocities(const Scene& scene, const Model& model) {
   std::vector<Override> list;
-  const double velocity = tolerance_of(model, scene.run).capture_velocity();
+  const double velocity = engine::tolerance_of(model, scene.run).capture_velocity();
   for (const Contact& contact : model.contacts)
     if (contact.takes_impulses() && !contact.capture_velocity)
-      list.push_back({"contacts." + contact.name + ".capture_velocity", shortest(velocity)});
+      list.push_back({"contacts." + contact.name + ".capture_velocity", base::shortest(velocity)});
   return list;
 }
 
 /// Range of a displacement column, largest over all columns.
 double greatest_motion(const fs::path& directory) {
-  CsvReader history(directory / "history.csv");
+  result::CsvReader history(directory / "history.csv");
   struct Column {
     std::size_t index;
     double least, greatest;
@@ -62,7 +62,7 @@ double greatest_motion(const fs::path& directory) {
   std::vector<Column> columns;
   for (std::size_t i = 1; i < history.header().size(); ++i) {
     const std::string& name = history.header()[i];
-    if (is_displacement(name) && !motion_named(name).rotation)
+    if (scene::is_displacement(name) && !scene::motion_named(name).rotation)
       columns.push_back(
           {i, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
   }
@@ -77,11 +77,12 @@ double greatest_motion(const fs::path& directory) {
 }
 
 /// A time before t without an event of either run nearby.
-double quiet_before(double t, const std::vector<LoggedEvent>& a, const std::vector<LoggedEvent>& b) {
+double quiet_before(double t, const std::vector<compare::LoggedEvent>& a,
+                    const std::vector<compare::LoggedEvent>& b) {
   constexpr double near = 1e-6;  // relative to t
   std::vector<double> times = {0.0};
   for (const auto* events : {&a, &b})
-    for (const LoggedEvent& event : *events)
+    for (const compare::LoggedEvent& event : *events)
       if (event.t < t) times.push_back(event.t);
   std::sort(times.begin(), times.end(), std::greater<>());
   double after = t;
@@ -92,25 +93,25 @@ double quiet_before(double t, const std::vector<LoggedEvent>& a, const std::vect
   return 0.0;
 }
 
-long changes_until(const std::vector<LoggedEvent>& events, double t) {
+long changes_until(const std::vector<compare::LoggedEvent>& events, double t) {
   return std::count_if(events.begin(), events.end(),
-                       [&](const LoggedEvent& event) { return event.is_change() && event.t <= t; });
+                       [&](const compare::LoggedEvent& event) { return event.is_change() && event.t <= t; });
 }
 
 }  // namespace
 
-const std::array<Engine, 2> WorkStudy::references = {engine_for(EngineRole::closed_form),
-                                                     engine_for(EngineRole::integrator)};
+const std::array<Engine, 2> WorkStudy::references = {run::engine_for(run::EngineRole::closed_form),
+                                                     run::engine_for(run::EngineRole::integrator)};
 
 WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
-  const auto [scene, model] = prepare_run(request_.scene, request_.settings(""));
+  const auto [scene, model] = study::prepare_run(request_.scene, request_.settings(""));
   reduction_ = scene.reduction;
-  fingerprint_ = fingerprint_of(scene.resolved);
+  fingerprint_ = base::fingerprint_of(scene.resolved);
   held_ = capture_velocities(scene, model);
   report_.scene = request_.scene;
   report_.title = scene.title;
   report_.units = scene.units;
-  report_.machine = this_machine();
+  report_.machine = base::this_machine();
   report_.t_end = report_.compared_until = scene.run.t_end;
   report_.repeats = request_.repeats;
   report_.unknowns = model.dofs.size();
@@ -120,28 +121,29 @@ WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
                                         held_.front().value, scene.units.length, scene.units.time));
 }
 
-PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
-  if (fingerprint_of(read_scene(request_.scene, request_.settings("")).resolved) != fingerprint_)
+study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
+  if (base::fingerprint_of(read_scene(request_.scene, request_.settings("")).resolved) != fingerprint_)
     throw FileError(request_.scene, "has changed while the study ran; its runs cannot be compared");
   std::vector<Override> changes = held_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
-  for (Override& change : changes) change.told = change.path + "=" + change.value;  // a row has no options
-  return prepare_run(read_scene(request_.scene, changes), reduction_);
+  for (Override& change : changes)
+    change.shown_as = change.path + "=" + change.value;  // a row has no options
+  return study::prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 
 /// Expected duration; nullopt for points that have run.
 double WorkStudy::seconds_of(const WorkPoint& point) const {
   if (recorded_.contains(point.name())) return 0.0;
-  const PreparedRun run = prepare(point);
-  return expected(run.model, run.scene.run).effort.seconds;
+  const study::PreparedRun run = prepare(point);
+  return run::expected(run.model, run.scene.run).effort.seconds;
 }
 
 /// Records each run once. Errors: SceneError, UsageError for a varied key, FileError.
 const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkLimits& limits) {
   const auto found = recorded_.find(point.name());
   if (found != recorded_.end()) return found->second;
-  const PreparedRun run = prepare(point);
+  const study::PreparedRun run = prepare(point);
   Recorded recorded;
   std::size_t number = recorded_.size();
   do  // a folder with foreign files was kept
@@ -162,7 +164,7 @@ bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
       why_not = fmt::format("it takes longer than {:g} s", limits.seconds);
       return false;
     }
-    ComparedRun run = read_compared_run(recorded.directory, point.name());
+    compare::ComparedRun run = compare::read_compared_run(recorded.directory, point.name());
     if (!run.figures.done())
       why_not = fmt::format("it {} at t = {:.9g}: {}", run.figures.facts.outcome, run.figures.t,
                             run.figures.reason);
@@ -179,13 +181,13 @@ bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
 /// Measures the error of `exact` itself: the same run with all masses changed in their last digits.
 void WorkStudy::doubt_reference(const WorkPoint& point) {
   const fs::path folder = request_.directory / "runs" / "again";
-  PreparedRun run = prepare(point);
+  study::PreparedRun run = prepare(point);
   run.model.mass *= 1.0 + last_digits;
   WorkLimits limits = request_.limits;
   limits.seconds *= patience;
   const WorkOutcome outcome = record_run(run, folder, limits);
   report_.interrupted = report_.interrupted || outcome.interrupted;
-  again_ = read_compared_run(folder, point.name() + " again");
+  again_ = compare::read_compared_run(folder, point.name() + " again");
   doubted_ = true;
   report_.notes.push_back(fmt::format(
       "the reference is known to what a change of all masses by {:g} does; smaller errors are not told apart",
@@ -193,7 +195,7 @@ void WorkStudy::doubt_reference(const WorkPoint& point) {
   double& until = report_.compared_until;
   const double whole = until;
   double decided = whole;
-  while (const auto split = align(reference_.events, again_.events, {until, 0.0}).split) {
+  while (const auto split = compare::align(reference_.events, again_.events, {until, 0.0}).split) {
     decided = split->t;
     until = quiet_before(split->t, reference_.events, again_.events);
   }
@@ -216,14 +218,14 @@ std::optional<WorkPoint> WorkStudy::series_of_exact() {
       std::any_of(request_.ranges.varied.begin(), request_.ranges.varied.end(), says_flow))
     return std::nullopt;
   try {
-    const PreparedRun run = prepare(series);
-    if (!choose_flow(run.model, run.scene.run).modal) return std::nullopt;
+    const study::PreparedRun run = prepare(series);
+    if (!run::choose_flow(run.model, run.scene.run).modal) return std::nullopt;
     series.varied = {{flow_key, "taylor"}};
-    const double seconds = expected(run.model, run.scene.run).effort.by_series;
+    const double seconds = run::expected(run.model, run.scene.run).effort.by_series;
     if (seconds <= request_.limits.seconds) return series;
     report_.notes.push_back(
         fmt::format("{} is left out: it would take {} s, more than the time limit of {:g} s", series.name(),
-                    about_seconds(seconds), request_.limits.seconds));
+                    run::about_seconds(seconds), request_.limits.seconds));
   } catch (const SceneError&) {  // reported when `exact` itself runs
   }
   return std::nullopt;
@@ -259,11 +261,11 @@ bool WorkStudy::choose_reference() {
 
 /// Error ranges: from the error of the reference itself, up to errors as large as the quantities.
 void WorkStudy::take_ranges() {
-  ComparisonSettings settings;
+  compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
   if (doubted_) {
-    const Comparison doubt = compare_runs(reference_, again_, settings);
-    for (const Quantity& quantity : quantities(doubt, report_.units))
+    const compare::Comparison doubt = compare::compare_runs(reference_, again_, settings);
+    for (const compare::Quantity& quantity : compare::quantities(doubt, report_.units))
       if (quantity.deviation->count > 0) report_.range[quantity.name].floor = quantity.deviation->whole.value;
   }
   // Rounding of the time itself.
@@ -294,17 +296,17 @@ void WorkStudy::find_reference() {
   take_ranges();
 }
 
-void WorkStudy::compare(WorkRow& row, const ComparedRun& run) const {
+void WorkStudy::compare(WorkRow& row, const compare::ComparedRun& run) const {
   row.events = changes_until(run.events, report_.compared_until);
   if (report_.reference.empty()) return;
   row.events_of_reference = changes_until(reference_.events, report_.compared_until);
   row.reference = row.point.name() == report_.reference;
   row.whole = run.figures.t >= std::min(report_.compared_until, reference_.figures.t);
   if (row.reference && !doubted_) return;  // no error relative to itself
-  ComparisonSettings settings;
+  compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
-  const ComparedRun& other = row.reference ? again_ : run;
-  take_comparison(row, reference_, other, compare_runs(reference_, other, settings));
+  const compare::ComparedRun& other = row.reference ? again_ : run;
+  take_comparison(row, reference_, other, compare::compare_runs(reference_, other, settings));
 }
 
 const WorkRow& WorkStudy::add(const WorkPoint& point) {
@@ -313,13 +315,13 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
   try {
     if (const double seconds = seconds_of(point); seconds > hopeless * request_.limits.seconds) {
       row.outcome = "too slow";
-      row.reason = fmt::format("not tried: it would take {} s", about_seconds(seconds));
+      row.reason = fmt::format("not tried: it would take {} s", run::about_seconds(seconds));
       report_.rows.push_back(std::move(row));
       return report_.rows.back();
     }
     const Recorded& recorded = record(point, request_.limits);
     row.directory = recorded.directory;
-    const ComparedRun run = read_compared_run(recorded.directory, point.name());
+    const compare::ComparedRun run = compare::read_compared_run(recorded.directory, point.name());
     row.outcome = recorded.too_slow ? "too slow" : run.figures.facts.outcome;
     row.reason = recorded.too_slow ? fmt::format("not at the end after {:g} s", request_.limits.seconds)
                                    : run.figures.reason;
@@ -351,7 +353,7 @@ void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t ro
       if (row.outcome != "done" && row.outcome != "stopped") continue;
       if (std::accumulate(row.wall_times.begin(), row.wall_times.end(), 0.0) > enough) continue;
       before(row, round);
-      const PreparedRun run = prepare(row.point);
+      const study::PreparedRun run = prepare(row.point);
       double least = std::numeric_limits<double>::infinity(), sum = 0.0;
       for (int i = 0; i < most && sum < brief; ++i) {
         const WorkOutcome outcome = time_run(run, request_.limits);
@@ -365,4 +367,4 @@ void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t ro
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::speed

@@ -25,7 +25,7 @@
 #include "study/speed/pareto_front.hpp"
 #include "study/speed/work_run.hpp"
 
-namespace signorini {
+namespace signorini::speed {
 
 struct WorkRequest {
   std::string scene;  ///< file name
@@ -41,7 +41,7 @@ struct WorkRequest {
 struct WorkReport {
   std::string scene, title;
   Units units;
-  Machine machine;
+  base::Machine machine;
   double t_end = 0.0;
   std::size_t repeats = 0, unknowns = 0, contacts = 0;
   std::string reference;                    ///< name of the reference's run; empty if there is none
@@ -78,7 +78,7 @@ class WorkStudy {
     std::filesystem::path directory;
     bool too_slow = false;
   };
-  [[nodiscard]] PreparedRun prepare(const WorkPoint& point) const;
+  [[nodiscard]] study::PreparedRun prepare(const WorkPoint& point) const;
   [[nodiscard]] double seconds_of(const WorkPoint& point) const;
   const Recorded& record(const WorkPoint& point, const WorkLimits& limits);
   bool choose_reference();
@@ -86,7 +86,7 @@ class WorkStudy {
   bool try_reference(const WorkPoint& point, std::string& why_not);
   void doubt_reference(const WorkPoint& point);
   void take_ranges();
-  void compare(WorkRow& row, const ComparedRun& run) const;
+  void compare(WorkRow& row, const compare::ComparedRun& run) const;
 
   WorkRequest request_;
   WorkReport report_;
@@ -94,9 +94,9 @@ class WorkStudy {
   std::vector<Override> held_;              // capture velocities, the same in all runs
   std::optional<ReductionSpec> reduction_;  // contains the cutoff of all runs
   std::map<std::string, Recorded> recorded_;
-  ComparedRun reference_, again_;  // again_: `exact` with masses changed in their last digits
+  compare::ComparedRun reference_, again_;  // again_: `exact` with masses changed in their last digits
   bool doubted_ = false;
   std::optional<WorkPoint> series_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::speed

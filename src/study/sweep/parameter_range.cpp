@@ -14,7 +14,7 @@
 #include "scene/overrides.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 namespace {
 
 constexpr double most_points = 1e6;
@@ -46,7 +46,7 @@ int decimals(const std::string& number) {
   const std::size_t e = number.find_first_of("eE"), point = number.find('.');
   const std::string mantissa = number.substr(0, e);
   const int after = point == std::string::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
-  const auto exponent = e == std::string::npos ? 0 : parse_integer(number.substr(e + 1)).value_or(0);
+  const auto exponent = e == std::string::npos ? 0 : base::parse_integer(number.substr(e + 1)).value_or(0);
   return static_cast<int>(std::clamp<long long>(after - exponent, 0, 99));
 }
 
@@ -64,7 +64,7 @@ double stepped(double start, double step, double k, int digits) {
 std::vector<std::string> range(const std::string& option, const std::vector<std::string>& parts) {
   double numbers[3];
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::optional<double> number = parse_number(parts[i]);
+    const std::optional<double> number = base::parse_number(parts[i]);
     if (!number || !std::isfinite(*number))
       throw UsageError(
           fmt::format("{}: found \"{}\" in start:stop:step, expected a number", option, parts[i]));
@@ -78,12 +78,13 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   const double steps = std::floor((stop - start) / step * (1.0 + 1e-12) + 1e-9);
   if (!(steps < most_points)) throw UsageError(option + ": expected at most 1e6 values");
   const int digits = std::max(decimals(parts[0]), decimals(parts[2]));
-  const bool integers = std::all_of(parts.begin(), parts.end(),
-                                    [](const std::string& part) { return parse_integer(part).has_value(); });
+  const bool integers = std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
+    return base::parse_integer(part).has_value();
+  });
   std::vector<std::string> values;
   for (double k = 0.0; k <= steps; ++k) {
     const double value = stepped(start, step, k, digits);
-    values.push_back(integers ? fmt::format("{:.0f}", value) : shortest(value == 0.0 ? 0.0 : value));
+    values.push_back(integers ? fmt::format("{:.0f}", value) : base::shortest(value == 0.0 ? 0.0 : value));
   }
   return values;
 }
@@ -100,7 +101,8 @@ double round_step(double from, double to) {
 
 /// "0.1:0.5:0.1" from the ends 0.1 and 0.5.
 std::string example_of(const std::string& from, const std::string& to) {
-  return fmt::format("{}:{}:{:.3g}", from, to, round_step(*parse_number(from), *parse_number(to)));
+  return fmt::format("{}:{}:{:.3g}", from, to,
+                     round_step(*base::parse_number(from), *base::parse_number(to)));
 }
 
 /// Refuses 0.1-0.5 and 0.1..0.5, which are common notations of ranges, but never values of a key.
@@ -108,7 +110,7 @@ void refuse_other_ranges(const std::string& option, const std::string& value) {
   for (const char* between : {"..", "-", " to "}) {
     for (std::size_t at = value.find(between, 1); at != std::string::npos; at = value.find(between, at + 1)) {
       const std::string from = value.substr(0, at), to = value.substr(at + std::string_view(between).size());
-      if (parse_number(from) && parse_number(to))
+      if (base::parse_number(from) && base::parse_number(to))
         throw UsageError(fmt::format("{}: found \"{}\", expected start:stop:step, such as {}", option, value,
                                      example_of(from, to)));
     }
@@ -117,20 +119,21 @@ void refuse_other_ranges(const std::string& option, const std::string& value) {
 
 }  // namespace
 
-Vary parse_vary(const std::string& text) {
+ParameterRange parse_vary(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string option = "--vary " + text;
-  if (!is_plain_text(text)) throw UsageError(excerpt(option) + ": found bytes that are no plain UTF-8 text");
+  if (!base::is_plain_text(text))
+    throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     throw UsageError(option + ": expected path=start:stop:step or path=value,value,...");
-  Vary vary{text.substr(0, equals), text.substr(equals + 1), {}};
+  ParameterRange vary{text.substr(0, equals), text.substr(equals + 1), {}};
   const std::vector<std::string> parts = split(vary.text, ':');
   if (parts.size() == 3 && split(vary.text, ',').size() == 1) {
     vary.values = range(option, parts);
     return vary;
   }
   if (parts.size() > 1 && std::all_of(parts.begin(), parts.end(),
-                                      [](const std::string& p) { return parse_number(p).has_value(); }))
+                                      [](const std::string& p) { return base::parse_number(p).has_value(); }))
     throw UsageError(fmt::format("{}: found {} numbers between colons, expected start:stop:step, such as {}",
                                  option, parts.size(), example_of(parts[0], parts[1])));
   vary.values = split(vary.text, ',');
@@ -146,7 +149,7 @@ Vary parse_vary(const std::string& text) {
 namespace {
 
 /// Indices of the keys that vary in step with key i, itself first; empty if an earlier key has the same group.
-std::vector<std::size_t> in_step(const std::vector<Vary>& varied, std::size_t i) {
+std::vector<std::size_t> in_step(const std::vector<ParameterRange>& varied, std::size_t i) {
   std::vector<std::size_t> members{i};
   if (varied[i].group == 0) return members;
   for (std::size_t j = 0; j < varied.size(); ++j) {
@@ -155,7 +158,7 @@ std::vector<std::size_t> in_step(const std::vector<Vary>& varied, std::size_t i)
     members.push_back(j);
     if (varied[j].values.size() != varied[i].values.size())
       throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected as many", varied[i].path,
-                                   count_of(varied[i].values.size(), "value"), varied[j].path,
+                                   base::count_of(varied[i].values.size(), "value"), varied[j].path,
                                    varied[j].values.size()));
   }
   return members;
@@ -163,44 +166,44 @@ std::vector<std::size_t> in_step(const std::vector<Vary>& varied, std::size_t i)
 
 }  // namespace
 
-const char* option_of(const Vary& vary) { return vary.sampled ? "sample" : "vary"; }
+const char* option_of(const ParameterRange& vary) { return vary.sampled ? "sample" : "vary"; }
 
-Override override_of(const Vary& vary, const std::string& value) {
+Override override_of(const ParameterRange& vary, const std::string& value) {
   return {vary.path, value, fmt::format("--{} {}={}", option_of(vary), vary.path, value)};
 }
 
-void check_overlaps(const std::string& scene, const std::vector<Vary>& varied,
+void check_overlaps(const std::string& scene, const std::vector<ParameterRange>& varied,
                     const std::vector<Override>& settings) {
   std::vector<std::vector<std::string>> places;
-  for (const Vary& vary : varied) {
-    places.push_back(places_in(scene, vary.path));
+  for (const ParameterRange& vary : varied) {
+    places.push_back(scene::places_in(scene, vary.path));
     for (std::size_t j = 0; j + 1 < places.size(); ++j)
       for (const std::string& a : places.back())
         for (const std::string& b : places[j])
-          if (lies_in(a, b) || lies_in(b, a))
+          if (scene::lies_in(a, b) || scene::lies_in(b, a))
             throw UsageError(fmt::format("--{} {}={}: --{} {} varies {} already", option_of(vary), vary.path,
                                          vary.text, option_of(varied[j]), varied[j].path,
                                          a == b ? "this key" : "what belongs to it"));
   }
   for (const Override& setting : settings) {
-    const std::vector<std::string> set = places_in(scene, setting.path);
+    const std::vector<std::string> set = scene::places_in(scene, setting.path);
     std::size_t lost = 0;
-    const Vary* by = nullptr;
+    const ParameterRange* by = nullptr;
     for (const std::string& a : set)
       for (std::size_t j = 0; j < places.size(); ++j)
         if (std::any_of(places[j].begin(), places[j].end(),
-                        [&](const std::string& b) { return lies_in(a, b); })) {
+                        [&](const std::string& b) { return scene::lies_in(a, b); })) {
           ++lost;
           by = &varied[j];
           break;
         }
     if (by && lost == set.size())
-      throw UsageError(fmt::format("{}: has no effect, --{} {} sets it anew in every run", text_of(setting),
-                                   option_of(*by), by->path));
+      throw UsageError(fmt::format("{}: has no effect, --{} {} sets it anew in every run",
+                                   scene::text_of(setting), option_of(*by), by->path));
   }
 }
 
-std::vector<std::vector<Override>> points(const std::vector<Vary>& varied) {
+std::vector<std::vector<Override>> points(const std::vector<ParameterRange>& varied) {
   double count = 1.0;
   for (std::size_t i = 0; i < varied.size(); ++i) {
     if (!in_step(varied, i).empty()) count *= static_cast<double>(varied[i].values.size());
@@ -290,7 +293,7 @@ Inverse parse_distribution(const std::string& text, const std::string& option) {
   std::string inside = text.substr(open + 1, text.size() - open - 2) + ",";
   for (std::size_t comma; (comma = inside.find(',')) != std::string::npos; inside.erase(0, comma + 1)) {
     const std::string word = trimmed(inside.substr(0, comma));
-    const std::optional<double> number = parse_number(word);
+    const std::optional<double> number = base::parse_number(word);
     if (!number || !std::isfinite(*number))
       throw UsageError(fmt::format("{}: found \"{}\", expected a number", option, word));
     numbers.push_back(*number);
@@ -306,7 +309,7 @@ Inverse parse_distribution(const std::string& text, const std::string& option) {
 
 /// Adds "a,b" as two keys; the second one's text marks it as sharing the draw of the first.
 void add_keys(const std::string& paths, const std::string& distribution, const std::string& option,
-              std::vector<Vary>& varied) {
+              std::vector<ParameterRange>& varied) {
   std::string first;
   std::string left = paths + ",";
   for (std::size_t comma; (comma = left.find(',')) != std::string::npos; left.erase(0, comma + 1)) {
@@ -326,14 +329,14 @@ double inner(double u) { return std::min(std::max(u, 0x1p-54), 1.0 - 0x1p-53); }
 
 }  // namespace
 
-std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec) {
-  std::vector<Vary> varied;
+std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec) {
+  std::vector<ParameterRange> varied;
   std::vector<Inverse> inverses;
   std::vector<std::size_t> draw_of;  // per key: keys of one text share their draw
   for (const std::string& text : texts) {
     const std::string option = "--sample " + text;
-    if (!is_plain_text(text))
-      throw UsageError(excerpt(option) + ": found bytes that are no plain UTF-8 text");
+    if (!base::is_plain_text(text))
+      throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw UsageError(option + ": expected PATH=DISTRIBUTION, such as contacts.*.friction=normal(0.4,0.05)");
@@ -371,10 +374,10 @@ std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const Samp
             fmt::format("--sample {}={}: draw {} is no finite number, expected a distribution "
                         "within the range of numbers",
                         varied[k].path, varied[k].text, i + 1));
-      varied[k].values.push_back(shortest(value));
+      varied[k].values.push_back(base::shortest(value));
     }
   }
   return varied;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

@@ -12,32 +12,32 @@
 
 #include "signorini/scene.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 /// One `--vary path=values`.
-struct Vary {
+struct ParameterRange {
   std::string path;
   std::string text;                 ///< as given
   std::vector<std::string> values;  ///< each as `--set` takes it
   int group = 0;                    ///< keys of the same group, above 0, vary in step
   bool sampled = false;             ///< the values are draws from the distribution `text`
 
-  friend bool operator==(const Vary&, const Vary&) = default;
+  friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
 };
 
 /// "vary" or "sample", the option that gave the values.
-[[nodiscard]] const char* option_of(const Vary& vary);
+[[nodiscard]] const char* option_of(const ParameterRange& vary);
 /// Override for one of its values.
-[[nodiscard]] Override override_of(const Vary& vary, const std::string& value);
+[[nodiscard]] Override override_of(const ParameterRange& vary, const std::string& value);
 /// Refuses duplicates: two options that set one key under different names (contacts.*.friction and
 /// contacts.first.friction), and a setting all of whose keys are varied. Errors: UsageError; those of the file.
-void check_overlaps(const std::string& scene, const std::vector<Vary>& varied,
+void check_overlaps(const std::string& scene, const std::vector<ParameterRange>& varied,
                     const std::vector<Override>& settings);
 /// Errors: UsageError, also for more than 1e6 values.
-[[nodiscard]] Vary parse_vary(const std::string& text);
-/// The product: entry i holds one value for each Vary, in their order. Errors: UsageError for more than 1e6 points, for
+[[nodiscard]] ParameterRange parse_vary(const std::string& text);
+/// The product: entry i holds one value for each ParameterRange, in their order. Errors: UsageError for more than 1e6 points, for
 /// a repeated path, and for keys in step with different numbers of values.
-[[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<Vary>& varied);
+[[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<ParameterRange>& varied);
 
 // Draws values of keys from distributions.
 //
@@ -64,6 +64,7 @@ struct SampleSpec {
 
 /// Keys from texts PATH,PATH,...=DISTRIBUTION, with `count` values each, all in one group; keys of one text have the
 /// same values. Errors: UsageError.
-[[nodiscard]] std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec);
+[[nodiscard]] std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts,
+                                                       const SampleSpec& spec);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

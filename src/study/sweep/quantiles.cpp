@@ -9,7 +9,7 @@
 
 #include "result/table.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 namespace {
 
 constexpr double tail = 0.5 * (1.0 - confidence);
@@ -70,12 +70,12 @@ struct AnswerRow {
 
 /// Columns: quantity, unit and the keys that are not sampled.
 template <class Figures>
-CsvTable<AnswerRow<Figures>> answer_table(const SweepSpec& spec) {
+result::CsvTable<AnswerRow<Figures>> answer_table(const SweepSpec& spec) {
   using R = AnswerRow<Figures>;
-  CsvTable<R> table = {{"quantity", [&spec](const R& r) { return spec.responses[r.of.query]; }},
-                       {"unit", [&spec](const R& r) { return spec.response_units[r.of.query]; }}};
+  result::CsvTable<R> table = {{"quantity", [&spec](const R& r) { return spec.responses[r.of.query]; }},
+                               {"unit", [&spec](const R& r) { return spec.response_units[r.of.query]; }}};
   std::size_t key = 0;
-  for (const Vary& vary : spec.vary)
+  for (const ParameterRange& vary : spec.vary)
     if (!vary.sampled) {
       table.add(vary.path, [key](const R& r) { return r.of.values[key]; });
       ++key;
@@ -143,7 +143,7 @@ std::vector<Sampled> sampled_answers(const SweepSpec& spec, const SweepRows& row
 
 std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
   using R = AnswerRow<Quantile>;
-  CsvTable<R> table = answer_table<Quantile>(spec);
+  result::CsvTable<R> table = answer_table<Quantile>(spec);
   table.add("n", [](const R& r) { return r.of.sorted.size(); });
   table.add("missing", [](const R& r) { return r.of.missing; });
   table.add("probability", [](const R& r) { return r.figures.probability; });
@@ -157,22 +157,23 @@ std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& an
   return table.text(rows);
 }
 
-const CsvTable<Exceedance>& exceedance_columns() {
+const result::CsvTable<Exceedance>& exceedance_columns() {
   using E = Exceedance;
-  static const CsvTable<E> table = {
+  static const result::CsvTable<E> table = {
       {"value", &E::value}, {"probability", &E::probability}, {"low", &E::low}, {"high", &E::high}};
   return table;
 }
 
 std::string exceedance_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
   using R = AnswerRow<Exceedance>;
-  CsvTable<R> table = answer_table<Exceedance>(spec);
+  result::CsvTable<R> table = answer_table<Exceedance>(spec);
   for (const auto& column : exceedance_columns().columns())
-    table.add_put(column.name, [&column](CsvBlock& block, const R& r) { column.put(block, r.figures); });
+    table.add_put(column.name,
+                  [&column](result::CsvBlock& block, const R& r) { column.put(block, r.figures); });
   std::vector<R> rows;
   for (const Sampled& s : answers)
     for (const Exceedance& e : exceedance(s.sorted, independent(spec))) rows.push_back({s, e});
   return table.text(rows);
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

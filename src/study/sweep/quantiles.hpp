@@ -18,7 +18,7 @@
 #include "result/table.hpp"
 #include "study/sweep/sweep_table.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 inline constexpr double confidence = 0.95;
 inline constexpr double quantile_levels[] = {0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99};
@@ -35,7 +35,7 @@ struct Exceedance {
   std::optional<double> low, high;
 };
 /// Columns of exceedance tables.
-[[nodiscard]] const CsvTable<Exceedance>& exceedance_columns();
+[[nodiscard]] const result::CsvTable<Exceedance>& exceedance_columns();
 /// At most 200 of the values.
 [[nodiscard]] std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool independent);
 
@@ -56,4 +56,4 @@ struct Sampled {
 /// True if the samples of a sweep are independent draws.
 [[nodiscard]] bool independent(const SweepSpec& spec);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "signorini/error.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 std::vector<std::string> event_names() { return names_of(all_event_types); }
 
@@ -29,7 +29,7 @@ std::optional<EventQuery> parse_event_query(const std::string& option, const std
 void check_known(const std::string& option, const char* what, const std::string& name,
                  const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw UsageError(fmt::format("{}: unknown {} \"{}\"{}", option, what, name, suggestion(name, known)));
+  throw UsageError(fmt::format("{}: unknown {} \"{}\"{}", option, what, name, base::suggestion(name, known)));
 }
 
 namespace {
@@ -55,7 +55,8 @@ std::size_t index_of(const std::string& name, const Model& model) {
 
 ResponseQuery parse_query(const std::string& text, const Model& model) {
   const std::string option = "--response " + text;
-  if (!is_plain_text(text)) throw UsageError(excerpt(option) + ": found bytes that are no plain UTF-8 text");
+  if (!base::is_plain_text(text))
+    throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
   const std::size_t colon = text.find(':');
   const auto row = std::find_if(words.begin(), words.end(),
                                 [&](const Word& w) { return text.substr(0, colon) == w.word; });
@@ -89,7 +90,7 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
   }
   check_known(option, "contact", query.name, contacts);
   if (at == std::string::npos) return query;
-  const auto number = query.kind == Kind::impulse ? parse_integer(behind) : std::nullopt;
+  const auto number = query.kind == Kind::impulse ? base::parse_integer(behind) : std::nullopt;
   if (!number || *number < 1)
     throw UsageError(fmt::format(
         "{}: found \"@{}\", expected {}", option, behind,
@@ -98,10 +99,10 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
   return query;
 }
 
-Answers::Answers(const std::vector<ResponseQuery>& queries, const Model& model)
+QueryRecorder::QueryRecorder(const std::vector<ResponseQuery>& queries, const Model& model)
     : queries_(queries), model_(model), counts_(queries.size(), 0.0) {}
 
-void Answers::event(const Event& event) {
+void QueryRecorder::event(const Event& event) {
   for (std::size_t i = 0; i < queries_.size(); ++i) {
     const ResponseQuery& query = queries_[i];
     if (query.kind == Kind::count && query.event.meets(event, model_)) counts_[i] += 1.0;
@@ -110,15 +111,15 @@ void Answers::event(const Event& event) {
     sequence_ = (sequence_ ^ static_cast<std::uint64_t>(part + 1)) * 1099511628211U;
 }
 
-std::string Answers::sequence() const { return fmt::format("{:016x}", sequence_); }
+std::string QueryRecorder::sequence() const { return fmt::format("{:016x}", sequence_); }
 
-void Answers::sample(const Sample& sample) {
+void QueryRecorder::sample(const Sample& sample) {
   last_slip_.clear();
   for (const ContactSample& contact : sample.contacts) last_slip_.push_back(contact.slip);
   if (first_slip_.empty()) first_slip_ = last_slip_;
 }
 
-double Answers::value(const ResponseQuery& query, std::size_t i, const Report& report) const {
+double QueryRecorder::value(const ResponseQuery& query, std::size_t i, const Report& report) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (report.outcome.kind != Outcome::Kind::done) return none;  // values of a part of the motion
   if (query.kind == Kind::count) return counts_[i];
@@ -153,7 +154,7 @@ double Answers::value(const ResponseQuery& query, std::size_t i, const Report& r
   }
 }
 
-std::vector<double> Answers::values(const Report& report) const {
+std::vector<double> QueryRecorder::values(const Report& report) const {
   std::vector<double> list;
   for (std::size_t i = 0; i < queries_.size(); ++i) list.push_back(value(queries_[i], i, report));
   return list;
@@ -170,4 +171,4 @@ std::string unit_of(const ResponseQuery& query, const Model& model) {
   return "";
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

@@ -16,7 +16,7 @@
 
 #include "signorini/result.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 // Events of one type, at all contacts or one, in options: EVENT, EVENT@CONTACT.
 
@@ -60,10 +60,10 @@ struct ResponseQuery {
 [[nodiscard]] ResponseQuery parse_query(const std::string& text, const Model& model);
 
 /// Records a run's results for the queries.
-class Answers : public Recorder {
+class QueryRecorder : public Recorder {
  public:
   /// Both arguments must outlive the object.
-  Answers(const std::vector<ResponseQuery>& queries, const Model& model);
+  QueryRecorder(const std::vector<ResponseQuery>& queries, const Model& model);
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
@@ -86,4 +86,4 @@ class Answers : public Recorder {
 /// The unit of the result, "" if it has none.
 [[nodiscard]] std::string unit_of(const ResponseQuery& query, const Model& model);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

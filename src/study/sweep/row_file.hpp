@@ -16,7 +16,7 @@
 
 #include "study/sweep/sweep_row.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 /// A row and the number of its line, from 1.
 struct NumberedRow {
@@ -70,4 +70,4 @@ using Environment = std::function<std::optional<std::string>(const char* name)>;
 /// Number of processes of this sweep that a launcher (not an array) has started; 1 without a launcher.
 [[nodiscard]] std::size_t ranks(const Environment& environment);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

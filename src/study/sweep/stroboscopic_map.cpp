@@ -10,7 +10,7 @@
 #include "signorini/error.hpp"
 #include "study/prepared_run.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 namespace {
 
 constexpr double same_period = 1e-9;  // relative, for periods in a ratio of integers, as in
@@ -19,13 +19,13 @@ constexpr double same_period = 1e-9;  // relative, for periods in a ratio of int
 /// Number of complete periods in the time t.
 double whole_periods(double t, double period) { return std::floor(t / period * (1.0 + same_period)); }
 
-Strobe strobe_of_loads(const std::string& option, const Scene& scene) {
-  const std::optional<double> period = load_period(scene).period;
+StroboscopicMap strobe_of_loads(const std::string& option, const Scene& scene) {
+  const std::optional<double> period = orbit::load_period(scene).period;
   if (!period) throw UsageError(option + ": the scene has no load that repeats itself; expected a period");
   if (whole_periods(scene.run.t_end, *period) < 1.0)
     throw UsageError(fmt::format("{}: their period {:g} is longer than the run, t_end = {:g}", option,
                                  *period, scene.run.t_end));
-  Strobe strobe;
+  StroboscopicMap strobe;
   strobe.text = "loads";
   strobe.period = *period;
   strobe.of_loads = true;
@@ -34,13 +34,14 @@ Strobe strobe_of_loads(const std::string& option, const Scene& scene) {
 
 }  // namespace
 
-Strobe parse_strobe(const std::string& text, const Scene& scene, const Model& model) {
+StroboscopicMap parse_strobe(const std::string& text, const Scene& scene, const Model& model) {
   const std::string option = "--strobe " + text;
-  if (!is_plain_text(text)) throw UsageError(excerpt(option) + ": found bytes that are no plain UTF-8 text");
+  if (!base::is_plain_text(text))
+    throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
   if (text == "loads") return strobe_of_loads(option, scene);
-  Strobe strobe;
+  StroboscopicMap strobe;
   strobe.text = text;
-  if (const std::optional<double> period = parse_number(text)) {
+  if (const std::optional<double> period = base::parse_number(text)) {
     if (!(*period > 0.0) || !std::isfinite(*period)) throw UsageError(option + ": expected a period above 0");
     strobe.period = *period;
     return strobe;
@@ -49,17 +50,17 @@ Strobe parse_strobe(const std::string& text, const Scene& scene, const Model& mo
   if (!event) {
     const std::string name = text.substr(0, text.find('@'));
     throw UsageError(fmt::format("{}: found \"{}\", expected a period, loads, EVENT or EVENT@CONTACT{}",
-                                 option, name, suggestion(name, event_names())));
+                                 option, name, base::suggestion(name, event_names())));
   }
   strobe.event = *event;
   return strobe;
 }
 
-std::string strobe_doubt(const Strobe& strobe, const Scene& scene) {
+std::string strobe_doubt(const StroboscopicMap& strobe, const Scene& scene) {
   if (strobe.period == 0.0 || strobe.of_loads) return {};
   std::optional<double> period;
   try {
-    period = load_period(scene).period;
+    period = orbit::load_period(scene).period;
   } catch (const SceneError&) {  // loads without a common period have no phase
     return {};
   }
@@ -69,24 +70,24 @@ std::string strobe_doubt(const Strobe& strobe, const Scene& scene) {
   return fmt::format(
       "--strobe {}: the loads repeat themselves after {}, so the points of one run are states at different "
       "phases of the loads; --strobe loads takes the period of each run's loads",
-      strobe.text, shortest(*period));
+      strobe.text, base::shortest(*period));
 }
 
-std::vector<StrobeColumn> strobe_columns(const Model& model) {
-  std::vector<StrobeColumn> list;
+std::vector<StroboscopicColumn> strobe_columns(const Model& model) {
+  std::vector<StroboscopicColumn> list;
   for (const Column& column : model.columns) list.push_back({column.name, model.unit_of(column), false});
   for (const Output& output : model.outputs)
     list.push_back({output.name, unit_text(output.unit, model.units), true});
   return list;
 }
 
-void StrobeRecorder::event(const Event& event) {
-  ForwardingRecorder::event(event);
+void StroboscopicRecorder::event(const Event& event) {
+  run::ForwardingRecorder::event(event);
   if (strobe_.period == 0.0 && strobe_.event.meets(event, model_)) event_ = event.t;
 }
 
-void StrobeRecorder::sample(const Sample& sample) {
-  ForwardingRecorder::sample(sample);
+void StroboscopicRecorder::sample(const Sample& sample) {
+  run::ForwardingRecorder::sample(sample);
   if (strobe_.period == 0.0) return;
   const double turns = std::round(sample.t / strobe_.period);
   // Rows are at k times the period up to rounding; the end of the run is a row, too.
@@ -96,24 +97,24 @@ void StrobeRecorder::sample(const Sample& sample) {
   add(sample);
 }
 
-bool StrobeRecorder::steer(const Sample& now, Steering& run) {
+bool StroboscopicRecorder::steer(const Sample& now, Steering& run) {
   if (event_ && now.t >= *event_) {
     event_.reset();
     add(now);
   }
-  return ForwardingRecorder::steer(now, run);
+  return run::ForwardingRecorder::steer(now, run);
 }
 
-void StrobeRecorder::response(double t, const std::vector<double>& values) {
-  ForwardingRecorder::response(t, values);
+void StroboscopicRecorder::response(double t, const std::vector<double>& values) {
+  run::ForwardingRecorder::response(t, values);
   t_outputs_ = t;
   outputs_ = values;
   if (!points_.empty() && points_.back().t == t) fill_outputs(points_.back());
 }
 
-void StrobeRecorder::add(const Sample& now) {
+void StroboscopicRecorder::add(const Sample& now) {
   if (now.t < settle_) return;
-  StrobePoint point{now.t, {}};
+  StroboscopicPoint point{now.t, {}};
   for (const Column& column : model_.columns) point.values.push_back(column.of(*now.u, *now.v));
   point.values.resize(model_.columns.size() + model_.outputs.size(),
                       std::numeric_limits<double>::quiet_NaN());
@@ -121,13 +122,13 @@ void StrobeRecorder::add(const Sample& now) {
   points_.push_back(std::move(point));
 }
 
-void StrobeRecorder::fill_outputs(StrobePoint& point) const {
+void StroboscopicRecorder::fill_outputs(StroboscopicPoint& point) const {
   std::copy(outputs_.begin(), outputs_.end(),
             point.values.begin() + static_cast<std::ptrdiff_t>(model_.columns.size()));
 }
 
-RunSpec strobed(RunSpec run, const Strobe& strobe) {
-  run = without_rows(std::move(run));
+RunSpec strobed(RunSpec run, const StroboscopicMap& strobe) {
+  run = study::without_rows(std::move(run));
   if (strobe.period == 0.0) return run;
   run.output_times.reset();
   run.output_dt = strobe.period;
@@ -135,4 +136,4 @@ RunSpec strobed(RunSpec run, const Strobe& strobe) {
   return run;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

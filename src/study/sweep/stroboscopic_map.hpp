@@ -17,60 +17,62 @@
 #include "run/forwarding_recorder.hpp"
 #include "study/sweep/response_query.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
-struct Strobe {
+struct StroboscopicMap {
   std::string text;       ///< as given
   double period = 0.0;    ///< time; 0: after events
   bool of_loads = false;  ///< the period is that of the scene's loads
   EventQuery event;
 };
 /// Errors: UsageError that lists the model's names; SceneError for loads without a common period.
-[[nodiscard]] Strobe parse_strobe(const std::string& text, const Scene& scene, const Model& model);
+[[nodiscard]] StroboscopicMap parse_strobe(const std::string& text, const Scene& scene, const Model& model);
 /// Warning if the points are at varying phases of the loads; empty if not, or if the loads have no period.
-[[nodiscard]] std::string strobe_doubt(const Strobe& strobe, const Scene& scene);
+[[nodiscard]] std::string strobe_doubt(const StroboscopicMap& strobe, const Scene& scene);
 
 /// Names and units of the values of a point.
-struct StrobeColumn {
+struct StroboscopicColumn {
   std::string name, unit;
   bool output = false;  ///< an [[output]]
 };
-[[nodiscard]] std::vector<StrobeColumn> strobe_columns(const Model& model);
+[[nodiscard]] std::vector<StroboscopicColumn> strobe_columns(const Model& model);
 
-struct StrobePoint {
+struct StroboscopicPoint {
   double t = 0.0;
   std::vector<double> values;  ///< one per column
 };
 
 /// Takes the points of a run, and passes all on.
-class StrobeRecorder : public ForwardingRecorder {
+class StroboscopicRecorder : public run::ForwardingRecorder {
  public:
   /// All arguments must outlive the object.
-  StrobeRecorder(const Strobe& strobe, double settle, const Model& model, Recorder& next)
-      : ForwardingRecorder(&next), strobe_(strobe), settle_(settle), model_(model) {}
+  StroboscopicRecorder(const StroboscopicMap& strobe, double settle, const Model& model, Recorder& next)
+      : run::ForwardingRecorder(&next), strobe_(strobe), settle_(settle), model_(model) {}
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
   void response(double t, const std::vector<double>& values) override;
-  [[nodiscard]] bool steers() const override { return strobe_.period == 0.0 || ForwardingRecorder::steers(); }
+  [[nodiscard]] bool steers() const override {
+    return strobe_.period == 0.0 || run::ForwardingRecorder::steers();
+  }
   bool steer(const Sample& now, Steering& run) override;
 
-  [[nodiscard]] const std::vector<StrobePoint>& points() const { return points_; }
+  [[nodiscard]] const std::vector<StroboscopicPoint>& points() const { return points_; }
 
  private:
   void add(const Sample& now);
-  void fill_outputs(StrobePoint& point) const;
+  void fill_outputs(StroboscopicPoint& point) const;
 
-  const Strobe& strobe_;
+  const StroboscopicMap& strobe_;
   double settle_;
   const Model& model_;
-  std::vector<StrobePoint> points_;
+  std::vector<StroboscopicPoint> points_;
   std::optional<double> event_;  // time of an event without a point yet
   std::optional<double> t_outputs_;
   std::vector<double> outputs_;
 };
 
 /// The same run with output rows at the points, and an integer number of load periods.
-[[nodiscard]] RunSpec strobed(RunSpec run, const Strobe& strobe);
+[[nodiscard]] RunSpec strobed(RunSpec run, const StroboscopicMap& strobe);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

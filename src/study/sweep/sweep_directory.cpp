@@ -15,7 +15,7 @@
 #include "study/sweep/sweep_plots.hpp"
 #include "study/sweep/sweep_table.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 namespace fs = std::filesystem;
 
@@ -24,13 +24,13 @@ namespace {
 constexpr int format = 2;  // version of the directory format; in the first version each row had a file
 constexpr const char* rows_name = "rows.jsonl";
 
-Json spec_json(const SweepSpec& spec) {
-  Json json = {{"sweep", format},          {"signorini", version},
-               {"scene", spec.scene},      {"fingerprint", spec.fingerprint},
-               {"title", spec.title},      {"units", units_json(spec.units)},
-               {"settings", spec.settings}};
-  json["vary"] = Json::array();
-  for (const Vary& vary : spec.vary)
+base::Json spec_json(const SweepSpec& spec) {
+  base::Json json = {{"sweep", format},          {"signorini", version},
+                     {"scene", spec.scene},      {"fingerprint", spec.fingerprint},
+                     {"title", spec.title},      {"units", result::units_json(spec.units)},
+                     {"settings", spec.settings}};
+  json["vary"] = base::Json::array();
+  for (const ParameterRange& vary : spec.vary)
     json["vary"].push_back({{"path", vary.path},
                             {"text", vary.text},
                             {"values", vary.values},
@@ -39,9 +39,10 @@ Json spec_json(const SweepSpec& spec) {
   json["responses"] = spec.responses;
   json["response_units"] = spec.response_units;
   if (!spec.strobe.text.empty()) {
-    json["strobe"] = {{"text", spec.strobe.text}, {"period", spec.strobe.period}, {"columns", Json::array()}};
+    json["strobe"] = {
+        {"text", spec.strobe.text}, {"period", spec.strobe.period}, {"columns", base::Json::array()}};
     if (spec.strobe.settle) json["strobe"]["settle"] = *spec.strobe.settle;
-    for (const StrobeColumn& column : spec.strobe.columns)
+    for (const StroboscopicColumn& column : spec.strobe.columns)
       json["strobe"]["columns"].push_back(
           {{"name", column.name}, {"unit", column.unit}, {"output", column.output}});
   }
@@ -57,9 +58,9 @@ std::string text_of(const std::vector<std::string>& settings) {
   return text.empty() ? "(none)" : text;
 }
 
-std::string text_of(const std::vector<Vary>& varied) {
+std::string text_of(const std::vector<ParameterRange>& varied) {
   std::vector<std::string> list;
-  for (const Vary& vary : varied) list.push_back(vary.path + "=" + vary.text);
+  for (const ParameterRange& vary : varied) list.push_back(vary.path + "=" + vary.text);
   return text_of(list);
 }
 
@@ -107,7 +108,7 @@ void remove_old(const fs::path& path) {
   std::error_code error;
   std::vector<fs::path> ours;
   for (const fs::path& run : old_runs(path / "runs")) {
-    remove_run(run);
+    result::remove_run(run);
     if (fs::is_empty(run, error)) ours.push_back(run);
   }
   for (const char* name : {rows_name, "sweep.csv", "results.json", "quantiles.csv", "exceedance.csv",
@@ -123,9 +124,9 @@ void remove_old(const fs::path& path) {
 }  // namespace
 
 SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
-    : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::points(spec_.vary)) {
+    : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::sweep::points(spec_.vary)) {
   check_directory(path_);
-  make_directory(path_);
+  base::make_directory(path_);
   if (!lock_.take(path_)) throw FileError(path_.string(), "another sweep is running in it");
   if (is_sweep(path_) && !force) {
     const SweepSpec was = read_sweep_spec(path_);
@@ -139,7 +140,7 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     remove_old(path_);
   }
   for (auto& [index, found] : rows_in(path_ / rows_name)) rows_[index] = std::move(found.row);
-  write_file(path_ / "sweep.json", json_text(spec_json(spec_)));
+  result::write_file(path_ / "sweep.json", base::json_text(spec_json(spec_)));
   file_.emplace(path_ / rows_name);
 }
 
@@ -178,12 +179,12 @@ void SweepDirectory::add(const std::string& lines) {
   }
 }
 
-void SweepDirectory::write_table() const { write_file(path_ / "sweep.csv", sweep_csv(spec_, rows_)); }
+void SweepDirectory::write_table() const { result::write_file(path_ / "sweep.csv", sweep_csv(spec_, rows_)); }
 
 void SweepDirectory::write_results() const {
   write_table();
-  write_file(path_ / "results.json", sweep_json(spec_, rows_));
-  if (!spec_.strobe.text.empty()) write_file(path_ / "strobe.csv", strobe_csv(spec_, rows_));
+  result::write_file(path_ / "results.json", sweep_json(spec_, rows_));
+  if (!spec_.strobe.text.empty()) result::write_file(path_ / "strobe.csv", strobe_csv(spec_, rows_));
 }
 
 SweepSpec read_sweep_spec(const fs::path& directory) {
@@ -191,7 +192,7 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file.string(), "cannot be read; expected the directory of a sweep");
   try {
-    const Json json = parse_json(stream);
+    const base::Json json = base::parse_json(stream);
     if (json.at("sweep") != format)
       throw FileError(file.string(),
                       "is of an earlier version of Signorini; choose another directory, or use --force");
@@ -199,9 +200,9 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
     spec.scene = json.at("scene");
     spec.fingerprint = json.at("fingerprint");
     spec.title = json.at("title");
-    spec.units = units_from(json.at("units"));
+    spec.units = result::units_from(json.at("units"));
     spec.settings = json.at("settings").get<std::vector<std::string>>();
-    for (const Json& vary : json.at("vary"))
+    for (const base::Json& vary : json.at("vary"))
       spec.vary.push_back({vary.at("path"), vary.at("text"),
                            vary.at("values").get<std::vector<std::string>>(), vary.at("group"),
                            vary.at("sampled")});
@@ -210,7 +211,7 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
     if (const auto found = json.find("strobe"); found != json.end()) {
       spec.strobe = {found->at("text"), found->at("period"), {}, {}};
       if (found->contains("settle")) spec.strobe.settle = found->at("settle").get<double>();
-      for (const Json& column : found->at("columns"))
+      for (const base::Json& column : found->at("columns"))
         spec.strobe.columns.push_back({column.at("name"), column.at("unit"), column.at("output")});
     }
     if (const auto found = json.find("carry"); found != json.end()) spec.carry = {true, found->at("back")};
@@ -221,7 +222,7 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
     if (by != version)
       throw FileError(file.string(), "was written by Signorini " + by + ", this is " + version);
     return spec;
-  } catch (const Json::exception& error) {
+  } catch (const base::Json::exception& error) {
     throw FileError(file.string(), std::string("is not the specification of a sweep: ") + error.what());
   } catch (const UsageError& error) {
     throw FileError(file.string(), error.what());
@@ -241,7 +242,7 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
     return differ("--response", text_of(was.responses), text_of(is.responses));
   const auto strobe = [](const SweepSpec& s) {
     return (s.strobe.text.empty() ? "(none)" : s.strobe.text) +
-           (s.strobe.settle ? " --settle " + shortest(*s.strobe.settle) : "");
+           (s.strobe.settle ? " --settle " + base::shortest(*s.strobe.settle) : "");
   };
   if (strobe(was) != strobe(is)) return differ("--strobe", strobe(was), strobe(is));
   const auto carry = [](const SweepSpec& s) {
@@ -276,4 +277,4 @@ std::vector<std::size_t> merge_sweeps(const std::vector<fs::path>& from, SweepDi
   return missing;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

@@ -19,14 +19,14 @@
 #include "study/sweep/row_file.hpp"
 #include "study/sweep/sweep_row.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 /// Points that a stroboscopic sweep takes of every run; text empty: none.
-struct StrobeSpec {
+struct StroboscopicSpec {
   std::string text;              ///< --strobe
   double period = 0.0;           ///< 0: after events
   std::optional<double> settle;  ///< --settle
-  std::vector<StrobeColumn> columns = {};
+  std::vector<StroboscopicColumn> columns = {};
 };
 
 /// Runs along the last range, each of which begins with the final state of the previous one.
@@ -42,10 +42,10 @@ struct SweepSpec {
   std::string fingerprint;            ///< fingerprint of the scene's content with settings and the first
                                       ///< valid values
   std::vector<std::string> settings;  ///< --set, in order
-  std::vector<Vary> vary;             ///< the sampled keys last
+  std::vector<ParameterRange> vary;   ///< the sampled keys last
   /// Queries for every run (response_query.hpp), and the unit of each result.
   std::vector<std::string> responses, response_units;
-  StrobeSpec strobe;
+  StroboscopicSpec strobe;
   CarrySpec carry;
   std::string sampling;  ///< "1000 random, seed 1"; empty if nothing is sampled
   Share share;
@@ -86,7 +86,7 @@ class SweepDirectory {
   SweepSpec spec_;
   std::vector<std::vector<Override>> points_;
   std::map<std::size_t, SweepRow> rows_;
-  DirectoryLock lock_;
+  result::DirectoryLock lock_;
   std::optional<RowFile> file_;
 };
 
@@ -99,4 +99,4 @@ class SweepDirectory {
 /// FileError; also if the sweeps are not the same, or if two shares contradict each other.
 std::vector<std::size_t> merge_sweeps(const std::vector<std::filesystem::path>& from, SweepDirectory& to);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

@@ -11,14 +11,14 @@
 #include "base/text.hpp"
 #include "study/figures.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 namespace {
 
 constexpr std::size_t fewest_values = 3;
 
-std::vector<double> values_of(const Vary& vary) {
+std::vector<double> values_of(const ParameterRange& vary) {
   std::vector<double> values;
-  for (const std::string& text : vary.values) values.push_back(*parse_number(text));
+  for (const std::string& text : vary.values) values.push_back(*base::parse_number(text));
   std::sort(values.begin(), values.end());
   return values;
 }
@@ -46,12 +46,12 @@ std::pair<double, double> cell(const std::vector<double>& values, double at) {
 
 /// Range, scale and ticks of axis "x" or "y".
 std::string axis(const char* name, const std::vector<double>& values) {
-  std::string s =
-      fmt::format("set {}range [{}:{}]\n{} logscale {}\n", name, shortest(cell(values, values.front()).first),
-                  shortest(cell(values, values.back()).second), logarithmic(values) ? "set" : "unset", name);
+  std::string s = fmt::format(
+      "set {}range [{}:{}]\n{} logscale {}\n", name, base::shortest(cell(values, values.front()).first),
+      base::shortest(cell(values, values.back()).second), logarithmic(values) ? "set" : "unset", name);
   if (values.size() > most_ticks) return s + fmt::format("set {}tics autofreq\n", name);
   s += fmt::format("set {}tics (", name);
-  for (std::size_t i = 0; i < values.size(); ++i) s += (i > 0 ? ", " : "") + shortest(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) s += (i > 0 ? ", " : "") + base::shortest(values[i]);
   return s + ")\n";
 }
 
@@ -63,8 +63,9 @@ std::optional<MapAxes> map_axes(const SweepSpec& spec) {
     const std::vector<std::string>& values = spec.vary[i].values;
     if (values.size() < 2) continue;
     if (spec.vary[i].sampled || spec.vary[i].group != 0) return std::nullopt;
-    const bool numbers = std::all_of(values.begin(), values.end(),
-                                     [](const std::string& text) { return parse_number(text).has_value(); });
+    const bool numbers = std::all_of(values.begin(), values.end(), [](const std::string& text) {
+      return base::parse_number(text).has_value();
+    });
     if (!numbers || values.size() < fewest_values) return std::nullopt;
     const std::vector<double> sorted = values_of(spec.vary[i]);
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
@@ -74,9 +75,9 @@ std::optional<MapAxes> map_axes(const SweepSpec& spec) {
   return MapAxes{several[0], several[1]};
 }
 
-CsvTable<MapCell> map_table(const SweepSpec& spec) {
+result::CsvTable<MapCell> map_table(const SweepSpec& spec) {
   using C = MapCell;
-  CsvTable<C> table = {
+  result::CsvTable<C> table = {
       {"x0", &C::x0}, {"x1", &C::x1}, {"y0", &C::y0}, {"y1", &C::y1}, {"events", [](const C& c) {
                                                                          return c.row.changes();
                                                                        }}};
@@ -92,8 +93,8 @@ std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes, const
   std::vector<MapCell> cells;
   for (const auto& [index, row] : rows) {
     if (!row.ran()) continue;
-    const auto [x0, x1] = cell(x, *parse_number(row.values[axes.x]));
-    const auto [y0, y1] = cell(y, *parse_number(row.values[axes.y]));
+    const auto [x0, x1] = cell(x, *base::parse_number(row.values[axes.x]));
+    const auto [y0, y1] = cell(y, *base::parse_number(row.values[axes.y]));
     SweepRow::Contact greatest;
     for (const SweepRow::Contact& c : row.contacts)
       for (const SweepFigure& figure : sweep_figures)
@@ -103,8 +104,8 @@ std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes, const
   return cells;
 }
 
-const CsvTable<Border>& border_table() {
-  static const CsvTable<Border> table = {
+const result::CsvTable<Border>& border_table() {
+  static const result::CsvTable<Border> table = {
       {"x0", &Border::x0}, {"y0", &Border::y0}, {"x1", &Border::x1}, {"y1", &Border::y1}};
   return table;
 }
@@ -114,7 +115,8 @@ Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& 
   std::map<std::pair<double, double>, const std::string*> sequences;
   for (const auto& [index, row] : rows)
     if (row.ran())
-      sequences[{*parse_number(row.values[axes.x]), *parse_number(row.values[axes.y])}] = &row.sequence;
+      sequences[{*base::parse_number(row.values[axes.x]), *base::parse_number(row.values[axes.y])}] =
+          &row.sequence;
   Borders borders;
   const auto differ = [&](double xa, double ya, double xb, double yb) {
     const auto a = sequences.find({xa, ya}), b = sequences.find({xb, yb});
@@ -132,27 +134,30 @@ Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& 
   return borders;
 }
 
-Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
-                    const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders,
-                    const PictureLook& look) {
-  const CsvTable<MapCell> cells = map_table(spec);
-  const CsvTable<Border>& sides = border_table();
+result::Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
+                            const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders,
+                            const result::PictureLook& look) {
+  const result::CsvTable<MapCell> cells = map_table(spec);
+  const result::CsvTable<Border>& sides = border_table();
   const std::size_t count = panels.size();
-  Picture picture{name, subtitle, canvas_of(look, 148.0 + 380.0 * static_cast<double>(count), false), false};
+  result::Picture picture{name, subtitle,
+                          result::canvas_of(look, 148.0 + 380.0 * static_cast<double>(count), false), false};
   picture.space = 30.0;
   picture.setup =
       "set palette defined (0 '#f7fbff', 0.35 '#6baed6', 0.7 '#08519c', 1 '#08203f')\nset grid front\n";
-  const Canvas& canvas = picture.canvas;
-  const std::vector<PanelEdges> edges = stacked(std::vector<double>(count, 1.0), canvas, picture.space);
+  const result::Canvas& canvas = picture.canvas;
+  const std::vector<result::PanelEdges> edges =
+      result::stacked(std::vector<double>(count, 1.0), canvas, picture.space);
   for (std::size_t i = 0; i < count; ++i) {
-    Panel panel{key_with_unit(spec.vary[axes.y].path, spec.units), {}};
+    result::Panel panel{study::key_with_unit(spec.vary[axes.y].path, spec.units), {}};
     if (i + 1 == count)
-      panel.axes = "set xlabel " + quoted(key_with_unit(spec.vary[axes.x].path, spec.units)) + "\n";
+      panel.axes =
+          "set xlabel " + result::quoted(study::key_with_unit(spec.vary[axes.x].path, spec.units)) + "\n";
     panel.axes += axis("x", values_of(spec.vary[axes.x])) + axis("y", values_of(spec.vary[axes.y]));
     panel.axes += fmt::format(
         "set colorbox user origin screen {:.4f}, screen {:.4f} size screen 0.018, screen {:.4f}\n",
         canvas.right() + 22.0 / canvas.width, edges[i].bottom, edges[i].top - edges[i].bottom);
-    panel.axes += "set cblabel " + quoted(panels[i].label) + " offset character 1,0\n";
+    panel.axes += "set cblabel " + result::quoted(panels[i].label) + " offset character 1,0\n";
     panel.curves.push_back(
         {"'map.csv' skip 1",
          fmt::format("(0.5*({0}+{1})):(0.5*({2}+{3})):{4}:{5}:{6}:{7}:{8}", cells.value("x0"),
@@ -171,4 +176,4 @@ Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::strin
   return picture;
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

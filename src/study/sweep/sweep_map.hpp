@@ -16,7 +16,7 @@
 #include "result/table.hpp"
 #include "study/sweep/sweep_table.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 /// The two keys with several values.
 struct MapAxes {
@@ -32,7 +32,7 @@ struct MapCell {
   const SweepRow& row;
   SweepRow::Contact greatest;  ///< largest figures of all contacts
 };
-[[nodiscard]] CsvTable<MapCell> map_table(const SweepSpec& spec);
+[[nodiscard]] result::CsvTable<MapCell> map_table(const SweepSpec& spec);
 [[nodiscard]] std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes,
                                              const SweepRows& rows);
 
@@ -45,15 +45,15 @@ struct Borders {
   std::size_t neighbours = 0;  ///< number of sides between cells with runs
 };
 /// Columns of borders.csv.
-[[nodiscard]] const CsvTable<Border>& border_table();
+[[nodiscard]] const result::CsvTable<Border>& border_table();
 [[nodiscard]] Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 
 /// A figure and its column in map.csv.
 struct MapPanel {
   std::string label, column;
 };
-[[nodiscard]] Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
-                                  const std::string& subtitle, const std::vector<MapPanel>& panels,
-                                  bool borders, const PictureLook& look);
+[[nodiscard]] result::Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
+                                          const std::string& subtitle, const std::vector<MapPanel>& panels,
+                                          bool borders, const result::PictureLook& look);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

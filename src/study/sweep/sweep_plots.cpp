@@ -16,24 +16,24 @@
 #include "study/sweep/sweep_map.hpp"
 #include "study/sweep/sweep_table.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 namespace {
 
 /// True for the key of the axis, or one in step with it.
-bool moves_with(const SweepSpec& spec, const SweptAxis& axis, std::size_t key) {
+bool moves_with(const SweepSpec& spec, const SweepAxis& axis, std::size_t key) {
   return key == axis.key || (axis.vary->group != 0 && spec.vary[key].group == axis.vary->group);
 }
 
 }  // namespace
 
-std::string SweptAxis::x(const SweepRow& row) const {
-  if (numbers) return shortest(*parse_number(row.values[key]));
+std::string SweepAxis::x(const SweepRow& row) const {
+  if (numbers) return base::shortest(*base::parse_number(row.values[key]));
   const auto& values = vary->values;
   return std::to_string(std::find(values.begin(), values.end(), row.values[key]) - values.begin());
 }
 
-SweptAxis axis_of(const SweepSpec& spec, bool last) {
-  SweptAxis axis;
+SweepAxis axis_of(const SweepSpec& spec, bool last) {
+  SweepAxis axis;
   for (std::size_t i = spec.vary.size(); i-- > 0;) {
     if (spec.vary[i].values.size() < 2) continue;
     axis.key = i;
@@ -41,12 +41,12 @@ SweptAxis axis_of(const SweepSpec& spec, bool last) {
   }
   axis.vary = &spec.vary[axis.key];
   axis.numbers = std::all_of(axis.vary->values.begin(), axis.vary->values.end(),
-                             [](const std::string& value) { return parse_number(value).has_value(); });
+                             [](const std::string& value) { return base::parse_number(value).has_value(); });
   return axis;
 }
 
-std::vector<SweptCurve> swept_curves(const SweepSpec& spec, const SweepRows& rows, const SweptAxis& axis) {
-  std::vector<SweptCurve> list;
+std::vector<SweepCurve> swept_curves(const SweepSpec& spec, const SweepRows& rows, const SweepAxis& axis) {
+  std::vector<SweepCurve> list;
   std::map<std::vector<std::string>, std::size_t> known;
   for (const auto& [index, row] : rows) {
     if (!row.ran()) continue;
@@ -67,7 +67,7 @@ std::vector<SweptCurve> swept_curves(const SweepSpec& spec, const SweepRows& row
   return list;
 }
 
-std::string other_keys(const SweepSpec& spec, const SweptAxis& axis) {
+std::string other_keys(const SweepSpec& spec, const SweepAxis& axis) {
   std::string text;
   for (std::size_t i = 0; i < spec.vary.size(); ++i)
     if (!moves_with(spec, axis, i) && spec.vary[i].values.size() > 1)
@@ -75,17 +75,17 @@ std::string other_keys(const SweepSpec& spec, const SweptAxis& axis) {
   return text;
 }
 
-std::string x_range(const SweptAxis& axis) {
+std::string x_range(const SweepAxis& axis) {
   double first = 0.0, last = static_cast<double>(axis.vary->values.size()) - 1.0;
   if (axis.numbers) {
-    first = last = *parse_number(axis.vary->values.front());
+    first = last = *base::parse_number(axis.vary->values.front());
     for (const std::string& value : axis.vary->values) {
-      first = std::min(first, *parse_number(value));
-      last = std::max(last, *parse_number(value));
+      first = std::min(first, *base::parse_number(value));
+      last = std::max(last, *base::parse_number(value));
     }
   }
   const double air = last > first ? 0.03 * (last - first) : 1.0;
-  return range_of('x', first - air, last + air);
+  return result::range_of('x', first - air, last + air);
 }
 
 namespace fs = std::filesystem;
@@ -99,10 +99,10 @@ constexpr std::size_t most_panels = 6;
 constexpr std::size_t most_curves = 24;  // limit of names in a legend beside the panel
 
 /// Columns of curve-N.csv: a row of the sweep, its x, and figures of contacts.
-CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweptAxis& axis,
-                                      const std::vector<std::string>& contacts) {
-  CsvTable<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
-                                     {"events", [](const SweepRow* row) { return row->changes(); }}};
+result::CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweepAxis& axis,
+                                              const std::vector<std::string>& contacts) {
+  result::CsvTable<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
+                                             {"events", [](const SweepRow* row) { return row->changes(); }}};
   for (const std::string& name : contacts)
     for (const SweepFigure& figure : sweep_figures)
       table.add(name + "." + figure.name, [name, &figure](const SweepRow* row) {
@@ -115,10 +115,10 @@ CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweptAxis& ax
 }
 
 /// Sorts rows by x: ranges may decrease, lists may have any order; lines are drawn from left to right.
-std::vector<const SweepRow*> from_left(const SweptCurve& curve, const SweptAxis& axis) {
+std::vector<const SweepRow*> from_left(const SweepCurve& curve, const SweepAxis& axis) {
   std::vector<const SweepRow*> rows = curve.rows;
   std::stable_sort(rows.begin(), rows.end(), [&](const SweepRow* a, const SweepRow* b) {
-    return parse_number(axis.x(*a)) < parse_number(axis.x(*b));
+    return base::parse_number(axis.x(*a)) < base::parse_number(axis.x(*b));
   });
   return rows;
 }
@@ -131,9 +131,9 @@ struct Shown {
   std::string column = "events";  ///< column of curve-N.csv; for contacts: suffix of their names
 };
 
-class SweptCurves {
+class SweepCurves {
  public:
-  SweptCurves(const SweepSpec& spec, const SweptAxis& axis, const std::vector<SweptCurve>& combinations,
+  SweepCurves(const SweepSpec& spec, const SweepAxis& axis, const std::vector<SweepCurve>& combinations,
               const std::vector<std::string>& contacts)
       : units_(spec.units),
         axis_(axis),
@@ -141,26 +141,27 @@ class SweptCurves {
         contacts_(contacts),
         table_(curve_table(spec, axis, contacts)) {}
 
-  [[nodiscard]] Picture picture(const std::string& name, const std::string& subtitle,
-                                const std::vector<Shown>& panels, const PictureLook& look) const {
+  [[nodiscard]] result::Picture picture(const std::string& name, const std::string& subtitle,
+                                        const std::vector<Shown>& panels,
+                                        const result::PictureLook& look) const {
     const std::size_t count = panels.size();
-    Picture picture{name, subtitle, canvas_of(look, 148.0 + 320.0 * static_cast<double>(count), false),
-                    false};
+    result::Picture picture{
+        name, subtitle, result::canvas_of(look, 148.0 + 320.0 * static_cast<double>(count), false), false};
     picture.space = 26.0;
     picture.setup = "set offsets 0,0,graph 0.05,0\n" + x_range(axis_);
     for (std::size_t i = 0; i < count; ++i) {
-      Panel panel{panels[i].label, curves(panels[i])};
+      result::Panel panel{panels[i].label, curves(panels[i])};
       panel.axes = panels[i].kind == Shown::Kind::answer ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
       if (!axis_.numbers) panel.axes += tics(i + 1 == count);
       if (i + 1 == count)
-        panel.axes += "set xlabel " + quoted(key_with_unit(axis_.vary->path, units_)) + "\n";
+        panel.axes += "set xlabel " + result::quoted(study::key_with_unit(axis_.vary->path, units_)) + "\n";
       picture.panels.push_back(panel);
     }
     return picture;
   }
 
   /// Adds the tables of the pictures.
-  void add_tables(PictureFiles& files) const {
+  void add_tables(result::PictureFiles& files) const {
     for (std::size_t i = 0; i < std::min(combinations_.size(), most_curves); ++i)
       files.add_table(fmt::format("curve-{}", i + 1), table_.text(from_left(combinations_[i], axis_)));
   }
@@ -169,11 +170,11 @@ class SweptCurves {
   [[nodiscard]] std::string tics(bool named) const {
     std::vector<std::pair<std::string, std::size_t>> names;
     for (const std::string& value : axis_.vary->values) names.emplace_back(named ? value : "", names.size());
-    return named_tics('x', names) + "\n";
+    return result::named_tics('x', names) + "\n";
   }
 
-  [[nodiscard]] std::vector<Curve> curves(const Shown& panel) const {
-    std::vector<Curve> list;
+  [[nodiscard]] std::vector<result::Curve> curves(const Shown& panel) const {
+    std::vector<result::Curve> list;
     const bool of_contacts = panel.kind == Shown::Kind::contacts;
     for (std::size_t k = 0; k < (of_contacts ? contacts_.size() : 1); ++k) {
       for (std::size_t c = 0; c < combinations_.size() && list.size() < most_curves; ++c) {
@@ -200,17 +201,17 @@ class SweptCurves {
   }
 
   const Units& units_;
-  const SweptAxis& axis_;
-  const std::vector<SweptCurve>& combinations_;
+  const SweepAxis& axis_;
+  const std::vector<SweepCurve>& combinations_;
   const std::vector<std::string>& contacts_;
-  CsvTable<const SweepRow*> table_;
+  result::CsvTable<const SweepRow*> table_;
 };
 
 bool is_picture_of_sweep(const fs::path& file) {
   const std::string stem = file.stem().string();
   const bool named = stem == "motion" || stem == "forces" || stem == "losses" || stem == "responses" ||
                      stem == "exceedance" || stem == "strobe";
-  return (is_picture(file) && named) ||
+  return (result::is_picture(file) && named) ||
          (file.extension() == ".csv" && (stem.starts_with("curve-") || stem.starts_with("exceedance-") ||
                                          stem.starts_with("strobe-") || stem == "map" || stem == "borders"));
 }
@@ -221,19 +222,21 @@ std::string labelled(const SweepSpec& spec, std::size_t query) {
 }
 
 /// Probability that a result is exceeded, over its value, with confidence interval; one panel per query.
-void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
-                     PictureFiles& files) {
+void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const result::PlottedRun& run,
+                     result::PictureFiles& files) {
   const std::vector<Sampled> answers = sampled_answers(spec, rows);
   const auto drawn = [](const Sampled& s) { return s.sorted.size() > 1; };
   if (std::none_of(answers.begin(), answers.end(), drawn)) return;
-  const CsvTable<Exceedance>& table = exceedance_columns();
+  const result::CsvTable<Exceedance>& table = exceedance_columns();
   const std::size_t panels = std::min(spec.responses.size(), most_panels);
-  Picture picture{"exceedance", "Probability of more; " + spec.sampling,
-                  canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false), false};
+  result::Picture picture{"exceedance", "Probability of more; " + spec.sampling,
+                          result::canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false),
+                          false};
   picture.space = 80.0;
   picture.setup = "set logscale y\n";
   for (std::size_t i = 0; i < panels; ++i) {
-    Panel panel{"P(greater)", {}, "set xlabel " + quoted(labelled(spec, i)) + "\nset yrange [*:1]\n"};
+    result::Panel panel{
+        "P(greater)", {}, "set xlabel " + result::quoted(labelled(spec, i)) + "\nset yrange [*:1]\n"};
     panel.own_axis = true;
     for (std::size_t k = 0; k < answers.size() && panel.curves.size() < most_curves; ++k) {
       if (answers[k].query != i || !drawn(answers[k])) continue;
@@ -289,7 +292,8 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
 
 /// Maps with two keys as axes.
 void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
-              const std::vector<std::string>& contacts, const PlottedRun& run, PictureFiles& files) {
+              const std::vector<std::string>& contacts, const result::PlottedRun& run,
+              result::PictureFiles& files) {
   files.add_table("map", map_table(spec).text(map_cells(spec, axes, rows)));
   const Borders found = borders_of(spec, axes, rows);
   const bool differ = !found.sides.empty();
@@ -312,20 +316,21 @@ void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
 
 }  // namespace
 
-PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows, const PictureLook& look) {
-  PictureFiles files(is_picture_of_sweep);
-  const PlottedRun run = untold_run(spec.title, spec.units, look);
+result::PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows,
+                                    const result::PictureLook& look) {
+  result::PictureFiles files(is_picture_of_sweep);
+  const result::PlottedRun run = result::unreported_run(spec.title, spec.units, look);
   if (!spec.sampling.empty()) {
     add_exceedances(spec, rows, run, files);
     return files;
   }
   if (!spec.strobe.text.empty()) add_strobe_picture(spec, rows, run, files);
   if (spec.carry.back) return files;  // two runs per value: no curve over it
-  const SweptAxis axis = axis_of(spec);
-  const std::vector<SweptCurve> list = swept_curves(spec, rows, axis);
+  const SweepAxis axis = axis_of(spec);
+  const std::vector<SweepCurve> list = swept_curves(spec, rows, axis);
   const std::vector<std::string> contacts = contact_names(rows);
   if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return files;
-  const SweptCurves curves(spec, axis, list, contacts);
+  const SweepCurves curves(spec, axis, list, contacts);
   curves.add_tables(files);
   if (const std::optional<MapAxes> axes = map_axes(spec)) {
     add_maps(spec, *axes, rows, contacts, run, files);
@@ -338,7 +343,7 @@ PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows, const 
 }
 
 void remove_sweep_plots(const fs::path& directory) {
-  clear_plot_folder(directory / "plots", is_picture_of_sweep);
+  result::clear_plot_folder(directory / "plots", is_picture_of_sweep);
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

@@ -11,7 +11,7 @@
 #include "study/prepared_run.hpp"
 #include "study/sweep/response_query.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 namespace {
 
@@ -40,11 +40,11 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
 }
 
 /// Keeps the last row of a run, from which another one goes on.
-class LastRow : public ForwardingRecorder {
+class LastRow : public run::ForwardingRecorder {
  public:
-  explicit LastRow(Recorder& next) : ForwardingRecorder(&next) {}
+  explicit LastRow(Recorder& next) : run::ForwardingRecorder(&next) {}
   void sample(const Sample& sample) override {
-    ForwardingRecorder::sample(sample);
+    run::ForwardingRecorder::sample(sample);
     last_.rows.clear();
     last_.sample(sample);
   }
@@ -52,7 +52,7 @@ class LastRow : public ForwardingRecorder {
   [[nodiscard]] SavedState state(const Model& model) const {
     SavedState state = last_state(model, last_);
     state.scales.reset();
-    std::erase_if(state.motions, [](const auto& motion) { return motion.first == saved_alpha; });
+    std::erase_if(state.motions, [](const auto& motion) { return motion.first == scene::saved_alpha; });
     return state;
   }
 
@@ -62,11 +62,11 @@ class LastRow : public ForwardingRecorder {
 
 /// The row's own run has output rows only at both ends and at points, whether it is kept or not: so the result is the
 /// same, and the run is quicker.
-Report run(const RowTask& task, const PreparedRun& prepared, Recorder& heard, const RunSpec& spec) {
+Report run(const RowTask& task, const study::PreparedRun& prepared, Recorder& heard, const RunSpec& spec) {
   if (!task.keep.empty()) {
-    remove_run(task.keep);  // remains of an interrupted sweep
-    RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
-    ForwardingRecorder all(&directory);
+    result::remove_run(task.keep);  // remains of an interrupted sweep
+    result::RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
+    run::ForwardingRecorder all(&directory);
     prepared.keep(directory, all);
   }
   return simulate(prepared.model, spec, heard);
@@ -81,11 +81,11 @@ void drop_outputs(const RowTask& task, const std::vector<ResponseQuery>& queries
   model.reaction_sums.clear();
 }
 
-double number_or_none(const Json& value) {  // NaN was written as null
+double number_or_none(const base::Json& value) {  // NaN was written as null
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
-double number(const Json& json, const char* key) { return number_or_none(json.at(key)); }
+double number(const base::Json& json, const char* key) { return number_or_none(json.at(key)); }
 
 }  // namespace
 
@@ -99,10 +99,10 @@ std::optional<double> SweepRow::response(std::size_t i) const {
 namespace {
 
 /// A file that cannot be read makes this run refused; a file that cannot be written ends the sweep.
-PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) try {
+study::PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) try {
   Scene scene = parse_scene(task.text, task.scene, task.changes);
   if (carried != nullptr && *carried) scene.initial = {.saved = **carried};
-  return prepare_run(std::move(scene), std::nullopt);
+  return study::prepare_run(std::move(scene), std::nullopt);
 } catch (const FileError& error) {
   throw Error(error.code(), error.what());
 }
@@ -112,20 +112,20 @@ SweepRow computed(const RowTask& task, std::optional<SavedState>* carried) {
   row.index = task.index;
   row.values = task.values;
   try {
-    PreparedRun prepared = signorini::prepared(task, carried);
+    study::PreparedRun prepared = signorini::sweep::prepared(task, carried);
     Model& model = prepared.model;
     std::vector<ResponseQuery> queries;
     for (const std::string& text : task.responses) queries.push_back(parse_query(text, model));
     drop_outputs(task, queries, model);
-    Answers answers(queries, model);
+    QueryRecorder answers(queries, model);
     LastRow last(answers);
     Recorder& heard = carried != nullptr ? static_cast<Recorder&>(last) : answers;
     Report report;
     if (task.strobe.empty()) {
-      report = run(task, prepared, heard, without_rows(prepared.scene.run));
+      report = run(task, prepared, heard, study::without_rows(prepared.scene.run));
     } else {
-      const Strobe strobe = parse_strobe(task.strobe, prepared.scene, model);
-      StrobeRecorder points(strobe, task.settle.value_or(0.5 * prepared.scene.run.t_end), model, heard);
+      const StroboscopicMap strobe = parse_strobe(task.strobe, prepared.scene, model);
+      StroboscopicRecorder points(strobe, task.settle.value_or(0.5 * prepared.scene.run.t_end), model, heard);
       report = run(task, prepared, points, strobed(prepared.scene.run, strobe));
       row.points = points.points();
     }
@@ -152,22 +152,22 @@ SweepRow compute_row(const RowTask& task, std::optional<SavedState>& carried) {
 
 namespace {
 
-Json json_of(const SweepRow& row) {
-  Json json = {{"row", row.index + 1},       {"values", row.values}, {"outcome", row.outcome},
-               {"reason", row.reason},       {"t", row.t},           {"events", row.events},
-               {"wall_time", row.wall_time}, {"steps", row.steps},   {"energy_balance", row.balance},
-               {"warnings", row.warnings}};
+base::Json json_of(const SweepRow& row) {
+  base::Json json = {{"row", row.index + 1},       {"values", row.values}, {"outcome", row.outcome},
+                     {"reason", row.reason},       {"t", row.t},           {"events", row.events},
+                     {"wall_time", row.wall_time}, {"steps", row.steps},   {"energy_balance", row.balance},
+                     {"warnings", row.warnings}};
   json["sequence"] = row.sequence;
   if (!row.responses.empty()) json["responses"] = row.responses;
   if (!row.points.empty()) {
-    json["points"] = Json::array();
-    for (const StrobePoint& point : row.points) {
-      Json values = Json::array({point.t});
+    json["points"] = base::Json::array();
+    for (const StroboscopicPoint& point : row.points) {
+      base::Json values = base::Json::array({point.t});
       for (const double value : point.values) values.push_back(value);
       json["points"].push_back(std::move(values));
     }
   }
-  json["contacts"] = Json::array();
+  json["contacts"] = base::Json::array();
   for (const auto& contact : row.contacts)
     json["contacts"].push_back({{"name", contact.name},
                                 {"tangential", contact.tangential},
@@ -178,7 +178,7 @@ Json json_of(const SweepRow& row) {
   return json;
 }
 
-SweepRow row_of(const Json& json) {
+SweepRow row_of(const base::Json& json) {
   SweepRow row;
   row.index = json.at("row").get<std::size_t>() - 1;
   row.values = json.at("values").get<std::vector<std::string>>();
@@ -192,14 +192,14 @@ SweepRow row_of(const Json& json) {
   row.warnings = json.at("warnings");
   row.sequence = json.at("sequence");
   if (const auto found = json.find("responses"); found != json.end())
-    for (const Json& value : *found) row.responses.push_back(number_or_none(value));
+    for (const base::Json& value : *found) row.responses.push_back(number_or_none(value));
   if (const auto found = json.find("points"); found != json.end())
-    for (const Json& values : *found) {
-      StrobePoint point{values.at(0).get<double>(), {}};
+    for (const base::Json& values : *found) {
+      StroboscopicPoint point{values.at(0).get<double>(), {}};
       for (std::size_t i = 1; i < values.size(); ++i) point.values.push_back(number_or_none(values[i]));
       row.points.push_back(std::move(point));
     }
-  for (const Json& contact : json.at("contacts"))
+  for (const base::Json& contact : json.at("contacts"))
     row.contacts.push_back({contact.at("name"), number(contact, "tangential"), number(contact, "normal"),
                             number(contact, "N"), number(contact, "T"), number(contact, "friction_work")});
   return row;
@@ -207,7 +207,7 @@ SweepRow row_of(const Json& json) {
 
 }  // namespace
 
-std::string row_json(const SweepRow& row) { return json_text(json_of(row)); }
+std::string row_json(const SweepRow& row) { return base::json_text(json_of(row)); }
 
 namespace {
 
@@ -217,8 +217,8 @@ constexpr const char* checksum_key = ",\"checksum\":\"";
 }  // namespace
 
 std::string row_line(const SweepRow& row) {
-  std::string line = json_line(json_of(row));
-  const std::string checksum = fingerprint_of(line);
+  std::string line = base::json_line(json_of(row));
+  const std::string checksum = base::fingerprint_of(line);
   line.pop_back();
   return line + checksum_key + checksum + "\"}\n";
 }
@@ -227,10 +227,10 @@ bool is_unaltered(const std::string& line) {
   const std::size_t end = line.rfind(checksum_key);
   if (end == std::string::npos) return false;
   const std::string row = line.substr(0, end) + "}";
-  return line.substr(end) == checksum_key + fingerprint_of(row) + "\"}";
+  return line.substr(end) == checksum_key + base::fingerprint_of(row) + "\"}";
 }
 
-SweepRow parse_row(const std::string& line) { return row_of(parse_json(line)); }
+SweepRow parse_row(const std::string& line) { return row_of(base::parse_json(line)); }
 
 bool same_result(const SweepRow& a, const SweepRow& b) {
   SweepRow other = b;
@@ -238,4 +238,4 @@ bool same_result(const SweepRow& a, const SweepRow& b) {
   return row_json(a) == row_json(other);
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

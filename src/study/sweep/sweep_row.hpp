@@ -16,7 +16,7 @@
 #include "signorini/scene.hpp"
 #include "study/sweep/stroboscopic_map.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 struct SweepRow {
   std::size_t index = 0;            ///< from 0, in the whole sweep
@@ -31,10 +31,10 @@ struct SweepRow {
     double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
   };
   std::vector<Contact> contacts;
-  std::vector<double> responses;    ///< one per query of the sweep; NaN: none. Empty if no run began
-  std::vector<StrobePoint> points;  ///< points of a stroboscopic sweep
-  std::string sequence;             ///< hash of its events: equal for equal sequences (response_query.hpp)
-  double wall_time = 0.0;           ///< s
+  std::vector<double> responses;          ///< one per query of the sweep; NaN: none. Empty if no run began
+  std::vector<StroboscopicPoint> points;  ///< points of a stroboscopic sweep
+  std::string sequence;    ///< hash of its events: equal for equal sequences (response_query.hpp)
+  double wall_time = 0.0;  ///< s
   long steps = 0;
   double balance = 0.0;  ///< relative error of the energy balance
   std::size_t warnings = 0;
@@ -88,4 +88,4 @@ struct RowTask {
 /// True if the rows are equal except for their wall time.
 [[nodiscard]] bool same_result(const SweepRow& a, const SweepRow& b);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

@@ -14,18 +14,18 @@
 #include "study/figures.hpp"
 #include "study/sweep/sweep_plots.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 namespace {
 
 /// Columns of sweep.csv; figures of a row without a run are empty.
-CsvTable<SweepRow> sweep_table(const SweepSpec& spec, const std::vector<std::string>& contacts) {
+result::CsvTable<SweepRow> sweep_table(const SweepSpec& spec, const std::vector<std::string>& contacts) {
   using R = SweepRow;
   const auto if_ran = [](auto figure) {
     return [figure](const R& row) {
       return row.ran() ? std::optional(static_cast<double>(std::invoke(figure, row))) : std::nullopt;
     };
   };
-  CsvTable<R> table = {{"row", [](const R& row) { return row.index + 1; }}};
+  result::CsvTable<R> table = {{"row", [](const R& row) { return row.index + 1; }}};
   for (std::size_t i = 0; i < spec.vary.size(); ++i)
     table.add(spec.vary[i].path, [i](const R& row) { return std::string_view(row.values[i]); });
   table.add("outcome", &R::outcome);
@@ -70,19 +70,19 @@ const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name
 }
 
 std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows) {
-  const CsvTable<SweepRow> table = sweep_table(spec, contact_names(rows));
-  CsvBlock block;
+  const result::CsvTable<SweepRow> table = sweep_table(spec, contact_names(rows));
+  result::CsvBlock block;
   table.put_header(block);
   for (const auto& [index, row] : rows) table.put_row(block, row);
   return block.str();
 }
 
 std::string sweep_json(const SweepSpec& spec, const SweepRows& rows) {
-  Json json = {
-      {"title", spec.title},       {"scene", spec.scene},        {"units", units_json(spec.units)},
+  base::Json json = {
+      {"title", spec.title},       {"scene", spec.scene},        {"units", result::units_json(spec.units)},
       {"settings", spec.settings}, {"share", spec.share.text()}, {"rows_in_all", points(spec.vary).size()}};
-  json["vary"] = Json::array();
-  for (const Vary& vary : spec.vary) {
+  json["vary"] = base::Json::array();
+  for (const ParameterRange& vary : spec.vary) {
     json["vary"].push_back({{"path", vary.path}});
     if (vary.sampled)  // the values are in the rows
       json["vary"].back()["distribution"] = vary.text;
@@ -90,12 +90,12 @@ std::string sweep_json(const SweepSpec& spec, const SweepRows& rows) {
       json["vary"].back()["values"] = vary.values;
   }
   if (!spec.sampling.empty()) json["sampling"] = spec.sampling;
-  json["responses"] = Json::array();
+  json["responses"] = base::Json::array();
   for (std::size_t i = 0; i < spec.responses.size(); ++i)
     json["responses"].push_back({{"name", spec.responses[i]}, {"unit", spec.response_units[i]}});
-  json["rows"] = Json::array();
-  for (const auto& [index, row] : rows) json["rows"].push_back(parse_json(row_json(row)));
-  return json_text(json);
+  json["rows"] = base::Json::array();
+  for (const auto& [index, row] : rows) json["rows"].push_back(base::parse_json(row_json(row)));
+  return base::json_text(json);
 }
 
 namespace {
@@ -106,7 +106,7 @@ constexpr std::size_t most_values = 6;
 
 struct RowPoint {
   const SweepRow* row;
-  const StrobePoint* point;
+  const StroboscopicPoint* point;
 };
 
 /// True if the row belongs to the repetition of the last range in the opposite order.
@@ -119,12 +119,12 @@ bool goes_back(const SweepSpec& spec, const SweepRow& row) {
 std::vector<RowPoint> points_of(const std::vector<const SweepRow*>& rows) {
   std::vector<RowPoint> list;
   for (const SweepRow* row : rows)
-    for (const StrobePoint& point : row->points) list.push_back({row, &point});
+    for (const StroboscopicPoint& point : row->points) list.push_back({row, &point});
   return list;
 }
 
 /// Indices of the drawn values.
-std::vector<std::size_t> drawn(const std::vector<StrobeColumn>& columns) {
+std::vector<std::size_t> drawn(const std::vector<StroboscopicColumn>& columns) {
   std::vector<std::size_t> list;
   const bool outputs = std::any_of(columns.begin(), columns.end(), [](const auto& c) { return c.output; });
   for (std::size_t i = 0; i < columns.size() && list.size() < most_values; ++i)
@@ -132,13 +132,13 @@ std::vector<std::size_t> drawn(const std::vector<StrobeColumn>& columns) {
   return list;
 }
 
-void add_values(const SweepSpec& spec, CsvTable<RowPoint>& table) {
+void add_values(const SweepSpec& spec, result::CsvTable<RowPoint>& table) {
   for (std::size_t i = 0; i < spec.strobe.columns.size(); ++i)
     table.add(spec.strobe.columns[i].name, [i](const RowPoint& p) { return p.point->values[i]; });
 }
 
-CsvTable<RowPoint> point_table(const SweepSpec& spec, const SweptAxis& axis) {
-  CsvTable<RowPoint> table = {{"x", [axis](const RowPoint& p) { return axis.x(*p.row); }}};
+result::CsvTable<RowPoint> point_table(const SweepSpec& spec, const SweepAxis& axis) {
+  result::CsvTable<RowPoint> table = {{"x", [axis](const RowPoint& p) { return axis.x(*p.row); }}};
   add_values(spec, table);
   return table;
 }
@@ -146,7 +146,7 @@ CsvTable<RowPoint> point_table(const SweepSpec& spec, const SweptAxis& axis) {
 }  // namespace
 
 std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows) {
-  CsvTable<RowPoint> table = {{"row", [](const RowPoint& p) { return p.row->index + 1; }}};
+  result::CsvTable<RowPoint> table = {{"row", [](const RowPoint& p) { return p.row->index + 1; }}};
   for (std::size_t i = 0; i < spec.vary.size(); ++i)
     table.add(spec.vary[i].path, [i](const RowPoint& p) { return std::string_view(p.row->values[i]); });
   table.add("way", [&spec](const RowPoint& p) {
@@ -154,27 +154,27 @@ std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows) {
   });
   table.add("t", [](const RowPoint& p) { return p.point->t; });
   add_values(spec, table);
-  CsvBlock block;
+  result::CsvBlock block;
   table.put_header(block);
   for (const auto& [index, row] : rows)
-    for (const StrobePoint& point : row.points) table.put_row(block, {&row, &point});
+    for (const StroboscopicPoint& point : row.points) table.put_row(block, {&row, &point});
   return block.str();
 }
 
-void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
-                        PictureFiles& files) {
-  const SweptAxis axis = axis_of(spec, true);
-  const CsvTable<RowPoint> table = point_table(spec, axis);
+void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const result::PlottedRun& run,
+                        result::PictureFiles& files) {
+  const SweepAxis axis = axis_of(spec, true);
+  const result::CsvTable<RowPoint> table = point_table(spec, axis);
   const std::vector<std::size_t> shown = drawn(spec.strobe.columns);
-  Picture picture{"strobe",
-                  "States " + (spec.strobe.period > 0.0 ? "every " : std::string("after every ")) +
-                      spec.strobe.text + (spec.strobe.period > 0.0 ? " " + spec.units.time : "") +
-                      other_keys(spec, axis),
-                  canvas_of(run.look, 148.0 + 320.0 * static_cast<double>(shown.size()), false), false};
+  result::Picture picture{
+      "strobe",
+      "States " + (spec.strobe.period > 0.0 ? "every " : std::string("after every ")) + spec.strobe.text +
+          (spec.strobe.period > 0.0 ? " " + spec.units.time : "") + other_keys(spec, axis),
+      result::canvas_of(run.look, 148.0 + 320.0 * static_cast<double>(shown.size()), false), false};
   picture.space = 26.0;
   picture.setup = "set offsets 0,0,graph 0.05,graph 0.05\n" + x_range(axis);
-  std::vector<Curve> curves;  // without their column
-  for (const SweptCurve& curve : swept_curves(spec, rows, axis))
+  std::vector<result::Curve> curves;  // without their column
+  for (const SweepCurve& curve : swept_curves(spec, rows, axis))
     for (const bool back : {false, true}) {
       if (curves.size() == point_colours.size()) break;
       std::vector<const SweepRow*> part;
@@ -193,16 +193,16 @@ void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const Plot
     }
   if (curves.empty()) return;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const StrobeColumn& column = spec.strobe.columns[shown[i]];
-    Panel panel{column.name + (column.unit.empty() ? "" : " [" + column.unit + "]"), curves,
-                "set yrange [*:*]\n"};
-    for (Curve& curve : panel.curves)
+    const StroboscopicColumn& column = spec.strobe.columns[shown[i]];
+    result::Panel panel{column.name + (column.unit.empty() ? "" : " [" + column.unit + "]"), curves,
+                        "set yrange [*:*]\n"};
+    for (result::Curve& curve : panel.curves)
       curve.columns = fmt::format("{}:{}", table.number("x"), table.number(column.name));
     if (i + 1 == shown.size())
-      panel.axes += "set xlabel " + quoted(key_with_unit(axis.vary->path, spec.units)) + "\n";
+      panel.axes += "set xlabel " + result::quoted(study::key_with_unit(axis.vary->path, spec.units)) + "\n";
     picture.panels.push_back(panel);
   }
   files.add(run, picture);
 }
 
-}  // namespace signorini
+}  // namespace signorini::sweep

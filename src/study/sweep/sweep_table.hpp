@@ -14,7 +14,7 @@
 #include "result/picture_files.hpp"
 #include "study/sweep/sweep_directory.hpp"
 
-namespace signorini {
+namespace signorini::sweep {
 
 using SweepRows = std::map<std::size_t, SweepRow>;
 
@@ -33,7 +33,7 @@ using SweepRows = std::map<std::size_t, SweepRow>;
 
 [[nodiscard]] std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows);
 /// Outputs, or displacements if the scene has no outputs; at most six panels.
-void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
-                        PictureFiles& files);
+void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const result::PlottedRun& run,
+                        result::PictureFiles& files);
 
-}  // namespace signorini
+}  // namespace signorini::sweep

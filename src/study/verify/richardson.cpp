@@ -5,7 +5,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::verify {
 
 std::vector<ObservedColumn> observed_columns(const Model& model) {
   const Units& units = model.units;
@@ -25,7 +25,7 @@ std::vector<ObservedColumn> observed_columns(const Model& model) {
   return list;
 }
 
-Observed observed(Tracker&& tracker, Report report) {
+Observed observed(certify::CompanionTracker&& tracker, Report report) {
   Observed result;
   result.track = {std::move(tracker.events), report.outcome.t, report.outcome.reason};
   result.rows = std::move(tracker.rows);
@@ -34,8 +34,8 @@ Observed observed(Tracker&& tracker, Report report) {
 }
 
 Observed observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on) {
-  Patient patient(go_on);
-  Tracker tracker(model, true, &patient);
+  ObservingRecorder patient(go_on);
+  certify::CompanionTracker tracker(model, true, &patient);
   Report report = simulate(model, run, tracker);
   return observed(std::move(tracker), std::move(report));
 }
@@ -97,4 +97,4 @@ Extrapolated extrapolate(const std::vector<Thrice>& series, const KindOfSeries& 
   return result;
 }
 
-}  // namespace signorini
+}  // namespace signorini::verify

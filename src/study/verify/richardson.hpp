@@ -23,13 +23,13 @@
 #include "certify/companion.hpp"
 #include "signorini/simulate.hpp"
 
-namespace signorini {
+namespace signorini::verify {
 
 // Observations of a run: its events, and at output times the columns of history.csv, N, T and outputs.
 
 struct Observed {
-  Track track;
-  KeptRows rows;
+  certify::Track track;
+  certify::KeptRows rows;
   Report report;
 
   [[nodiscard]] double at(std::size_t row, std::size_t column) const {
@@ -47,9 +47,9 @@ struct ObservedColumn {
 [[nodiscard]] std::vector<ObservedColumn> observed_columns(const Model& model);
 
 /// Periodically checks whether to continue, and stores nothing.
-class Patient : public Recorder {
+class ObservingRecorder : public Recorder {
  public:
-  explicit Patient(const std::function<bool()>& go_on) : go_on_(go_on) {}
+  explicit ObservingRecorder(const std::function<bool()>& go_on) : go_on_(go_on) {}
   void event(const Event& /*event*/) override {}
   void sample(const Sample& /*sample*/) override {}
   bool progress(double /*t*/) override { return go_on_(); }
@@ -62,7 +62,7 @@ class Patient : public Recorder {
 [[nodiscard]] Observed observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on);
 
 /// Observations of a run that has ended.
-[[nodiscard]] Observed observed(Tracker&& tracker, Report report);
+[[nodiscard]] Observed observed(certify::CompanionTracker&& tracker, Report report);
 
 /// A quantity at one instant, computed with the steps h, h/2, h/4.
 using Thrice = std::array<double, 3>;
@@ -99,4 +99,4 @@ struct KindOfSeries {
 /// `series` must be in the order of time.
 [[nodiscard]] Extrapolated extrapolate(const std::vector<Thrice>& series, const KindOfSeries& kind);
 
-}  // namespace signorini
+}  // namespace signorini::verify

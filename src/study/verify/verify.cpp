@@ -14,7 +14,7 @@
 #include "study/verify/richardson.hpp"
 #include "study/verify/witnesses.hpp"
 
-namespace signorini {
+namespace signorini::verify {
 namespace {
 
 constexpr double least_seconds_of_step = 1e-6;  // if nothing vibrates and the cost is unknown
@@ -24,14 +24,14 @@ class Study {
  public:
   Study(const Model& model, const Model& own, const VerifyRequest& request)
       : model_(model), own_(own), request_(request), run_(request.run) {
-    run_.engine = engine_for(EngineRole::integrator);
+    run_.engine = run::engine_for(run::EngineRole::integrator);
     run_.certify = Certify::yes;
     run_.frames.clear();
     run_.output_dt.reset();
     run_.output_times.emplace();
     for (int k = 1; k <= request.rows; ++k) run_.output_times->push_back(run_.t_end * k / request.rows);
-    const double capture = tolerance_of(own, run_).capture_velocity();
-    for (Model* m : {&model_, &own_}) hold_capture(*m, capture);
+    const double capture = engine::tolerance_of(own, run_).capture_velocity();
+    for (Model* m : {&model_, &own_}) certify::hold_capture(*m, capture);
   }
 
   Verification verification() {
@@ -52,7 +52,7 @@ class Study {
  private:
   [[nodiscard]] RunSpec newmark(double dt) const {
     RunSpec run = run_;
-    run.engine = engine_for(EngineRole::fixed_steps);
+    run.engine = run::engine_for(run::EngineRole::fixed_steps);
     run.dt = dt;
     run.step = StepControl::fixed;
     run.output_times->insert(run.output_times->end(), peaks_.begin(), peaks_.end());
@@ -91,8 +91,8 @@ class Study {
   /// Refusals, before anything is computed.
   void check_newmark() const {
     try {
-      engine_row(engine_for(EngineRole::fixed_steps)).refuse(model_, newmark(run_.t_end));
-    } catch (const UnfitEngine& unfit) {
+      run::engine_row(run::engine_for(run::EngineRole::fixed_steps)).refuse(model_, newmark(run_.t_end));
+    } catch (const run::UnfitEngine& unfit) {
       throw SceneError(
           run_.place, "verify",
           fmt::format("newmark is the witness beside ida, and it {}; signorini run --certify sets a "
@@ -102,8 +102,8 @@ class Study {
   }
 
   void watch_ida(Witnesses& witnesses) {
-    Patient patient(request_.go_on);
-    Tracker tracker(own_, true, &patient);
+    ObservingRecorder patient(request_.go_on);
+    certify::CompanionTracker tracker(own_, true, &patient);
     CertifyOptions options;
     options.forces = true;
     options.go_on = request_.go_on;
@@ -115,9 +115,9 @@ class Study {
   }
 
   void watch_exact(Witnesses& witnesses) {
-    if (!exact_takes(model_, run_)) return;
+    if (!run::exact_takes(model_, run_)) return;
     RunSpec run = run_;
-    run.engine = engine_for(EngineRole::closed_form);
+    run.engine = run::engine_for(run::EngineRole::closed_form);
     witnesses.exact = observe(model_, run, request_.go_on);
     note(witnesses.exact->report);
   }
@@ -138,7 +138,8 @@ class Study {
   }
 
   [[nodiscard]] double expected_seconds(double dt) const {
-    return std::max(expected(model_, newmark(dt)).effort.seconds, least_seconds_of_step * run_.t_end / dt);
+    return std::max(run::expected(model_, newmark(dt)).effort.seconds,
+                    least_seconds_of_step * run_.t_end / dt);
   }
 
   /// Effect of doubling the step on the last step size.
@@ -205,4 +206,4 @@ Verification verify(const Model& model, const Model& own, const VerifyRequest& r
   return Study(model, own, request).verification();
 }
 
-}  // namespace signorini
+}  // namespace signorini::verify

@@ -26,7 +26,7 @@
 
 #include "signorini/certify.hpp"
 
-namespace signorini {
+namespace signorini::verify {
 
 struct VerifyRequest {
   RunSpec run;
@@ -99,4 +99,4 @@ inline constexpr double paper_change = 0.01;
 
 [[nodiscard]] const char* to_string(Agreement verdict);
 
-}  // namespace signorini
+}  // namespace signorini::verify

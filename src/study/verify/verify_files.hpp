@@ -11,7 +11,7 @@
 
 #include "study/verify/verify.hpp"
 
-namespace signorini {
+namespace signorini::verify {
 
 [[nodiscard]] std::string verify_json(const Model& model, const Verification& result);
 
@@ -26,4 +26,4 @@ void write_verification(const std::filesystem::path& directory, const Model& mod
 /// Removes the picture of an earlier verification.
 void begin_verify_plot(const std::filesystem::path& directory);
 
-}  // namespace signorini
+}  // namespace signorini::verify

@@ -7,7 +7,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::verify {
 namespace {
 
 const char* const event_time = "event_time";
@@ -42,9 +42,11 @@ void Witnesses::add(double dt_of_run, Observed run) {
 
 Witnesses::Sequence Witnesses::sequence() const {
   Sequence result;
-  const Verdict steps = signorini::judge(newmark[2].track, {newmark[1].track, newmark[0].track}, 1.0, names_);
-  const Verdict pair = signorini::judge(ida.track, {newmark[2].track}, 1.0, names_);
-  result.exact_until = exact ? signorini::judge(ida.track, {exact->track}, 1.0, names_).until : 0.0;
+  const certify::Verdict steps =
+      signorini::certify::match_events(newmark[2].track, {newmark[1].track, newmark[0].track}, 1.0, names_);
+  const certify::Verdict pair = signorini::certify::match_events(ida.track, {newmark[2].track}, 1.0, names_);
+  result.exact_until =
+      exact ? signorini::certify::match_events(ida.track, {exact->track}, 1.0, names_).until : 0.0;
   result.until = std::min({certificate->until, steps.until, pair.until});
   if (!pair.reason.empty() && pair.until + 2.0 * pair.spread < std::min(certificate->until, steps.until)) {
     result.differs = true;
@@ -60,14 +62,14 @@ Witnesses::Sequence Witnesses::sequence() const {
 }
 
 /// The times of IDA's events in another run: the event with the same number at the same contact.
-std::vector<std::optional<double>> Witnesses::times_in(const Track& track) const {
+std::vector<std::optional<double>> Witnesses::times_in(const certify::Track& track) const {
   std::vector<std::vector<double>> times(names_.size());
-  for (const TimedEvent& event : track.events)
+  for (const certify::TimedEvent& event : track.events)
     if (event.is_change()) times[static_cast<std::size_t>(event.contact)].push_back(event.t);
   std::vector<std::size_t> next(names_.size(), 0);
   std::vector<std::optional<double>> result(ida.track.events.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const TimedEvent& event = ida.track.events[i];
+    const certify::TimedEvent& event = ida.track.events[i];
     if (!event.is_change()) continue;
     const auto k = static_cast<std::size_t>(event.contact);
     if (const std::size_t number = next[k]++; number < times[k].size()) result[i] = times[k][number];
@@ -81,7 +83,7 @@ Witnesses::Kind Witnesses::event_times(double until) const {
   std::array<std::vector<std::optional<double>>, runs> times;
   for (std::size_t i = 0; i < runs; ++i) times[i] = times_in(newmark[i].track);
   for (std::size_t row = 0; row < ida.track.events.size(); ++row) {
-    const TimedEvent& event = ida.track.events[row];
+    const certify::TimedEvent& event = ida.track.events[row];
     if (!event.is_change() || !certificate->certain(row) || event.t >= until) continue;
     if (!times[0][row] || !times[1][row] || !times[2][row]) continue;
     series.values.push_back({*times[0][row], *times[1][row], *times[2][row]});
@@ -99,7 +101,7 @@ std::vector<bool> Witnesses::rows_at_events(double until) const {
   std::vector<std::vector<std::optional<double>>> times;
   for (const Observed& run : newmark) times.push_back(times_in(run.track));
   for (std::size_t i = 0; i < ida.track.events.size(); ++i) {
-    const TimedEvent& event = ida.track.events[i];
+    const certify::TimedEvent& event = ida.track.events[i];
     if (event.t > until || !event.is_change()) continue;
     const double off = certificate->certain(i) ? certificate->t_errors[i] : 0.0;
     double from = event.t - off, to = event.t + off;
@@ -152,7 +154,7 @@ bool Witnesses::settled() {
   if (here.until < nearly * wanted) return false;
   const std::vector<Kind> list = kinds(here.until);
   return std::all_of(list.begin(), list.end(),
-                     [](const Kind& k) { return signorini::settled(k.order.value()); });
+                     [](const Kind& k) { return signorini::verify::settled(k.order.value()); });
 }
 
 /// Adds one comparison.
@@ -206,7 +208,7 @@ VerifiedKind Witnesses::verified(const Kind& kind, Verification& result) const {
       if (is_event) {
         const std::size_t row = series.rows[i];
         if (exact && ida.track.events[row].t < result.until) o.exact = exact_times[row];
-        const TimedEvent& event = ida.track.events[row];
+        const certify::TimedEvent& event = ida.track.events[row];
         result.events.push_back({event.contact, event.type, event.from, event.to, o});
       }
       count(o, series.name, summary);
@@ -250,7 +252,7 @@ void Witnesses::add_extremes(Verification& result) const {
   }
 }
 
-std::string Witnesses::what_differs(const Verification& result) const {
+std::string Witnesses::differences(const Verification& result) const {
   const VerifiedKind* first = nullptr;
   for (const VerifiedKind& kind : result.kinds)
     if (kind.first && (first == nullptr || kind.first->t < first->first->t)) first = &kind;
@@ -275,7 +277,7 @@ void Witnesses::conclude(const Sequence& here, Verification& result) const {
     result.sentence = "the sequences of events differ: " + here.reason;
   } else if (off) {
     result.verdict = Agreement::differ;
-    result.sentence = what_differs(result);
+    result.sentence = differences(result);
   } else if (here.differs) {
     result.sentence =
         fmt::format("the sequences of events differ, and exact stands with ida, {}; {} would do better",
@@ -314,4 +316,4 @@ void Witnesses::judge(Verification& result) {
                   here.exact_until, off, model_.units.time);
 }
 
-}  // namespace signorini
+}  // namespace signorini::verify

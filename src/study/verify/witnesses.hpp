@@ -10,7 +10,7 @@
 #include "study/verify/richardson.hpp"
 #include "study/verify/verify.hpp"
 
-namespace signorini {
+namespace signorini::verify {
 
 class Witnesses {
  public:
@@ -58,7 +58,7 @@ class Witnesses {
   [[nodiscard]] Kind event_times(double until) const;
   void add_columns(double until, std::vector<Kind>& kinds) const;
   /// Rows of IDA's events that are changes, and the same event in another run.
-  [[nodiscard]] std::vector<std::optional<double>> times_in(const Track& track) const;
+  [[nodiscard]] std::vector<std::optional<double>> times_in(const certify::Track& track) const;
   [[nodiscard]] std::vector<bool> rows_at_events(double until) const;
   [[nodiscard]] Observation observation(const Series& series, std::size_t i, bool is_event,
                                         const Extrapolated& extrapolated, std::size_t column) const;
@@ -66,7 +66,7 @@ class Witnesses {
   void add_extremes(Verification& result) const;
   static void count(const Observation& o, const std::string& where, VerifiedKind& kind);
   void conclude(const Sequence& sequence, Verification& result) const;
-  [[nodiscard]] std::string what_differs(const Verification& result) const;
+  [[nodiscard]] std::string differences(const Verification& result) const;
 
   const Model& model_;
   double t_end_;
@@ -74,4 +74,4 @@ class Witnesses {
   std::vector<ObservedColumn> columns_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::verify

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-using Kind = CoulombItem::Kind;
+using Kind = decide::CoulombItem::Kind;
 
 MatrixXd random_matrix(std::mt19937_64& random, Eigen::Index rows, Eigen::Index columns) {
   std::normal_distribution<double> normal;
@@ -39,7 +39,7 @@ int count_solutions(const MatrixXd& M, const VectorXd& q) {
     VectorXd z = VectorXd::Zero(n);
     if (!active.empty()) {
       const MatrixXd block = M(active, active);
-      const VectorXd x = solve_dense(block, VectorXd(-q(active)));
+      const VectorXd x = base::solve_dense(block, VectorXd(-q(active)));
       z(active) = x;
     }
     if (z.minCoeff() < -1e-12 || !solves(M, q, z.cwiseMax(0.0))) continue;
@@ -51,13 +51,14 @@ int count_solutions(const MatrixXd& M, const VectorXd& q) {
 }
 
 /// m contacts on a body whose inverse mass in their coordinates is random, positive definite.
-CoulombProblem random_problem(std::mt19937_64& random, std::size_t m, double friction, bool only_frictional) {
+decide::CoulombProblem random_problem(std::mt19937_64& random, std::size_t m, double friction,
+                                      bool only_frictional) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto size = static_cast<Eigen::Index>(2 * m);
   const MatrixXd a = random_matrix(random, size, size + 2);
-  CoulombProblem p{a * a.transpose(), random_matrix(random, size, 1), {}};
+  decide::CoulombProblem p{a * a.transpose(), random_matrix(random, size, 1), {}};
   for (std::size_t i = 0; i < m; ++i) {
-    CoulombItem item;
+    decide::CoulombItem item;
     const double choice = uniform(random);
     item.kind = only_frictional || choice < 0.5 ? Kind::frictional
                 : choice < 0.7                  ? Kind::normal
@@ -66,19 +67,19 @@ CoulombProblem random_problem(std::mt19937_64& random, std::size_t m, double fri
     item.static_friction = friction * uniform(random);
     item.kinetic_friction = item.static_friction;
     item.sign = uniform(random) < 0.5 ? 1 : -1;
-    item.pressing = uniform(random);
+    item.applied_normal_force = uniform(random);
     p.items.push_back(item);
   }
   return p;
 }
 
 /// Signorini's and Coulomb's conditions.
-void check_conditions(const CoulombProblem& p, const CoulombSolution& s) {
+void check_conditions(const decide::CoulombProblem& p, const decide::CoulombSolution& s) {
   const double zero = 1e-9 * (1.0 + s.force.cwiseAbs().maxCoeff() + p.b.cwiseAbs().maxCoeff());
   for (std::size_t i = 0; i < p.items.size(); ++i) {
-    const CoulombItem& item = p.items[i];
+    const decide::CoulombItem& item = p.items[i];
     const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
-    const double l = item.kind == Kind::pressed ? item.pressing : s.force[n];
+    const double l = item.kind == Kind::pressed ? item.applied_normal_force : s.force[n];
     const double k = s.force[t], rn = s.response[n], rt = s.response[t];
     if (item.kind == Kind::limit) {
       CHECK(item.sign * k >= -zero);
@@ -114,7 +115,7 @@ TEST_CASE("Lemke solves thousands of problems with P-matrices, each with exactly
     const MatrixXd a = random_matrix(random, n, n), skew = random_matrix(random, n, n);
     const MatrixXd M = a * a.transpose() + 0.1 * MatrixXd::Identity(n, n) + (skew - skew.transpose());
     const VectorXd q = random_matrix(random, n, 1);
-    const auto z = solve_complementarity(M, q);
+    const auto z = base::solve_complementarity(M, q);
     REQUIRE(z.has_value());
     CHECK(solves(M, q, *z));
     CHECK(count_solutions(M, q) == 1);
@@ -129,7 +130,7 @@ TEST_CASE("a ray is reported, and only where enumeration finds nothing either, f
     const MatrixXd a = random_matrix(random, n, std::max<Eigen::Index>(1, n / 2));
     const MatrixXd M = a * a.transpose();  // singular for n > 1
     const VectorXd q = random_matrix(random, n, 1);
-    const auto z = solve_complementarity(M, q);
+    const auto z = base::solve_complementarity(M, q);
     if (z) {
       CHECK(solves(M, q, *z));
     } else {
@@ -148,7 +149,7 @@ TEST_CASE("degenerate right sides: zeros and ties do not cycle") {
     const MatrixXd a = MatrixXd::NullaryExpr(n, n, [&] { return static_cast<double>(small(random)); });
     const MatrixXd M = a * a.transpose() + MatrixXd::Identity(n, n);
     const VectorXd q = VectorXd::NullaryExpr(n, [&] { return static_cast<double>(small(random)); });
-    const auto z = solve_complementarity(M, q);
+    const auto z = base::solve_complementarity(M, q);
     REQUIRE(z.has_value());
     CHECK(solves(M, q, *z));
   }
@@ -159,16 +160,16 @@ TEST_CASE("contacts that couple: Lemke's solution fulfils all conditions and is 
   int unique = 0, none = 0, several = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const auto m = static_cast<std::size_t>(1 + trial % 3);
-    const CoulombProblem p = random_problem(random, m, 2.0, false);
-    const std::vector<CoulombSolution> all = all_solutions(p).solutions;
-    const auto one = solve(p);
+    const decide::CoulombProblem p = random_problem(random, m, 2.0, false);
+    const std::vector<decide::CoulombSolution> all = decide::all_solutions(p).solutions;
+    const auto one = decide::solve(p);
     CHECK(one.has_value() == !all.empty());
     (all.empty() ? none : all.size() == 1 ? unique : several) += 1;
-    if (!may_have_many(p)) CHECK(all.size() == 1);
+    if (!decide::may_have_many(p)) CHECK(all.size() == 1);
     if (!one) continue;
     check_conditions(p, *one);
     bool among = false;
-    for (const CoulombSolution& s : all)
+    for (const decide::CoulombSolution& s : all)
       among = among || (s.response - one->response).norm() <= 1e-7 * (1.0 + one->response.norm());
     CHECK(among);
   }
@@ -183,7 +184,7 @@ TEST_CASE(
   int sticks = 0, slips = 0;
   for (int trial = 0; trial < 600; ++trial) {
     const auto m = static_cast<std::size_t>(1 + trial % 9);
-    CoulombProblem p = random_problem(random, m, 0.02, false);
+    decide::CoulombProblem p = random_problem(random, m, 0.02, false);
     for (std::size_t i = 0; i < m; i += 2) {
       p.items[i].kind = Kind::limit;
       const auto n = static_cast<Eigen::Index>(2 * i);  // its normal is a row in force already
@@ -191,15 +192,15 @@ TEST_CASE(
       p.W.col(n).setZero();
       p.b[n] = 0.0;
     }
-    const auto one = solve(p);
+    const auto one = decide::solve(p);
     REQUIRE(one.has_value());
     check_conditions(p, *one);
     for (std::size_t i = 0; i < m; i += 2) {
       const auto t = static_cast<Eigen::Index>(2 * i + 1);
       (p.items[i].sign * one->force[t] > 0.0 ? sticks : slips) += 1;
     }
-    if (m > most_enumerated) continue;
-    const std::vector<CoulombSolution> all = all_solutions(p).solutions;
+    if (m > decide::most_enumerated) continue;
+    const std::vector<decide::CoulombSolution> all = decide::all_solutions(p).solutions;
     REQUIRE(all.size() == 1);
     CHECK((all[0].response - one->response).norm() <= 1e-7 * (1.0 + one->response.norm()));
   }
@@ -208,16 +209,16 @@ TEST_CASE(
 }
 
 TEST_CASE("up to six contacts all states are tried, and no more") {
-  for (const std::size_t count : {most_enumerated, most_enumerated + 1}) {
+  for (const std::size_t count : {decide::most_enumerated, decide::most_enumerated + 1}) {
     const auto n = static_cast<Eigen::Index>(2 * count);
-    CoulombProblem p{MatrixXd::Identity(n, n), VectorXd::Zero(n), {}};
+    decide::CoulombProblem p{MatrixXd::Identity(n, n), VectorXd::Zero(n), {}};
     for (std::size_t i = 0; i < count; ++i) {
       p.items.push_back({Kind::frictional, 0.5, 0.5, 0.0, 0});
       p.b[static_cast<Eigen::Index>(2 * i)] = -1.0;
     }
-    const Enumerated all = all_solutions(p);
-    CHECK(all.solutions.size() == (count == most_enumerated ? 1 : 0));
-    CHECK(std::isnan(all.least_miss) == (count > most_enumerated));
+    const decide::Enumerated all = decide::all_solutions(p);
+    CHECK(all.solutions.size() == (count == decide::most_enumerated ? 1 : 0));
+    CHECK(std::isnan(all.least_miss) == (count > decide::most_enumerated));
   }
 }
 
@@ -244,17 +245,17 @@ TEST_CASE("a seam of contacts that share few smooth motions: a hit has a solutio
     VectorXd v = random_matrix(random, modes, 1);
     for (int twice = 0; twice < 2; ++twice) {
       const VectorXd off = resting * v;
-      v -= least_squares(resting, off);
+      v -= base::least_squares(resting, off);
     }
     if (rows.row(2 * hit).dot(v) > 0.0) v = -v;
-    CoulombProblem p{rows * rows.transpose(), rows * v, {}};
+    decide::CoulombProblem p{rows * rows.transpose(), rows * v, {}};
     for (Eigen::Index i = 0; i < m; ++i) {
-      CoulombItem item;
+      decide::CoulombItem item;
       item.kind = Kind::frictional;
       item.static_friction = item.kinetic_friction = 0.4;
       p.items.push_back(item);
     }
-    const auto solution = solve(p);
+    const auto solution = decide::solve(p);
     CHECK(solution);
     if (solution) check_conditions(p, *solution);
   }
@@ -264,8 +265,8 @@ TEST_CASE("an impact without restitution has a solution whatever the friction, a
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 3000; ++trial) {
     const auto m = static_cast<std::size_t>(1 + trial % 4);
-    const CoulombProblem p = random_problem(random, m, 3.0, true);
-    const auto s = solve(p);
+    const decide::CoulombProblem p = random_problem(random, m, 3.0, true);
+    const auto s = decide::solve(p);
     REQUIRE(s.has_value());
     check_conditions(p, *s);
     const double loss = -0.5 * s->force.dot(p.b + s->response);
@@ -275,14 +276,14 @@ TEST_CASE("an impact without restitution has a solution whatever the friction, a
 
 TEST_CASE(
     "static above kinetic friction: what sticks has the static coefficient, what slips the kinetic one") {
-  CoulombProblem p{MatrixXd::Identity(2, 2), VectorXd(2), {{Kind::frictional, 0.5, 0.3, 0.0, 0}}};
+  decide::CoulombProblem p{MatrixXd::Identity(2, 2), VectorXd(2), {{Kind::frictional, 0.5, 0.3, 0.0, 0}}};
   p.b << -1.0, 0.4;
-  auto s = solve(p);
+  auto s = decide::solve(p);
   REQUIRE(s.has_value());
   CHECK(s->response[1] == doctest::Approx(0.0));
   CHECK(s->force[1] == doctest::Approx(-0.4));
   p.b << -1.0, 0.6;
-  s = solve(p);
+  s = decide::solve(p);
   REQUIRE(s.has_value());
   CHECK(s->force[1] == doctest::Approx(-0.3));
   CHECK(s->response[1] == doctest::Approx(0.3));
@@ -290,27 +291,27 @@ TEST_CASE(
 
 TEST_CASE("Painleve's rod: no state where the sliding contact digs in, two where it may also let go") {
   // g'' = b_n + (W_nn - s f W_nt) l with a negative factor
-  CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::sliding, 1.5, 1.5, 0.0, 1}}};
+  decide::CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::sliding, 1.5, 1.5, 0.0, 1}}};
   p.W << 1.0, 0.9, 0.9, 1.2;
   p.b << -1.0, 0.0;
-  CHECK(!solve(p).has_value());
-  CHECK(all_solutions(p).solutions.empty());
+  CHECK(!decide::solve(p).has_value());
+  CHECK(decide::all_solutions(p).solutions.empty());
   p.b << 1.0, 0.0;
-  CHECK(all_solutions(p).solutions.size() == 2);
-  CHECK(may_have_many(p));
+  CHECK(decide::all_solutions(p).solutions.size() == 2);
+  CHECK(decide::may_have_many(p));
 }
 
 TEST_CASE("just below Painleve's limit, and at that of friction: sticking and slipping are one motion") {
   // Slipping, g'' = b_n + (1 - 0.9 f) l with a factor of 1e-6 to 1e-10; l = 1 and T = -f hold either way.
   for (const double below : {1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
     const double f = (1.0 - below) / 0.9;
-    CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::frictional, f, f, 0.0, 1}}};
+    decide::CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::frictional, f, f, 0.0, 1}}};
     p.W << 1.0, 0.9, 0.9, 1.2;
     for (const double off : {-2e-14, 0.0, 2e-14}) {
       CAPTURE(below);
       CAPTURE(off);
       p.b = -p.W * Eigen::Vector2d(1.0, -f * (1.0 + off));
-      const Enumerated all = all_solutions(p);
+      const decide::Enumerated all = decide::all_solutions(p);
       REQUIRE(all.solutions.size() == 1);
       CHECK(all.solutions[0].force[0] == doctest::Approx(1.0).epsilon(3e-14 / below + 1e-6));
     }

@@ -21,14 +21,14 @@ MatrixXd normal_matrix(std::mt19937_64& random, Index rows, Index columns) {
 }
 
 /// By how much x leaves the sets at worst; negative: it lies inside.
-double excess(const std::vector<ConvexSet>& sets, const VectorXd& x) {
+double excess(const std::vector<base::ConvexSet>& sets, const VectorXd& x) {
   double worst = -1e300;
   Index at = 0;
-  for (const ConvexSet& set : sets) {
+  for (const base::ConvexSet& set : sets) {
     const VectorXd part = x.segment(at, set.size);
-    if (set.kind == ConvexSet::Kind::cone)
+    if (set.kind == base::ConvexSet::Kind::cone)
       worst = std::max({worst, part.tail(set.size - 1).norm() - set.friction * part[0], -part[0]});
-    else if (set.kind == ConvexSet::Kind::disc)
+    else if (set.kind == base::ConvexSet::Kind::disc)
       worst = std::max(worst, part.norm() - set.radius);
     else
       worst = std::max(
@@ -39,7 +39,7 @@ double excess(const std::vector<ConvexSet>& sets, const VectorXd& x) {
 }
 
 /// The last feasible point from a feasible one along a direction that A does not see.
-VectorXd farthest(const std::vector<ConvexSet>& sets, const VectorXd& from, const VectorXd& way) {
+VectorXd farthest(const std::vector<base::ConvexSet>& sets, const VectorXd& from, const VectorXd& way) {
   double inside = 0.0, outside = 1e3;
   for (int i = 0; i < 80; ++i) {
     const double middle = 0.5 * (inside + outside);
@@ -48,11 +48,11 @@ VectorXd farthest(const std::vector<ConvexSet>& sets, const VectorXd& from, cons
   return from + inside * way;
 }
 
-void check(std::mt19937_64& random, const std::vector<ConvexSet>& sets, const VectorXd& feasible,
+void check(std::mt19937_64& random, const std::vector<base::ConvexSet>& sets, const VectorXd& feasible,
            Index kept) {
-  const MatrixXd a = orthonormal(normal_matrix(random, feasible.size(), kept)).transpose();
-  const auto x = least_norm(a, a * feasible, sets);
-  const MatrixXd open = orthogonal_complement(MatrixXd(a.transpose()));
+  const MatrixXd a = base::orthonormal(normal_matrix(random, feasible.size(), kept)).transpose();
+  const auto x = base::least_norm(a, a * feasible, sets);
+  const MatrixXd open = base::orthogonal_complement(MatrixXd(a.transpose()));
   if (!x) {  // discs and cones of two tangents may touch the affine space in one point: its dual has no greatest value
     for (Index i = 0; i < open.cols(); ++i)
       for (const double side : {1.0, -1.0})
@@ -70,28 +70,28 @@ void check(std::mt19937_64& random, const std::vector<ConvexSet>& sets, const Ve
 }
 
 /// Sets with a point inside, or on the boundary.
-std::pair<std::vector<ConvexSet>, VectorXd> random_sets(std::mt19937_64& random, int count, Index tangents,
-                                                        bool rays) {
+std::pair<std::vector<base::ConvexSet>, VectorXd> random_sets(std::mt19937_64& random, int count,
+                                                              Index tangents, bool rays) {
   std::uniform_real_distribution<double> part(0.0, 1.0);
-  std::vector<ConvexSet> sets;
+  std::vector<base::ConvexSet> sets;
   std::vector<double> point;
   for (int i = 0; i < count; ++i) {
     const VectorXd e = normal_matrix(random, tangents, 1).normalized();
     const double f = 0.1 + part(random), n = 0.2 + 3.0 * part(random),
                  share = part(random) < 0.3 ? 1.0 : part(random);
     if (i % 7 == 3) {  // without friction
-      sets.push_back({ConvexSet::Kind::cone, 1, 0.0, 0.0, {}});
+      sets.push_back({base::ConvexSet::Kind::cone, 1, 0.0, 0.0, {}});
       point.push_back(n);
     } else if (rays && i % 3 == 1) {
       VectorXd along(1 + tangents);
       along << 1.0, f * e;
-      sets.push_back({ConvexSet::Kind::ray, 1 + tangents, 0.0, 0.0, along.normalized()});
+      sets.push_back({base::ConvexSet::Kind::ray, 1 + tangents, 0.0, 0.0, along.normalized()});
       for (const double value : VectorXd(n * along)) point.push_back(value);
     } else if (rays && i % 3 == 2) {
-      sets.push_back({ConvexSet::Kind::disc, tangents, 0.0, f * n, {}});
+      sets.push_back({base::ConvexSet::Kind::disc, tangents, 0.0, f * n, {}});
       for (const double value : VectorXd(share * f * n * e)) point.push_back(value);
     } else {
-      sets.push_back({ConvexSet::Kind::cone, 1 + tangents, f, 0.0, {}});
+      sets.push_back({base::ConvexSet::Kind::cone, 1 + tangents, f, 0.0, {}});
       point.push_back(n);
       for (const double value : VectorXd(share * f * n * e)) point.push_back(value);
     }
@@ -121,7 +121,7 @@ TEST_CASE("two cones and one free direction: the least of a parabola on an inter
   for (int i = 0; i < 200; ++i) {
     const auto [sets, point] = random_sets(random, 2, 1, false);
     const VectorXd way = normal_matrix(random, 4, 1).normalized();
-    const MatrixXd a = orthogonal_complement(MatrixXd(way)).transpose();
+    const MatrixXd a = base::orthogonal_complement(MatrixXd(way)).transpose();
     double low = -1e3, high = 1e3;  // of point + y way within |t| <= f n
     for (const Index k : {Index{0}, Index{1}})
       for (const double side : {1.0, -1.0}) {
@@ -131,7 +131,7 @@ TEST_CASE("two cones and one free direction: the least of a parabola on an inter
         (rate > 0.0 ? low : high) = rate > 0.0 ? std::max(low, -room / rate) : std::min(high, -room / rate);
       }
     const VectorXd expected = point + std::clamp(-way.dot(point), low, high) * way;
-    const auto x = least_norm(a, a * point, sets);
+    const auto x = base::least_norm(a, a * point, sets);
     REQUIRE(x);
     CHECK((*x - expected).norm() <= 1e-11 * point.norm());
   }
@@ -140,21 +140,21 @@ TEST_CASE("two cones and one free direction: the least of a parabola on an inter
 TEST_CASE("what has no friction does not pull: a push between two walls beside a foot that sticks") {
   // k + right - left = P: of all that hold it those with left = 0 have the least norm.
   const MatrixXd a = (MatrixXd(1, 4) << 0.0, 1.0, 1.0, -1.0).finished() / std::sqrt(3.0);
-  const std::vector<ConvexSet> sets{{ConvexSet::Kind::cone, 2, 0.5, 0.0, {}},
-                                    {ConvexSet::Kind::cone, 1, 0.0, 0.0, {}},
-                                    {ConvexSet::Kind::cone, 1, 0.0, 0.0, {}}};
+  const std::vector<base::ConvexSet> sets{{base::ConvexSet::Kind::cone, 2, 0.5, 0.0, {}},
+                                          {base::ConvexSet::Kind::cone, 1, 0.0, 0.0, {}},
+                                          {base::ConvexSet::Kind::cone, 1, 0.0, 0.0, {}}};
   const MatrixXd weighed = (MatrixXd(2, 4) << 1.0, 0.0, 0.0, 0.0, a).finished();
-  const auto x = least_norm(weighed, Eigen::Vector2d(10.0, 3.0 / std::sqrt(3.0)), sets);
+  const auto x = base::least_norm(weighed, Eigen::Vector2d(10.0, 3.0 / std::sqrt(3.0)), sets);
   REQUIRE(x);
   CHECK((*x - Eigen::Vector4d(10.0, 1.5, 1.5, 0.0)).norm() <= 1e-12);
 }
 
 TEST_CASE("no point: a pull beyond both cones") {
   const MatrixXd a = (MatrixXd(2, 4) << 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0).finished() / std::sqrt(2.0);
-  const std::vector<ConvexSet> sets(2, {ConvexSet::Kind::cone, 2, 0.5, 0.0, {}});
-  CHECK(least_norm(a, Eigen::Vector2d(1.0, 0.49), sets));
-  CHECK_FALSE(least_norm(a, Eigen::Vector2d(1.0, 0.51), sets));
-  CHECK_FALSE(least_norm(a, Eigen::Vector2d(-1.0, 0.0), sets));
+  const std::vector<base::ConvexSet> sets(2, {base::ConvexSet::Kind::cone, 2, 0.5, 0.0, {}});
+  CHECK(base::least_norm(a, Eigen::Vector2d(1.0, 0.49), sets));
+  CHECK_FALSE(base::least_norm(a, Eigen::Vector2d(1.0, 0.51), sets));
+  CHECK_FALSE(base::least_norm(a, Eigen::Vector2d(-1.0, 0.0), sets));
 }
 
 TEST_SUITE_END();

@@ -22,11 +22,11 @@ struct Directory {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(path / name, std::ios::binary) << text;
   }
-  void seal() const { write(manifest_file, manifest_of(path, "done").text()); }
+  void seal() const { write(base::manifest_file, base::manifest_of(path, "done").text()); }
   /// The message without the directory's name.
   [[nodiscard]] std::string refusal() const {
     try {
-      check_run_files(path);
+      base::check_run_files(path);
       return "";
     } catch (const FileError& error) {
       return std::string(error.what()).substr(path.string().size() + 1);
@@ -60,14 +60,14 @@ TEST_CASE("run files: every byte of a listed file counts, and its length") {
   CHECK(run.refuses("events.csv: found 20 bytes, expected 19 as in manifest.json"));
   run.write("events.csv", text);
   CHECK(run.refusal().empty());
-  CHECK_NOTHROW(check_run_files(run.path, {"history.csv", "summary.json"}));
+  CHECK_NOTHROW(base::check_run_files(run.path, {"history.csv", "summary.json"}));
 }
 
 TEST_CASE("run files: a manifest lists results only, in their order, and can take and drop them") {
   const Directory run;
   for (const char* name : {"run.toml", "summary.json", "events.csv", "report.html", "mine.csv"})
     run.write(name, name);
-  Manifest manifest = manifest_of(run.path, "stopped");
+  base::Manifest manifest = base::manifest_of(run.path, "stopped");
   REQUIRE(manifest.files.size() == 3);
   CHECK(manifest.files[0].file == "events.csv");
   CHECK(manifest.files[2].file == "run.toml");
@@ -76,24 +76,24 @@ TEST_CASE("run files: a manifest lists results only, in their order, and can tak
   REQUIRE(manifest.files.size() == 4);
   CHECK(manifest.files[1].file == "motion.csv");
   CHECK(manifest.files[1].size == 2);
-  run.write(manifest_file, manifest.text());
-  const std::optional<Manifest> again = read_manifest(run.path);
+  run.write(base::manifest_file, manifest.text());
+  const std::optional<base::Manifest> again = base::read_manifest(run.path);
   REQUIRE(again);
   CHECK(again->outcome == "stopped");
   CHECK(again->text() == manifest.text());
   CHECK(run.refusal().empty());
   manifest.drop("motion.csv");
-  run.write(manifest_file, manifest.text());
+  run.write(base::manifest_file, manifest.text());
   CHECK(run.refuses("motion.csv: found a file that manifest.json does not list"));
   fs::remove(run.path / "motion.csv");
   CHECK(run.refusal().empty());
   fs::remove(run.path / "run.toml");
   CHECK(run.refuses("run.toml: not found, expected 8 bytes as in manifest.json"));
-  remove_manifest(run.path);
-  remove_manifest(run.path);
+  base::remove_manifest(run.path);
+  base::remove_manifest(run.path);
   CHECK(run.refusal().empty());
-  CHECK(why_unchecked(run.path).starts_with(run.path.string() +
-                                            ": no manifest.json: the run may not have finished"));
+  CHECK(base::why_unchecked(run.path).starts_with(run.path.string() +
+                                                  ": no manifest.json: the run may not have finished"));
 }
 
 TEST_CASE("run files: what is no manifest is refused") {
@@ -105,9 +105,9 @@ TEST_CASE("run files: what is no manifest is refused") {
         R"({"signorini": "1", "outcome": "done", "files": [{"file": "../a", "size": 2, "checksum": ""}]})",
         R"({"signorini": "1", "outcome": "done", "files": [)"}) {
     CAPTURE(text);
-    run.write(manifest_file, text);
+    run.write(base::manifest_file, text);
     CHECK(run.refuses("manifest.json: is no manifest of a run: "));
-    CHECK(why_unchecked(run.path).empty());
+    CHECK(base::why_unchecked(run.path).empty());
   }
 }
 

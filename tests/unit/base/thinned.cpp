@@ -15,7 +15,7 @@ struct Row {
 struct Both {
   std::array<double, 2> operator()(const Row& row) const { return {row.a, row.b}; }
 };
-using Record = Thinned<Row, 2, Both>;
+using Record = base::Downsampled<Row, 2, Both>;
 
 /// The greatest distance of rows that were given from lines between those that were kept, of a range of two.
 double off(const std::vector<Row>& given, const std::vector<Row>& kept) {

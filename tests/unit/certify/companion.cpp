@@ -36,26 +36,29 @@ friction = )" + friction +
                      "test.toml");
 }
 
-CompanionPlan plan_of(const Scene& scene) { return plan_companion(build_model(scene), scene.run); }
+certify::CompanionPlan plan_of(const Scene& scene) {
+  return certify::plan_companion(build_model(scene), scene.run);
+}
 
 }  // namespace
 
 TEST_SUITE_BEGIN("unit/certify");
 
 TEST_CASE("companion: the cheaper where both take the scene, and what is asked for") {
-  const CompanionPlan automatic = plan_of(scene_of("engine = \"ida\""));
+  const certify::CompanionPlan automatic = plan_of(scene_of("engine = \"ida\""));
   CHECK(automatic.name == "exact");
   CHECK(automatic.cost > 0.0);
   CHECK(automatic.cost < 0.5);
   CHECK(automatic.runs.at(0).run.engine == Engine::exact);
-  const CompanionPlan finer =
+  const certify::CompanionPlan finer =
       plan_of(scene_of("engine = \"ida\"\nrtol = 1e-6\natol = { velocity = 1e-3 }\ncompanion = \"finer\""));
   CHECK(finer.factor == 2.0);
   CHECK(finer.local == 0.5);
   CHECK(finer.runs.at(0).run.engine == Engine::ida);
   CHECK(finer.runs.at(0).run.rtol == doctest::Approx(1e-8));
   CHECK(*finer.runs.at(0).run.atol.velocity == doctest::Approx(1e-5));
-  const CompanionPlan steps = plan_of(scene_of("engine = \"newmark\"\ndt = 1e-3\ncompanion = \"finer\""));
+  const certify::CompanionPlan steps =
+      plan_of(scene_of("engine = \"newmark\"\ndt = 1e-3\ncompanion = \"finer\""));
   CHECK(*steps.runs.at(0).run.dt == 5e-4);
   CHECK(steps.factor == 3.0);
 }
@@ -63,7 +66,7 @@ TEST_CASE("companion: the cheaper where both take the scene, and what is asked f
 TEST_CASE(
     "companion: steps are judged by another method, by half of them on demand, and then only where they "
     "resolve") {
-  const CompanionPlan steps = plan_of(scene_of("engine = \"newmark\"\ndt = 1e-3"));
+  const certify::CompanionPlan steps = plan_of(scene_of("engine = \"newmark\"\ndt = 1e-3"));
   CHECK(steps.name == "exact");
   CHECK(steps.choice == "auto: half the step may err alike");
   CHECK(steps.doubt.empty());
@@ -85,7 +88,8 @@ TEST_CASE("companion: rebounds rest below the run's own velocity in all") {
 }
 
 TEST_CASE("companion: a finer one leaves those flights to the series that its run leaves") {
-  const CompanionPlan plan = plan_of(scene_of("engine = \"ida\"\nrtol = 1e-6\ncompanion = \"finer\""));
+  const certify::CompanionPlan plan =
+      plan_of(scene_of("engine = \"ida\"\nrtol = 1e-6\ncompanion = \"finer\""));
   CHECK(plan.runs.at(0).run.flight_tolerances == doctest::Approx(100.0));
 }
 
@@ -97,7 +101,7 @@ TEST_CASE("companion: laws without a closed flow have a finer one; asking for ex
 }
 
 TEST_CASE("companion: exact has itself, twice, disturbed; it costs twice the run") {
-  const CompanionPlan plan = plan_of(scene_of("engine = \"exact\""));
+  const certify::CompanionPlan plan = plan_of(scene_of("engine = \"exact\""));
   REQUIRE(plan.runs.size() == 2);
   CHECK(plan.cost == doctest::Approx(2.0));
   CHECK(plan.factor == 5.0);
@@ -105,11 +109,12 @@ TEST_CASE("companion: exact has itself, twice, disturbed; it costs twice the run
 
 TEST_CASE("disturbed: every datum by about one rounding, symmetric, the same for the same seed") {
   const Scene scene = scene_of("engine = \"exact\"");
-  const Model model = build_model(scene), near = disturbed(model, 1), other = disturbed(model, 2);
+  const Model model = build_model(scene), near = certify::perturbed(model, 1),
+              other = certify::perturbed(model, 2);
   const double k = model.stiffness.coeff(0, 0), off = near.stiffness.coeff(0, 0) / k - 1.0;
   CHECK(off != 0.0);
   CHECK(std::abs(off) < 1.2e-15);
-  CHECK(near.stiffness.coeff(0, 0) == disturbed(model, 1).stiffness.coeff(0, 0));
+  CHECK(near.stiffness.coeff(0, 0) == certify::perturbed(model, 1).stiffness.coeff(0, 0));
   CHECK(near.contacts[0].gap != model.contacts[0].gap);
   CHECK(near.contacts[0].friction.static_ == near.contacts[0].friction.kinetic);
   bool differs = near.mass.coeff(0, 0) != other.mass.coeff(0, 0);

@@ -37,7 +37,8 @@ TEST_CASE("stiffnesses of a reduced model are off by what the entries of K leave
   double greatest = 0.0;
   for (std::uint64_t seed = 1; seed < 9; ++seed)
     greatest = std::max(
-        greatest, std::abs(disturbed(model, seed).stiffness.coeff(0, 0) / model.stiffness.coeff(0, 0) - 1.0));
+        greatest,
+        std::abs(certify::perturbed(model, seed).stiffness.coeff(0, 0) / model.stiffness.coeff(0, 0) - 1.0));
   CHECK(greatest > 0.5e-15 * cancellation);
   CHECK(greatest < 2.3e-15 * cancellation);
 }
@@ -95,7 +96,7 @@ TEST_CASE("a static start follows its data: a stiff bar on a soft spring and a c
   const auto first = displacement(model);
   for (std::uint64_t seed = 1; seed < 5; ++seed) {
     CAPTURE(seed);
-    const Model near = disturbed(model, seed);
+    const Model near = certify::perturbed(model, seed);
     const auto moved = displacement(near);
     for (int i = 0; i < 2; ++i) {
       const auto expected =
@@ -124,7 +125,7 @@ TEST_CASE(
   const auto first = displacement(model, own, T, from);
   for (std::uint64_t seed = 1; seed < 5; ++seed) {
     CAPTURE(seed);
-    const Model near = disturbed(model, seed);
+    const Model near = certify::perturbed(model, seed);
     const double kt = *near.contacts[0].tangential_stiffness;
     const long double begun = T * static_cast<long double>(kt) / own;
     const auto moved = displacement(near, kt, begun, from);
@@ -138,10 +139,10 @@ TEST_CASE(
     CHECK(near.contacts[0].initial_shear - T == doctest::Approx(shear).epsilon(1e-4));
   }
   foot.initial_shear = 0.4 * model.statics.reactions[0];
-  CHECK(disturbed(model, 3).u0 == model.u0);
+  CHECK(certify::perturbed(model, 3).u0 == model.u0);
   foot.initial_shear = T;
   foot.initial_slip = 1;
-  CHECK(disturbed(model, 3).u0 == model.u0);
+  CHECK(certify::perturbed(model, 3).u0 == model.u0);
 }
 
 TEST_CASE("what touches without force stays as it is, and what is apart does not") {
@@ -166,10 +167,10 @@ history = { type = "constant" }
 )";
   Model model = build_model(parse_scene(scene, "touching.toml"));
   model.contacts[0].gap = -model.contacts[0].normal.dot(model.u0);
-  const Model near = disturbed(model, 3);
+  const Model near = certify::perturbed(model, 3);
   CHECK(std::abs(near.contacts[0].gap_at(near.u0)) <= 1e-15 * std::abs(model.contacts[0].gap));
   model.contacts[0].gap += 1.0;  // apart
-  CHECK(std::abs(disturbed(model, 3).u0[0] - model.u0[0]) > 1e-10 * std::abs(model.u0[0]));
+  CHECK(std::abs(certify::perturbed(model, 3).u0[0] - model.u0[0]) > 1e-10 * std::abs(model.u0[0]));
 }
 
 TEST_SUITE_END();

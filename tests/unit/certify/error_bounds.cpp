@@ -16,8 +16,8 @@ Model one_mass() {
   return model;
 }
 
-KeptRows kept_rows(std::size_t count, double off) {
-  KeptRows kept;
+certify::KeptRows kept_rows(std::size_t count, double off) {
+  certify::KeptRows kept;
   kept.width = 4;
   for (std::size_t i = 0; i < count; ++i) {
     const auto t = static_cast<double>(i);
@@ -36,19 +36,19 @@ TEST_SUITE_BEGIN("unit/certify/error_bounds");
 TEST_CASE(
     "bounds: the greatest difference of the last five rows, one tolerance, and what jumps at an event") {
   const Model model = one_mass();
-  const KeptRows own = kept_rows(10, 0.0), near = kept_rows(10, 1e-3), far = kept_rows(12, -2e-3);
+  const certify::KeptRows own = kept_rows(10, 0.0), near = kept_rows(10, 1e-3), far = kept_rows(12, -2e-3);
   const Report report;
-  BoundSettings settings;
+  certify::BoundSettings settings;
   settings.factor = 2.0;
   settings.tolerance = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
-  TimedEvent event;
+  certify::TimedEvent event;
   event.t = 6.0;
   event.contact = 0;
   event.type = EventType::slip;
-  Verdict verdict;
+  certify::Verdict verdict;
   verdict.t_errors = {0.5};
-  const HistoryErrors errors =
-      bound_history(model, {&own, &report}, {{&near, &report}, {&far, &report}}, settings, {event}, verdict);
+  const HistoryErrors errors = certify::bound_history(
+      model, {&own, &report}, {{&near, &report}, {&far, &report}}, settings, {event}, verdict);
   REQUIRE(errors.t.size() == 10);
   const auto bound = [&](std::size_t row, std::size_t column) { return errors.bounds[row * 4 + column]; };
   for (std::size_t row = 0; row < 10; ++row) {
@@ -63,12 +63,13 @@ TEST_CASE(
 
 TEST_CASE("bounds: none from where nothing is certain, and roundings alone where steps have no tolerance") {
   const Model model = one_mass();
-  const KeptRows own = kept_rows(10, 0.0), other = kept_rows(7, 0.0);
+  const certify::KeptRows own = kept_rows(10, 0.0), other = kept_rows(7, 0.0);
   const Report report;
-  Verdict verdict;
+  certify::Verdict verdict;
   verdict.until = 4.5;
   verdict.reason = "a partner is missing";
-  const HistoryErrors errors = bound_history(model, {&own, &report}, {{&other, &report}}, {}, {}, verdict);
+  const HistoryErrors errors =
+      certify::bound_history(model, {&own, &report}, {{&other, &report}}, {}, {}, verdict);
   REQUIRE(errors.t.size() == 7);
   for (std::size_t row = 0; row < 7; ++row) {
     const double bound = errors.bounds[row * 4];

@@ -69,16 +69,16 @@ TEST_CASE("two soft shapes of stiff parts turn by roundings of these over what t
   double signs = 0.0;
   for (std::uint64_t seed = 1; seed < 9; ++seed) {
     CAPTURE(seed);
-    const Model near = disturbed(model, seed);
+    const Model near = certify::perturbed(model, seed);
     const Eigen::MatrixXd& now = near.reduction->shapes;
-    const Eigen::VectorXd off = (now - x).col(0), part = least_squares(own, off);
+    const Eigen::VectorXd off = (now - x).col(0), part = base::least_squares(own, off);
     const double mixed = part[1] / whole;
     CHECK(std::abs(mixed) > 0.44);  // a factor 1 + 1e-15 r is rounded itself
     CHECK(std::abs(mixed) < 1.12);
     signs += mixed > 0.0 ? 1.0 : -1.0;
     // The forms are those of the shapes, and the state is where it was.
     const Contact &before = model.contacts[0], &after = near.contacts[0];
-    const Eigen::MatrixXd turned = least_squares(x, now);
+    const Eigen::MatrixXd turned = base::least_squares(x, now);
     CHECK((of_shapes(near, after.normal) - turned.transpose() * of_shapes(model, before.normal)).norm() <=
           1e-13);
     CHECK((of_shapes(near, after.tangent) - turned.transpose() * of_shapes(model, before.tangent)).norm() <=

@@ -34,25 +34,25 @@ TEST_SUITE_BEGIN("unit/contact/friction");
 
 TEST_CASE("friction falls from static to kinetic with the slip rate, and only where a law says so") {
   Contact c = stribeck();
-  CHECK(sliding_friction(c, 0.0) == doctest::Approx(0.5));
-  CHECK(sliding_friction(c, 0.7) == doctest::Approx(0.2 + 0.3 / std::exp(1.0)));
-  CHECK(friction_varies(c));
-  CHECK(slips_nonlinearly(c, State::slip_minus));
-  CHECK_FALSE(slips_nonlinearly(c, State::stick));
+  CHECK(contact::sliding_friction(c, 0.0) == doctest::Approx(0.5));
+  CHECK(contact::sliding_friction(c, 0.7) == doctest::Approx(0.2 + 0.3 / std::exp(1.0)));
+  CHECK(contact::friction_varies(c));
+  CHECK(contact::slips_nonlinearly(c, State::slip_minus));
+  CHECK_FALSE(contact::slips_nonlinearly(c, State::stick));
   c.friction.stribeck_velocity.reset();
-  CHECK(sliding_friction(c, 3.0) == 0.2);
-  CHECK(sliding_friction_slope(c, 3.0) == 0.0);
-  CHECK_FALSE(slips_nonlinearly(c, State::slip_minus));
+  CHECK(contact::sliding_friction(c, 3.0) == 0.2);
+  CHECK(contact::sliding_friction_slope(c, 3.0) == 0.0);
+  CHECK_FALSE(contact::slips_nonlinearly(c, State::slip_minus));
 }
 
 TEST_CASE("friction rises from slow to fast with the slip rate, from the limit of stick on") {
   const Contact c = rising();
-  CHECK(sliding_friction(c, 0.0) == static_friction(c));
-  CHECK(sliding_friction(c, 0.7) == doctest::Approx(0.5 - 0.3 / std::exp(1.0)));
-  CHECK(sliding_friction(c, 70.0) == 0.5);
-  CHECK(sliding_friction_slope(c, 0.0) == doctest::Approx(0.3 / 0.7));
-  CHECK(kinetic_friction(c) == 0.2);
-  CHECK(friction_varies(c));
+  CHECK(contact::sliding_friction(c, 0.0) == contact::static_friction(c));
+  CHECK(contact::sliding_friction(c, 0.7) == doctest::Approx(0.5 - 0.3 / std::exp(1.0)));
+  CHECK(contact::sliding_friction(c, 70.0) == 0.5);
+  CHECK(contact::sliding_friction_slope(c, 0.0) == doctest::Approx(0.3 / 0.7));
+  CHECK(contact::kinetic_friction(c) == 0.2);
+  CHECK(contact::friction_varies(c));
 }
 
 TEST_CASE("the tangent of the row of slip is its derivative, in both directions") {
@@ -63,14 +63,15 @@ TEST_CASE("the tangent of the row of slip is its derivative, in both directions"
       m.N = -12.0;
       m.T = s * 3.0;
       m.vt = s * 0.4;
-      const Form tangent = sliding_row_tangent(c, s, m);
+      const Form tangent = contact::sliding_row_tangent(c, s, m);
       const double h = 1e-6;
       for (double ContactMotion::*entry : {&ContactMotion::N, &ContactMotion::T, &ContactMotion::vt}) {
         ContactMotion less = m, more = m, unit;
         less.*entry -= h;
         more.*entry += h;
         unit.*entry = 1.0;
-        const double slope = (sliding_row_value(c, s, more) - sliding_row_value(c, s, less)) / (2.0 * h);
+        const double slope =
+            (contact::sliding_row_value(c, s, more) - contact::sliding_row_value(c, s, less)) / (2.0 * h);
         CHECK(tangent.rate(unit) == doctest::Approx(slope).epsilon(1e-8));
       }
     }
@@ -81,7 +82,7 @@ TEST_CASE("the series of T = -s f(s p') N has the coefficients of the product") 
     for (const int s : {1, -1}) {
       CAPTURE(s);
       const std::vector<double> rate = slip_rates(s);
-      FrictionRecursion friction;
+      contact::FrictionRecursion friction;
       friction.begin(c, s, rate[0]);
       std::vector<double> T{-s * friction.first() * pressed[0]};
       for (std::size_t k = 1; k < rate.size(); ++k)
@@ -95,7 +96,8 @@ TEST_CASE("the series of T = -s f(s p') N has the coefficients of the product") 
       };
       double last = 0.0;
       for (const double x : {0.02, 0.01}) {
-        const double error = std::abs(at(T, x) + s * sliding_friction(c, s * at(rate, x)) * at(pressed, x));
+        const double error =
+            std::abs(at(T, x) + s * contact::sliding_friction(c, s * at(rate, x)) * at(pressed, x));
         CHECK(error < 40.0 * std::pow(x, 5));
         if (last > 0.0) CHECK(last / error > 28.0);
         last = error;
@@ -105,19 +107,19 @@ TEST_CASE("the series of T = -s f(s p') N has the coefficients of the product") 
 
 TEST_CASE("where the rate is an unknown of its level the recursion takes it afterwards") {
   const Contact c = rising();
-  const auto pressing = [&](std::size_t i) { return pressed[i]; };
+  const auto applied = [&](std::size_t i) { return pressed[i]; };
   for (const int s : {1, -1}) {
     const std::vector<double> rate = slip_rates(s);
-    FrictionRecursion before, after;
+    contact::FrictionRecursion before, after;
     before.begin(c, s, rate[0]);
     after.begin(c, s, rate[0]);
     ContactMotion m;
     m.N = pressed[0];
     m.vt = rate[0];
-    const double slope = sliding_row_tangent(c, s, m).vt;
+    const double slope = contact::sliding_row_tangent(c, s, m).vt;
     for (std::size_t k = 1; k < rate.size(); ++k) {
       if (k > 1) after.take_rate(rate[k - 1]);
-      const double all = before.next(rate[k], pressing), rest = after.without_rate(pressing);
+      const double all = before.next(rate[k], applied), rest = after.without_rate(applied);
       CHECK(rest + slope * rate[k] == doctest::Approx(all).epsilon(1e-14));
     }
   }

@@ -34,24 +34,24 @@ TEST_CASE(
     for (const double x : {1e-9, 3.0, 37.0, 410.0, 9e4}) {
       CAPTURE(x);
       const double h = 1e-3 * x;
-      CHECK(friction_limit(f, x) == doctest::Approx(limit(f, x)).epsilon(1e-14));
+      CHECK(contact::friction_limit(f, x) == doctest::Approx(limit(f, x)).epsilon(1e-14));
       const double slope =
           (8.0 * (limit(f, x + h) - limit(f, x - h)) - (limit(f, x + 2.0 * h) - limit(f, x - 2.0 * h))) /
           (12.0 * h);
-      CHECK(friction_limit_slope(f, x) == doctest::Approx(slope).epsilon(1e-9));
+      CHECK(contact::friction_limit_slope(f, x) == doctest::Approx(slope).epsilon(1e-9));
     }
   const Friction f = bearing(0.14, 0.05, 37.0);
-  CHECK(friction_limit(f, -2.0) == -0.28);
-  CHECK(friction_limit_slope(f, -2.0) == 0.14);
-  CHECK(friction_limit_slope(f, 1e5) == doctest::Approx(0.05).epsilon(1e-12));
+  CHECK(contact::friction_limit(f, -2.0) == -0.28);
+  CHECK(contact::friction_limit_slope(f, -2.0) == 0.14);
+  CHECK(contact::friction_limit_slope(f, 1e5) == doctest::Approx(0.05).epsilon(1e-12));
 }
 
 TEST_CASE("along a series the limit is that of the sum: what is left falls with the order") {
   const Friction f = bearing(0.14, 0.05, 37.0);
   constexpr std::array x = {52.0, -31.0, 14.0, 9.0, -23.0, 5.0};
-  LimitSeries series(f, x[0]);
-  std::array<double, x.size()> F = {friction_limit(f, x[0])};
-  CHECK(series.slope() == doctest::Approx(friction_limit_slope(f, x[0])).epsilon(1e-15));
+  contact::LimitSeries series(f, x[0]);
+  std::array<double, x.size()> F = {contact::friction_limit(f, x[0])};
+  CHECK(series.slope() == doctest::Approx(contact::friction_limit_slope(f, x[0])).epsilon(1e-15));
   for (std::size_t k = 1; k < x.size(); ++k) {
     const double known = series.known();
     F[k] = series.take(x[k]);
@@ -80,18 +80,18 @@ TEST_CASE(
   m.vn = 0.2;
   m.vt = 0.7;
   m.T = limit(c.friction, 61.0);
-  set_limit(c, m);
-  CHECK(rows(c, {State::slip_plus, 0.0}).tangent.value(m) == doctest::Approx(0.0));
-  CHECK(rows(c, {State::slip_minus, 0.0}).tangent.value(m) == doctest::Approx(2.0 * m.T));
-  const auto stick = guards(c, {State::stick, 0.0});
+  contact::set_limit(c, m);
+  CHECK(contact::rows(c, {State::slip_plus, 0.0}).tangent.value(m) == doctest::Approx(0.0));
+  CHECK(contact::rows(c, {State::slip_minus, 0.0}).tangent.value(m) == doctest::Approx(2.0 * m.T));
+  const auto stick = contact::guards(c, {State::stick, 0.0});
   CHECK(stick[1].kind == Guard::slip_plus);
   CHECK(stick[1].form.value(m) == doctest::Approx(0.0));
   CHECK(stick[2].form.value(m) == doctest::Approx(2.0 * m.T));
   // T = F all the time: kt (ut' - p') = F'(|N|) |N|'
   const double h = 1e-6,
                rate = (limit(c.friction, 61.0 - 160.0 * h) - limit(c.friction, 61.0 + 160.0 * h)) / (2.0 * h);
-  CHECK(slip_rate(c, 1).value(m) == doctest::Approx(0.7 - rate / 500.0).epsilon(1e-8));
-  CHECK(guards(c, {State::slip_plus, 0.0})[1].form == slip_rate(c, 1));
+  CHECK(contact::slip_rate(c, 1).value(m) == doctest::Approx(0.7 - rate / 500.0).epsilon(1e-8));
+  CHECK(contact::guards(c, {State::slip_plus, 0.0})[1].form == contact::slip_rate(c, 1));
 }
 
 TEST_SUITE_END();

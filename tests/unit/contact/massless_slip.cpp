@@ -26,24 +26,25 @@ TEST_CASE("massless_slip_rate() is where friction takes the pull that the dashpo
     for (const double pull : {1.0, 31.9, 32.1, 33.0, 60.0, 87.99, 87.999999}) {
       CAPTURE(damping);
       CAPTURE(pull);
-      const auto x = massless_slip_rate(c.friction, pull, damping, pressed);
+      const auto x = contact::massless_slip_rate(c.friction, pull, damping, pressed);
       REQUIRE(x);
-      CHECK(pull - damping * *x == doctest::Approx(sliding_friction(c, *x) * pressed).epsilon(1e-13));
+      CHECK(pull - damping * *x ==
+            doctest::Approx(contact::sliding_friction(c, *x) * pressed).epsilon(1e-13));
       CHECK((*x > 0.0) == (pull > 32.0));
     }
 }
 
 TEST_CASE("massless_slip_rate(): beyond what friction reaches only a dashpot tells the rate") {
   const Contact c = rising_beside_spring();
-  CHECK_FALSE(massless_slip_rate(c.friction, 88.0, 0.0, 800.0));
-  CHECK_FALSE(massless_slip_rate(c.friction, 90.0, 0.0, 800.0));
-  const double nearly = 88.0 - 0.07 * 800.0 * saturated;
-  CHECK_FALSE(massless_slip_rate(c.friction, nearly + 1e-9, 0.0, 800.0));
-  const auto last = massless_slip_rate(c.friction, nearly - 1e-9, 0.0, 800.0);
+  CHECK_FALSE(contact::massless_slip_rate(c.friction, 88.0, 0.0, 800.0));
+  CHECK_FALSE(contact::massless_slip_rate(c.friction, 90.0, 0.0, 800.0));
+  const double nearly = 88.0 - 0.07 * 800.0 * contact::saturated;
+  CHECK_FALSE(contact::massless_slip_rate(c.friction, nearly + 1e-9, 0.0, 800.0));
+  const auto last = contact::massless_slip_rate(c.friction, nearly - 1e-9, 0.0, 800.0);
   REQUIRE(last);
-  CHECK(*last == doctest::Approx(rate_of_saturation(c.friction)).epsilon(1e-3));
-  CHECK(rate_of_saturation(c.friction) == doctest::Approx(0.05 * 18.420680743952367).epsilon(1e-14));
-  const auto damped = massless_slip_rate(c.friction, 1088.0, 100.0, 800.0);
+  CHECK(*last == doctest::Approx(contact::rate_of_saturation(c.friction)).epsilon(1e-3));
+  CHECK(contact::rate_of_saturation(c.friction) == doctest::Approx(0.05 * 18.420680743952367).epsilon(1e-14));
+  const auto damped = contact::massless_slip_rate(c.friction, 1088.0, 100.0, 800.0);
   REQUIRE(damped);
   CHECK(*damped == doctest::Approx(10.0).epsilon(1e-12));
 }

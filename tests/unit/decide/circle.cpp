@@ -15,8 +15,8 @@ struct Circle {
         systems(model, structure),
         jets(systems),
         blocks(model),
-        forcing(model, 0.0, Side::after),
-        course{{}, forcing, {}, {}, {}, {}, {}, {}, Findings(1), {}} {
+        forcing(model, 0.0, motion::Side::after),
+        course{{}, forcing, {}, {}, {}, {}, {}, {}, decide::ImpactResult(1), {}} {
     course.instant.u = model.u0;
     course.instant.v = model.v0;
     course.instant.resolution = 1e-15;
@@ -27,15 +27,15 @@ struct Circle {
     course.found.known[0].closing.zeros = 2;
     course.decision.visited = {true};
   }
-  [[nodiscard]] Refusal leave() { return CircleExit(systems, jets, blocks).leave(course); }
+  [[nodiscard]] Refusal leave() { return decide::CycleFallback(systems, jets, blocks).leave(course); }
 
   Model model;
-  Structure structure;
-  ModeSystems systems;
-  JetMaker jets;
-  ContactBlocks blocks;
-  Forcing forcing;
-  DecisionCourse course;
+  linear::SystemMatrices structure;
+  motion::StateSystems systems;
+  motion::JetMaker jets;
+  decide::ContactBlocks blocks;
+  motion::Forcing forcing;
+  decide::SolverState course;
 };
 
 const char* const rod =  // Painleve's: sliding, it may press or let go
@@ -54,18 +54,18 @@ TEST_CASE(
                    "law = \"rigid\"\nnormal = { d1 = -1.0 }\ntangent = { d0 = 1.0 }\nfriction = 4.0",
                    "[[loads]]\ndirection = { d0 = 0.2532986927066816, d1 = 0.9015226433279672 }\n"
                    "amplitude = -10.0\n"));
-  DecisionCourse& course = circle.course;
+  decide::SolverState& course = circle.course;
   CHECK_FALSE(circle.leave());
   CHECK(course.blurred);
-  CHECK(course.instant.blur == unlucky);
-  CHECK(course.instant.resolution == unlucky * 1e-15);
+  CHECK(course.instant.blur == decide::unlucky);
+  CHECK(course.instant.resolution == decide::unlucky * 1e-15);
   CHECK(course.seen.empty());  // blurred, the same mode may hold
   CHECK_FALSE(course.found.sliders);
   CHECK_FALSE(course.make_blurred());
-  CHECK(course.instant.blur == unlucky);
+  CHECK(course.instant.blur == decide::unlucky);
   CHECK_FALSE(circle.leave());
   CHECK(course.found.sliders);
-  Participant who{0};
+  decide::Participant who{0};
   who.slipping = true;
   who.sign = 1;
   course.found.participants = {who};
@@ -82,10 +82,10 @@ TEST_CASE("a combination that holds is taken, and its block stays as it is") {
                              "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
                              "law = \"rigid\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\nfriction = 0.5",
                              "[[loads]]\ndirection = { d0 = 4.0, d1 = -10.0 }\namplitude = 1.0\n"));
-  DecisionCourse& course = circle.course;
+  decide::SolverState& course = circle.course;
   course.blurred = course.found.sliders = true;
   course.found.known[0].slip_plus.zeros = 1;
-  course.found.participants = {Participant{0}};
+  course.found.participants = {decide::Participant{0}};
   CHECK_FALSE(circle.leave());
   CHECK(course.mode[0].state == State::stick);  // 4 N below 5
   CHECK(course.undecided == std::vector<std::size_t>{0});

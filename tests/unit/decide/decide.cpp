@@ -63,24 +63,24 @@ Model on_floors(const std::vector<std::vector<double>>& mass, const std::vector<
   return model;
 }
 
-Decision fallen(const Model& model, Instant instant) {
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  const Forcing forcing(model, instant.t, Side::after);
+decide::Decision fallen(const Model& model, decide::Instant instant) {
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  const motion::Forcing forcing(model, instant.t, motion::Side::after);
   instant.mode.assign(model.contacts.size(), {State::open, 0.0});
-  instant.fired = {{0, Guard::closing}};
-  return Decider(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
+  instant.triggered = {{0, Guard::closing}};
+  return decide::ContactStateSolver(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
 }
 
-Decision start(const Model& model) {
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  const Forcing forcing(model, 0.0, Side::after);
-  Instant instant;
+decide::Decision start(const Model& model) {
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  decide::Instant instant;
   instant.u = model.u0;
   instant.v = model.v0;
-  instant.mode = first_mode(model, forcing, 0.0, model.u0, model.v0);
-  return Decider(systems, 100, 1e-9).decide(instant, forcing, forcing);
+  instant.mode = decide::first_mode(model, forcing, 0.0, model.u0, model.v0);
+  return decide::ContactStateSolver(systems, 100, 1e-9).decide(instant, forcing, forcing);
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ TEST_CASE("a block sticks below the limit and slips towards the load above it") 
   CHECK(start(blocks({{2.0}}, {0.3}, 0.4)).mode[0].state == State::stick);
   CHECK(start(blocks({{2.0}}, {0.5}, 0.4)).mode[0].state == State::slip_plus);
   CHECK(start(blocks({{2.0}}, {-0.5}, 0.4)).mode[0].state == State::slip_minus);
-  const Decision d = start(blocks({{2.0}}, {0.5}, 0.4));
+  const decide::Decision d = start(blocks({{2.0}}, {0.5}, 0.4));
   CHECK(d.jet.a()[0] == doctest::Approx(0.05));  // (0.5 - 0.4) / 2
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("exactly at the limit with a growing load the next derivative decides"
 
 TEST_CASE("inertially coupled blocks are decided together") {
   // M = [[2,1],[1,2]]: pulling the first with 3 drags the second backwards, and its friction reacts.
-  const Decision d = start(blocks({{2.0, 1.0}, {1.0, 2.0}}, {3.0, 0.0}, 0.4));
+  const decide::Decision d = start(blocks({{2.0, 1.0}, {1.0, 2.0}}, {3.0, 0.0}, 0.4));
   REQUIRE(d.consistent);
   CHECK(d.mode[0].state == State::slip_plus);
   CHECK(d.mode[1].state == State::slip_minus);
@@ -123,20 +123,20 @@ TEST_CASE("inertially coupled blocks are decided together") {
 TEST_CASE("two sliders without stiffness on one degree of freedom share its force by the least norm") {
   Model model = blocks({{2.0}}, {0.1}, 0.4);
   model.contacts.push_back(model.contacts[0]);
-  const Decision d = start(model);
+  const decide::Decision d = start(model);
   REQUIRE(d.consistent);
   CHECK(d.after[0].T == doctest::Approx(0.05).epsilon(1e-14));
   CHECK(d.after[1].T == doctest::Approx(0.05).epsilon(1e-14));
   // 0.1 at most at the second, then the first bears the rest, and above 0.5 both slip.
   model.contacts[1].normal_force = History::constant(0.25);
   model.loads[0].history = History::constant(0.3);
-  const Decision rest = start(model);
+  const decide::Decision rest = start(model);
   REQUIRE(rest.consistent);
   CHECK(rest.mode[0].state == State::stick);
   CHECK(rest.after[0].T == doctest::Approx(0.2).epsilon(1e-14));
   CHECK(rest.after[1].T == doctest::Approx(0.1).epsilon(1e-14));
   model.loads[0].history = History::constant(-0.6);
-  const Decision slips = start(model);
+  const decide::Decision slips = start(model);
   REQUIRE(slips.consistent);
   CHECK(slips.mode[0].state == State::slip_minus);
   CHECK(slips.mode[1].state == State::slip_minus);
@@ -149,7 +149,7 @@ TEST_CASE("level 0 of the jet satisfies the equation of motion, level 1 its deri
   model.damping = matrix({{0.2, 0.0}, {0.0, 0.1}});
   model.u0 << 0.001, -0.002;
   model.v0 << 0.3, 0.1;
-  const Decision d = start(model);
+  const decide::Decision d = start(model);
   REQUIRE(d.consistent);
   for (Eigen::Index k = 0; k < 3; ++k) {
     Vector r = model.mass * d.jet.u.col(k + 2) + model.damping * d.jet.u.col(k + 1) +
@@ -162,17 +162,17 @@ TEST_CASE("level 0 of the jet satisfies the equation of motion, level 1 its deri
 
 TEST_CASE("a trace hears of every mode that is tried, and the last one holds") {
   const Model model = blocks({{2.0}}, {0.5}, 0.4);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  Decider decider(systems, 100, 1e-9);
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  decide::ContactStateSolver decider(systems, 100, 1e-9);
   std::vector<Round> rounds;
   decider.trace([&](const Round& round) { rounds.push_back(round); });
-  const Forcing forcing(model, 0.0, Side::after);
-  Instant instant;
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  decide::Instant instant;
   instant.t = 0.25;
   instant.u = model.u0;
   instant.v = model.v0;
-  instant.mode = first_mode(model, forcing, 0.0, model.u0, model.v0);
+  instant.mode = decide::first_mode(model, forcing, 0.0, model.u0, model.v0);
   REQUIRE(decider.decide(instant, forcing, forcing).consistent);
   REQUIRE(rounds.size() == 2);
   CHECK(rounds[0].t == 0.25);
@@ -202,13 +202,13 @@ TEST_CASE("what a decision took for rest at the limit of friction is rounding to
   for (int k = -400; k <= 400; ++k) {
     CAPTURE(k);
     const double push = 0.4 * (1.0 + k * 0x1p-52);
-    const Decision d = start(blocks({{2.0, 0.9}, {0.9, 1.0}}, {push, push}, 0.4));
+    const decide::Decision d = start(blocks({{2.0, 0.9}, {0.9, 1.0}}, {push, push}, 0.4));
     REQUIRE(d.consistent);
     for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
-      const GuardStart& guard = d.guards[slot];
+      const decide::GuardStart& guard = d.guards[slot];
       if (guard.kind != Guard::slip_plus || !guard.at_zero || guard.leading >= 0) continue;
       ++resting;
-      CHECK(d.form(slot).value(d.after[contact_of_guard(slot)]) >= -guard.noise);
+      CHECK(d.form(slot).value(d.after[contact::contact_of_guard(slot)]) >= -guard.noise);
     }
   }
   CHECK(resting > 100);
@@ -216,25 +216,26 @@ TEST_CASE("what a decision took for rest at the limit of friction is rounding to
 
 TEST_CASE("a limit that has rested: what the way has left of it is rounding to an engine") {
   const Model model = blocks({{2.0}}, {0.4 * (1.0 + 1e-9)}, 0.4);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  const Forcing forcing(model, 1.0, Side::after);
-  const auto decided = [&](std::vector<Fired> rested) {
-    Instant instant;
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  const motion::Forcing forcing(model, 1.0, motion::Side::after);
+  const auto decided = [&](std::vector<decide::TriggeredGuard> rested) {
+    decide::Instant instant;
     instant.t = 1.0;
     instant.resolution = 1e-14;
     instant.u = instant.v = Vector::Zero(1);
     instant.mode = {{State::stick, 0.0}};
     instant.jump = true;
     instant.rested = std::move(rested);
-    return Decider(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
+    return decide::ContactStateSolver(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
   };
   CHECK(decided({}).mode[0].state == State::slip_plus);
-  const Decision d = decided({{0, Guard::slip_plus}});
+  const decide::Decision d = decided({{0, Guard::slip_plus}});
   REQUIRE(d.consistent);
   CHECK(d.mode[0].state == State::stick);
-  const auto limit = std::find_if(d.guards.begin(), d.guards.end(),
-                                  [](const GuardStart& guard) { return guard.kind == Guard::slip_plus; });
+  const auto limit = std::find_if(d.guards.begin(), d.guards.end(), [](const decide::GuardStart& guard) {
+    return guard.kind == Guard::slip_plus;
+  });
   REQUIRE(limit != d.guards.end());
   CHECK(limit->at_zero);
   CHECK(limit->leading < 0);
@@ -246,10 +247,10 @@ TEST_CASE("a limit that has rested: what the way has left of it is rounding to a
 TEST_CASE("what an engine saw fall does not rise, whatever rounding has left of its rate") {
   Model model = on_floors({{1.0}}, {0.0});
   model.loads[0].history = History(Piece{0.0, {0.0, -1.0}, 0.0, 0.0, 0.0});  // g'' = 0, g''' < 0
-  Instant instant;
+  decide::Instant instant;
   instant.u = Vector::Zero(1);
   instant.v = Vector::Constant(1, 1e-20);
-  const Decision d = fallen(model, instant);
+  const decide::Decision d = fallen(model, instant);
   REQUIRE(d.consistent);
   CHECK(d.mode[0].state == State::closed);
   CHECK(d.v[0] == 0.0);
@@ -257,20 +258,22 @@ TEST_CASE("what an engine saw fall does not rise, whatever rounding has left of 
 
 TEST_CASE("contacts that land within what rounding has carried into their gaps hit together") {
   const Model model = on_floors({{2.0, 1.0}, {1.0, 2.0}}, {-1.0, -1.0});
-  Instant instant;
+  decide::Instant instant;
   instant.t = 1.0;
   instant.resolution = 1e-14;
   instant.u = Vector::Zero(2);
   instant.u[1] = 1e-13;  // a hundred times what its own digits and the clock's say
   instant.v = Vector::Constant(2, -1.0);
-  const auto hits = [](const Decision& d, std::size_t c) { return !d.impulses.empty() && d.impulses[c].hit; };
+  const auto hits = [](const decide::Decision& d, std::size_t c) {
+    return !d.impulses.empty() && d.impulses[c].hit;
+  };
   instant.touched = {0.0, 1.0 - 1e-12};
-  const Decision apart = fallen(model, instant);  // it has not flown for long enough
+  const decide::Decision apart = fallen(model, instant);  // it has not flown for long enough
   CHECK(hits(apart, 0));
   CHECK_FALSE(hits(apart, 1));
   instant.t = 100.0;
   instant.touched = {0.0, 0.0};
-  const Decision together = fallen(model, instant);
+  const decide::Decision together = fallen(model, instant);
   CHECK(hits(together, 0));
   CHECK(hits(together, 1));
   CHECK(together.v[0] == together.v[1]);
@@ -283,20 +286,20 @@ TEST_CASE(
     Model model = on_floors({{2.0}}, {-3.0});
     model.contacts[0].normal.terms[0].second = factor;
     model.contacts[0].capture_velocity = captured * factor;
-    const Structure structure(model);
-    ModeSystems systems(model, structure);
-    const Forcing forcing(model, 0.0, Side::after);
-    Instant instant;
+    const linear::SystemMatrices structure(model);
+    motion::StateSystems systems(model, structure);
+    const motion::Forcing forcing(model, 0.0, motion::Side::after);
+    decide::Instant instant;
     instant.start = instant.knows_low_flights = true;
     instant.u = Vector::Zero(1);
     instant.v = Vector::Constant(1, speed);
     instant.mode = {{State::open, 0.0}};
-    return Decider(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
+    return decide::ContactStateSolver(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
   };
   for (const double factor : {0x1p-30, 1.0, 0x1p20}) {
     CAPTURE(factor);
-    const Decision fast = left(factor, 0.3, 0.2), slow = left(factor, 0.1, 0.2),
-                   free = left(factor, 0.3, 0.0);
+    const decide::Decision fast = left(factor, 0.3, 0.2), slow = left(factor, 0.1, 0.2),
+                           free = left(factor, 0.3, 0.0);
     REQUIRE(fast.departures.size() == 1);
     CHECK(fast.mode[0].is_open());
     CHECK(fast.departures[0] == doctest::Approx(1.5).epsilon(1e-12));
@@ -313,13 +316,13 @@ TEST_CASE(
 TEST_CASE("a fast landing after a long time on a stiff structure is a hit") {
   Model model = on_floors({{1.0}}, {-1.0});
   model.omega_max = 1e9;
-  Instant instant;
+  decide::Instant instant;
   instant.t = 1e6;  // rounding may have carried anything: t da alone is 1e-8
   instant.resolution = 1e-8;
   instant.u = Vector::Zero(1);
   instant.v = Vector::Constant(1, -1.0);
   instant.touched = {0.0};
-  const Decision d = fallen(model, instant);
+  const decide::Decision d = fallen(model, instant);
   REQUIRE(d.consistent);
   REQUIRE(!d.impulses.empty());
   CHECK(d.impulses[0].hit);

@@ -18,8 +18,8 @@ State first_state(const std::string& tangent, const std::string& v, const std::s
                   "surface_velocity = {}\n",
                   v, tangent, surface_velocity),
       "test.toml"));
-  const Forcing forcing(model, 0.0, Side::after);
-  return first_mode(model, forcing, 0.0, model.u0, model.v0)[0].state;
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  return decide::first_mode(model, forcing, 0.0, model.u0, model.v0)[0].state;
 }
 
 }  // namespace

@@ -34,30 +34,30 @@ TEST_CASE(
       jet;  // N = t^2, T = t^2: compression ends and the limit is exceeded, both in the second derivative
   for (std::size_t k = 0; k < jet.motion.size(); ++k) jet.noise[k].N = jet.noise[k].T = 1e-12;
   jet.motion[2].N = jet.motion[2].T = 2.0;
-  const std::vector<Failure> failed =
-      failures(model, {jet}, {{State::stick}}, Instant{}, false, std::vector<KnownGuards>(1), {}, {0});
+  const std::vector<decide::Failure> failed = decide::failures(
+      model, {jet}, {{State::stick}}, decide::Instant{}, false, std::vector<decide::KnownGuards>(1), {}, {0});
   REQUIRE(failed.size() == 1);
   CHECK(failed[0].guard == Guard::separation);
   CHECK(failed[0].sign.order == 2);
 }
 
 TEST_CASE("the first derivative that is not zero decides, and says how clearly") {
-  const Instant instant;
-  const Sign falls = sign_after(gap(), gap_of({0.5, -30.0, 9.0, 0.0, 0.0}, 1.0), instant, 0);
+  const decide::Instant instant;
+  const decide::Sign falls = decide::sign_after(gap(), gap_of({0.5, -30.0, 9.0, 0.0, 0.0}, 1.0), instant, 0);
   CHECK(falls.sign == -1);
   CHECK(falls.order == 1);
   CHECK(falls.excess == doctest::Approx(30.0));
-  CHECK(sign_after(gap(), gap_of({0.5, -0.3, 9.0, 0.0, 0.0}, 1.0), instant, 0).sign == 1);
-  CHECK(sign_after(gap(), gap_of({0.5, -0.3, 0.1, 0.0, 0.0}, 1.0), instant, 0).sign == 0);
+  CHECK(decide::sign_after(gap(), gap_of({0.5, -0.3, 9.0, 0.0, 0.0}, 1.0), instant, 0).sign == 1);
+  CHECK(decide::sign_after(gap(), gap_of({0.5, -0.3, 0.1, 0.0, 0.0}, 1.0), instant, 0).sign == 0);
 }
 
 TEST_CASE(
     "a guard starts at zero within its noise and what it changes in the resolution of time, on either side") {
-  Instant instant;
+  decide::Instant instant;
   instant.blur = 2.0;
   instant.resolution = 1e-3;
   const auto starts = [&](double value, double rate) {
-    return starts_at_zero(gap(), gap_of({value, rate, 0.0, 0.0, 0.0}, 0.25), instant);
+    return decide::starts_at_zero(gap(), gap_of({value, rate, 0.0, 0.0, 0.0}, 0.25), instant);
   };
   for (const double side : {1.0, -1.0}) {
     CAPTURE(side);
@@ -71,24 +71,24 @@ TEST_CASE(
 }
 
 TEST_CASE("what was set to zero is not asked; what was found to rise only whether it clearly falls") {
-  const Instant instant;
+  const decide::Instant instant;
   const MotionJet jet = gap_of({-7.0, -5.0, 0.4, -50.0, 0.0}, 1.0);
-  CHECK(sign_of_guard(gap(), jet, instant, {}).sign == -1);
-  CHECK(sign_of_guard(gap(), jet, instant, {1, false}).order == 1);
+  CHECK(decide::sign_of_guard(gap(), jet, instant, {}).sign == -1);
+  CHECK(decide::sign_of_guard(gap(), jet, instant, {1, false}).order == 1);
   // g'' was found positive with a sharper noise; g''' says nothing then
-  CHECK(sign_of_guard(gap(), jet, instant, {2, false}).sign == -1);
-  CHECK(sign_of_guard(gap(), jet, instant, {2, true}).sign == 1);
-  CHECK(sign_of_guard(gap(), jet, instant, {3, true}).sign == -1);
+  CHECK(decide::sign_of_guard(gap(), jet, instant, {2, false}).sign == -1);
+  CHECK(decide::sign_of_guard(gap(), jet, instant, {2, true}).sign == 1);
+  CHECK(decide::sign_of_guard(gap(), jet, instant, {3, true}).sign == -1);
 }
 
 TEST_CASE("a guard is told by the first order from which it is asked, though zeros be blurred") {
   const auto told = [](std::array<double, MotionJet::orders> derivatives, std::size_t orders,
-                       std::size_t zeros, const Instant& instant = {}, Guard kind = Guard::sliding) {
-    GuardsOfState all{};
+                       std::size_t zeros, const decide::Instant& instant = {}, Guard kind = Guard::sliding) {
+    decide::GuardsOfState all{};
     all[0] = {kind, {.gap = 1.0}};
-    KnownGuards known;
+    decide::KnownGuards known;
     known.sliding.zeros = zeros;
-    return told_by(all, 0, gap_of(derivatives, 1.0), orders, instant, known, 16.0);
+    return decide::decided_by(all, 0, gap_of(derivatives, 1.0), orders, instant, known, 16.0);
   };
   CHECK(told({17.0, 0.0, 0.0, 0.0, 0.0}, 1, 0));
   CHECK_FALSE(told({15.0, 0.0, 0.0, 0.0, 0.0}, 1, 0));
@@ -100,7 +100,7 @@ TEST_CASE("a guard is told by the first order from which it is asked, though zer
   CHECK(told({17.0, 15.0, 90.0, 0.0, 0.0}, 3, 1));
   CHECK(told({0.0, 0.0, 0.0, 0.0, 0.0}, MotionJet::orders, 0));
   // After a limit that has rested differences to another motion count, of that limit and of the slip that left it.
-  Instant rested;
+  decide::Instant rested;
   rested.rested = {{0, Guard::slip_plus}};
   CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested));
   CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested, Guard::slip_plus));
@@ -111,11 +111,13 @@ TEST_CASE("a guard is told by the first order from which it is asked, though zer
 }
 
 TEST_CASE("forgiveness is the greatest negative derivative before a positive one, in roundings") {
-  const Instant instant;
-  CHECK(forgiveness(gap(), gap_of({3.0, -9.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == 0.0);
-  CHECK(forgiveness(gap(), gap_of({-4.0, 0.0, 8.0, -100.0, 0.0}, 1.0), instant, 0) == doctest::Approx(4.0));
-  CHECK(forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == doctest::Approx(6.0));
-  CHECK(forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 2) == 0.0);
+  const decide::Instant instant;
+  CHECK(decide::forgiveness(gap(), gap_of({3.0, -9.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == 0.0);
+  CHECK(decide::forgiveness(gap(), gap_of({-4.0, 0.0, 8.0, -100.0, 0.0}, 1.0), instant, 0) ==
+        doctest::Approx(4.0));
+  CHECK(decide::forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) ==
+        doctest::Approx(6.0));
+  CHECK(decide::forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 2) == 0.0);
 }
 
 TEST_SUITE_END();

@@ -17,25 +17,25 @@ struct Touch {
         systems(model, structure),
         jets(systems),
         enumeration(systems, jets),
-        forcing(model, 0.0, Side::after) {
+        forcing(model, 0.0, motion::Side::after) {
     instant.u = model.u0;
     instant.v = model.v0;
     instant.mode = {{State::open, 0.0}};
     known.touches = true;
     known.closing.zeros = 2;
   }
-  [[nodiscard]] auto least_failing(const std::vector<Enumeration::Choice>& choices) {
+  [[nodiscard]] auto least_failing(const std::vector<decide::Enumeration::Choice>& choices) {
     return enumeration.least_failing(instant, forcing, {0}, choices, {known}, instant.mode);
   }
 
   Model model;
-  Structure structure;
-  ModeSystems systems;
-  JetMaker jets;
-  Enumeration enumeration;
-  Forcing forcing;
-  Instant instant;
-  KnownGuards known;
+  linear::SystemMatrices structure;
+  motion::StateSystems systems;
+  motion::JetMaker jets;
+  decide::Enumeration enumeration;
+  motion::Forcing forcing;
+  decide::Instant instant;
+  decide::KnownGuards known;
 };
 
 }  // namespace
@@ -52,16 +52,16 @@ TEST_CASE("two combinations that go on otherwise are rivals, and are named") {
       "law = \"rigid\"\nnormal = { d1 = -1.0 }\ntangent = { d0 = 1.0 }\nfriction = 4.0",
       "[[loads]]\ndirection = { d0 = 0.2532986927066816, d1 = 0.9015226433279672 }\namplitude = "
       "-10.0\n"));
-  Participant who{0};
+  decide::Participant who{0};
   who.slipping = true;
   who.sign = 1;
-  const std::vector<Enumeration::Choice> choices{rod.enumeration.choice(who)};
+  const std::vector<decide::Enumeration::Choice> choices{rod.enumeration.choice(who)};
   const auto best = rod.least_failing(choices);
   REQUIRE(best);
   CHECK(best->forgiveness == 0.0);
   REQUIRE(!best->rival.empty());
   CHECK_FALSE(best->acceptable());
-  CHECK(several_motions(rod.model, choices, *best) ==
+  CHECK(decide::several_motions(rod.model, choices, *best) ==
         "several motions continue this one, as 'c' open and as 'c' slip+");
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("between static and kinetic friction a block at rest sticks; slipping 
         std::string("law = \"rigid\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\nfriction = ") + friction,
         "[[loads]]\ndirection = { d0 = 4.0, d1 = -10.0 }\namplitude = 1.0\n"));
     block.known.sliding.zeros = 1;
-    return block.least_failing({block.enumeration.choice(Participant{0})});
+    return block.least_failing({block.enumeration.choice(decide::Participant{0})});
   };
   const auto between = asked("{ static = 0.5, kinetic = 0.3 }");
   REQUIRE(between);
@@ -98,11 +98,11 @@ TEST_CASE("the condition is that of the forces that contacts can bear") {
           "friction = 0.3\n"),
       "two.toml");
   const Model model = build_model(scene);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  JetMaker jets(systems);
-  Enumeration enumeration(systems, jets);
-  const Mode mode{{State::open, 0.0}, {State::stick, 0.0}};
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  motion::JetMaker jets(systems);
+  decide::Enumeration enumeration(systems, jets);
+  const contact::ContactStates mode{{State::open, 0.0}, {State::stick, 0.0}};
   // M^-1 = [[2, -1], [-1, 2]] / 3: scaled by its diagonal [[1, -1/2], [-1/2, 1]].
   CHECK(enumeration.condition({0, 1}, mode) == doctest::Approx(3.0));
   CHECK(enumeration.condition({0}, mode) == doctest::Approx(1.0));

@@ -11,11 +11,11 @@ namespace signorini::tests::points {
 namespace {
 
 /// Forces of the contacts by their laws: a slides upwards, b sticks, c is open or closed.
-Vector law_forces(const Stretch& s, double t, const Point& p) {
+Vector law_forces(const Stretch& s, double t, const motion::Point& p) {
   Vector forces = Vector::Zero(6);
   for (std::size_t c = 0; c < 3; ++c) {
     const Contact& contact = s.model.contacts[c];
-    const ContactMotion m = motion_of(contact, c, s.forcing, t, p);
+    const ContactMotion m = motion::motion_of(contact, c, s.forcing, t, p);
     const auto n = static_cast<Eigen::Index>(2 * c);
     const ContactState& state = s.decision.mode[c];
     if (state.is_open()) continue;
@@ -28,16 +28,16 @@ Vector law_forces(const Stretch& s, double t, const Point& p) {
 
 /// off: in equilibrium and laws, of forces of some 20 N.
 void check_points(Stretch& s, bool smooth, double off) {
-  const Step last = s.go([&](const Step& step) {
+  const engine::Step last = s.go([&](const engine::Step& step) {
     const double h = step.end - step.begin;
     for (const double x : {0.0, 0.07, 0.5, 0.93, 1.0}) {
       const double t = x == 1.0 ? step.end : step.begin + x * h;
       CAPTURE(t);
-      const Point p = s.at(t);
+      const motion::Point p = s.at(t);
       REQUIRE(p.a.size() == 6);
       CHECK((p.forces - law_forces(s, t, p)).cwiseAbs().maxCoeff() < off);
-      CHECK(imbalance(s.model, s.structure, s.forcing, t, p) < off);
-      Point inside = p;
+      CHECK(motion::imbalance(s.model, s.structure, s.forcing, t, p) < off);
+      motion::Point inside = p;
       inside.u.setConstant(std::numeric_limits<double>::infinity());
       inside.a.resize(0);
       s.engine->dense_output().interpolate(t, inside);
@@ -46,7 +46,7 @@ void check_points(Stretch& s, bool smooth, double off) {
       CHECK((inside.v - p.v).norm() < 1e-11);
       CHECK((inside.a - p.a).norm() < 1e-9);
       CHECK((inside.forces - p.forces).norm() < 1e-9);
-      Point watched;
+      motion::Point watched;
       s.engine->dense_output().evaluate_watched(t, std::nullopt, watched);
       for (const int dof : {0, 1, 2, 3, 4}) {
         CHECK(std::abs(watched.u[dof] - p.u[dof]) < 1e-12);
@@ -54,7 +54,7 @@ void check_points(Stretch& s, bool smooth, double off) {
       }
       if (x == 0.0 || x == 1.0) continue;
       const double d = 0.01 * std::min(h, 0.02);
-      Point before, after;
+      motion::Point before, after;
       s.engine->dense_output().evaluate(t - d, before);
       s.engine->dense_output().evaluate(t + d, after);
       CHECK((after.u - before.u - 2.0 * d * p.v).norm() < 1e3 * d * d * d + 1e-15);
@@ -62,7 +62,7 @@ void check_points(Stretch& s, bool smooth, double off) {
     }
     CHECK(s.engine->dense_output().residual() < off);
   });
-  REQUIRE(last.kind != Step::Kind::failed);
+  REQUIRE(last.kind != engine::Step::Kind::failed);
   CHECK(last.end > 0.05);
 }
 
@@ -102,11 +102,11 @@ TEST_CASE("both flows of exact and newmark of the second order tell the same mot
   const std::string text = six_masses(single_dampers, "normal_damping = 1.5", "");
   const auto end = [&](const char* engine, const char* flow, const char* dt) {
     Stretch s(text, {{"run.engine", engine}, {"run.flow", flow}, {"run.dt", dt}, {"run.t_end", "0.3"}});
-    const Step last = s.go();
+    const engine::Step last = s.go();
     REQUIRE(last.end == 0.3);
     return s.at(0.3);
   };
-  const Point series = end("exact", "taylor", "1e-3"), modes = end("exact", "modal", "1e-3");
+  const motion::Point series = end("exact", "taylor", "1e-3"), modes = end("exact", "modal", "1e-3");
   CHECK((modes.u - series.u).norm() < 1e-13);
   CHECK((modes.v - series.v).norm() < 1e-12);
   CHECK((modes.a - series.a).norm() < 1e-10);

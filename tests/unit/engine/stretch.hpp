@@ -29,10 +29,10 @@ class Stretch {
         run(as),
         structure(model),
         systems(model, structure),
-        tolerance(tolerance_of(model, run)),
+        tolerance(engine::tolerance_of(model, run)),
         decider(systems, 100, tolerance.capture_velocity()),
-        forcing(model, 0.0, Side::after),
-        row(engine_row(run.engine)),
+        forcing(model, 0.0, motion::Side::after),
+        row(run::engine_row(run.engine)),
         engine(row.make({model,
                          structure,
                          systems,
@@ -47,32 +47,32 @@ class Stretch {
   }
 
   /// To the first event or the end; after each step `see`.
-  Step go(const std::function<void(const Step&)>& see = {}) {
-    Step step;
+  engine::Step go(const std::function<void(const engine::Step&)>& see = {}) {
+    engine::Step step;
     do {
       step = engine->advance();
-      if (step.kind == Step::Kind::failed) return step;
+      if (step.kind == engine::Step::Kind::failed) return step;
       if (see) see(step);
-    } while (step.kind == Step::Kind::accepted && step.end < run.t_end);
+    } while (step.kind == engine::Step::Kind::accepted && step.end < run.t_end);
     return step;
   }
 
   /// What stood in the point before must not matter.
-  [[nodiscard]] Point at(double t) {
+  [[nodiscard]] motion::Point at(double t) {
     const Vector nothing = Vector::Constant(model.size(), std::numeric_limits<double>::quiet_NaN());
-    Point point{nothing, nothing, nothing, nothing};
+    motion::Point point{nothing, nothing, nothing, nothing};
     engine->dense_output().evaluate(t, point);
     engine->dense_output().accelerate(t, point);
     return point;
   }
 
   /// Integrals of the powers along the engine's own motion, by Gauss's rule on `parts` parts.
-  void add_powers(double from, double to, int parts, Works& works) {
+  void add_powers(double from, double to, int parts, motion::WorkIntegrals& works) {
     constexpr std::array x{0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
                            0.9739065285171717};
     constexpr std::array w{0.2955242247147529, 0.2692667193099963, 0.2190863625159820, 0.1494513491505806,
                            0.0666713443086881};
-    Powers powers(model, structure);
+    motion::Powers powers(model, structure);
     std::vector<double> now(powers.count(), std::numeric_limits<double>::quiet_NaN());
     const double half = 0.5 * (to - from) / parts;
     for (int part = 0; part < parts; ++part)
@@ -85,14 +85,14 @@ class Stretch {
   }
 
   /// Across the event that a step has found: false where no state goes on.
-  bool pass(const Step& event) {
-    Instant now = instant(event.end, event.resolution);
-    const Point point = at(event.end);
+  bool pass(const engine::Step& event) {
+    decide::Instant now = instant(event.end, event.resolution);
+    const motion::Point point = at(event.end);
     now.u = point.u;
     now.v = point.v;
     now.mode = decision.mode;
-    now.fired = event.fired;
-    now.rested = resting(decision);
+    now.triggered = event.triggered;
+    now.rested = decide::resting(decision);
     decision =
         event.adopted ? decider.adopt(now, *event.adopted, forcing) : decider.decide(now, forcing, forcing);
     if (decision.consistent) engine->start({run.t_end, &decision, &forcing});
@@ -101,29 +101,29 @@ class Stretch {
 
   Model model;
   RunSpec run;
-  Structure structure;
-  ModeSystems systems;
-  Tolerance tolerance;
-  Decider decider;
-  Forcing forcing;
-  const EngineRow& row;
-  std::unique_ptr<Stepper> engine;
-  Decision decision;
+  linear::SystemMatrices structure;
+  motion::StateSystems systems;
+  engine::Tolerance tolerance;
+  decide::ContactStateSolver decider;
+  motion::Forcing forcing;
+  const run::EngineRow& row;
+  std::unique_ptr<engine::Stepper> engine;
+  decide::Decision decision;
 
  private:
-  [[nodiscard]] Instant instant(double t, double resolution) const {
-    Instant now;
+  [[nodiscard]] decide::Instant instant(double t, double resolution) const {
+    decide::Instant now;
     now.t = t;
     now.resolution = resolution;
     now.knows_low_flights = engine->knows_low_flights;
     return now;
   }
-  Decision begun() {
-    Instant now = instant(0.0, resolution_at(0.0, 0.0));
+  decide::Decision begun() {
+    decide::Instant now = instant(0.0, motion::resolution_at(0.0, 0.0));
     now.u = model.u0;
     now.v = model.v0;
     now.start = true;
-    now.mode = first_mode(model, forcing, 0.0, model.u0, model.v0);
+    now.mode = decide::first_mode(model, forcing, 0.0, model.u0, model.v0);
     return decider.decide(std::move(now), forcing, forcing);
   }
 };

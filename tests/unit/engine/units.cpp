@@ -11,7 +11,7 @@ namespace {
 
 struct Way {
   std::vector<double> ends;  // of steps, in the time of the scene
-  std::vector<Mode> modes;
+  std::vector<contact::ContactStates> modes;
   Vector u;
   std::string reason;
 };
@@ -20,14 +20,15 @@ Way way(const Scene& scene, const Factors& factors, std::size_t most_events) {
   RunSpec run = scene.run;
   run.t_end *= factors.time;
   if (run.dt) *run.dt *= factors.time;
-  Stretch stretch(rescaled(build_model(scene), factors), run);
+  Stretch stretch(model::rescaled(build_model(scene), factors), run);
   Way result;
   if (!stretch.decision.consistent) return result;
   result.modes.push_back(stretch.decision.mode);
   while (result.modes.size() <= most_events) {
-    const Step last = stretch.go([&](const Step& step) { result.ends.push_back(step.end / factors.time); });
+    const engine::Step last =
+        stretch.go([&](const engine::Step& step) { result.ends.push_back(step.end / factors.time); });
     result.reason = last.reason;
-    if (last.kind != Step::Kind::event || !stretch.pass(last)) break;
+    if (last.kind != engine::Step::Kind::event || !stretch.pass(last)) break;
     result.modes.push_back(stretch.decision.mode);
   }
   result.u = stretch.model.physical(stretch.decision.u) / factors.length;
@@ -118,7 +119,7 @@ void check_units(const std::string& text, const std::string& engine, const std::
     CHECK(there.ends.size() == here.ends.size());
     CHECK(there.modes.size() == here.modes.size());
     for (std::size_t i = 0; i < std::min(here.modes.size(), there.modes.size()); ++i)
-      CHECK(states_of(there.modes[i]) == states_of(here.modes[i]));
+      CHECK(contact::states_of(there.modes[i]) == contact::states_of(here.modes[i]));
     CHECK((there.u - here.u).norm() <= (ida ? 1e-5 : 1e-9) * here.u.norm());
   }
 }

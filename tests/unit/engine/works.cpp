@@ -14,9 +14,9 @@ void check_works(const std::string& text, const std::string& engine, const std::
   REQUIRE(stretch.decision.consistent);
   REQUIRE(stretch.decision.mode[0].state == State::slip_plus);
   REQUIRE(stretch.decision.mode[1].state == State::stick);
-  Works found(3), expected(3);
+  motion::WorkIntegrals found(3), expected(3);
   long steps = 0;
-  const Step last = stretch.go([&](const Step& step) {
+  const engine::Step last = stretch.go([&](const engine::Step& step) {
     const double middle = step.begin + 0.3 * (step.end - step.begin);
     stretch.engine->dense_output().integrate(step.begin, middle, found);
     stretch.engine->dense_output().integrate(middle, step.end, found);
@@ -25,7 +25,7 @@ void check_works(const std::string& text, const std::string& engine, const std::
   });
   CAPTURE(steps);
   CAPTURE(last.reason);
-  REQUIRE(last.kind != Step::Kind::failed);
+  REQUIRE(last.kind != engine::Step::Kind::failed);
   REQUIRE(last.end > 0.1);
   CHECK(std::abs(expected.friction[0]) > 0.01);
   CHECK(expected.damping > 0.01);
@@ -35,7 +35,7 @@ void check_works(const std::string& text, const std::string& engine, const std::
     CAPTURE(c);
     CHECK(std::abs(found.friction[c] - expected.friction[c]) < off);
     CHECK(std::abs(found.surface[c] - expected.surface[c]) < off);
-    CHECK(std::abs(found.pressing[c] - expected.pressing[c]) < off);
+    CHECK(std::abs(found.applied_normal_force[c] - expected.applied_normal_force[c]) < off);
   }
 }
 

@@ -35,7 +35,7 @@ class Drawn {
   /// N and T of the rows of its state, by hand.
   void put_in_rows() {
     const State state = mode[0].state;
-    const Driven& d = driven[0];
+    const law_check::Driven& d = driven[0];
     double& N = forces[0];
     if (c.normal_force_given())
       N = -d.q;
@@ -52,12 +52,12 @@ class Drawn {
       driven[0].ds = c.tangent.dot(v);
     }
   }
-  [[nodiscard]] WitnessedSide side() const { return {&u, &v, &a, &mode, &forces, {}, driven}; }
+  [[nodiscard]] law_check::CheckedSide side() const { return {&u, &v, &a, &mode, &forces, {}, driven}; }
 
   Contact c;
   Vector u = Vector::Zero(5), v = u, a = u, forces;
   std::vector<ContactState> mode;
-  std::vector<Driven> driven;
+  std::vector<law_check::Driven> driven;
 
  private:
   [[nodiscard]] std::vector<State> states() const {
@@ -75,11 +75,12 @@ TEST_CASE("guards stand where each of them, with all its terms, is positive") {
   int standing = 0, falling = 0;
   for (unsigned seed = 1; seed <= 3000; ++seed) {
     const Drawn drawn(seed);
-    const SeenGuards guards = guards_of(drawn.c, drawn.mode[0], see(drawn.c, 0, drawn.side()), {});
-    const bool all =
-        std::all_of(guards.begin(), guards.end(), [](const SeenGuard& guard) { return guard.value >= 0.0; });
+    const law_check::SeenGuards guards =
+        law_check::guards_of(drawn.c, drawn.mode[0], law_check::kinematics(drawn.c, 0, drawn.side()), {});
+    const bool all = std::all_of(guards.begin(), guards.end(),
+                                 [](const law_check::SeenGuard& guard) { return guard.value >= 0.0; });
     // Of a contact that may be inside it is not told.
-    const bool stands = guards_stand(drawn.c, 0, drawn.mode[0], drawn.side());
+    const bool stands = law_check::guards_stand(drawn.c, 0, drawn.mode[0], drawn.side());
     CAPTURE(seed);
     CHECK(stands == (all && drawn.mode[0].state != State::inside));
     ++(stands ? standing : falling);
@@ -93,7 +94,7 @@ TEST_CASE("rows stand, and a force that is off by 1e-9 of itself does not") {
     Drawn drawn(seed);
     drawn.put_in_rows();
     CAPTURE(seed);
-    CHECK(rows_stand(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
+    CHECK(law_check::rows_stand(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
     const State state = drawn.mode[0].state;
     const bool of_rows_N = drawn.c.normal_force_given() || drawn.c.normal_spring() || is_open(state);
     const bool of_rows_T = state != State::stick || drawn.c.tangential_stiffness.has_value();
@@ -101,12 +102,12 @@ TEST_CASE("rows stand, and a force that is off by 1e-9 of itself does not") {
       if (!(force == 0 ? of_rows_N : of_rows_T)) continue;
       const double is = drawn.forces[force];
       drawn.forces[force] += 1e-9 * std::abs(is) + (is == 0.0 ? 1e-300 : 0.0);
-      CHECK_FALSE(rows_stand(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
+      CHECK_FALSE(law_check::rows_stand(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
       drawn.forces[force] = is;
     }
     if (of_rows_T) continue;
     drawn.driven[0].ds += 1e-11;  // what sticks rigidly has the speed of its surface
-    CHECK_FALSE(rows_stand(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
+    CHECK_FALSE(law_check::rows_stand(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
   }
 }
 

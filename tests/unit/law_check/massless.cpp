@@ -53,20 +53,20 @@ struct Chain {
     x[2] = friction * normal_stiffness * x[1] / 20.0;
   }
   [[nodiscard]] std::vector<Violation> between() const {
-    WitnessedSide side = sides();
-    return Witness(model, {}).between(1.0, side);
+    law_check::CheckedSide side = sides();
+    return law_check::LawChecker(model, {}).between(1.0, side);
   }
-  [[nodiscard]] WitnessedSide sides() const {
-    WitnessedSide side{&u, &v, &a, &mode, &forces, {}, {Driven{}}};
+  [[nodiscard]] law_check::CheckedSide sides() const {
+    law_check::CheckedSide side{&u, &v, &a, &mode, &forces, {}, {law_check::Driven{}}};
     for (const double P : {load, rate, bend}) side.loads.emplace_back(Eigen::Vector3d(0.0, P, 0.0));
     return side;
   }
   [[nodiscard]] std::vector<Violation> instant() const {
-    InstantRecord record;
+    law_check::InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
     record.before = record.after = sides();
-    return Witness(model, {}).instant(record);
+    return law_check::LawChecker(model, {}).instant(record);
   }
 };
 
@@ -144,7 +144,7 @@ TEST_CASE("a contact that parts without mass leave at once was at a limit") {
   Chain chain;
   const auto law_broken = [&](bool at_limit) {
     const State after = State::open;
-    InstantRecord record;
+    law_check::InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
     const std::vector<ContactState> stick = {{State::stick, chain.u[2] - (at_limit ? -1.0 : -0.3) * friction *
@@ -155,11 +155,11 @@ TEST_CASE("a contact that parts without mass leave at once was at a limit") {
     Vector gone = chain.u;
     gone[1] = 0.1;
     gone[2] = 0.0;
-    record.before = {&chain.u, &chain.v, nullptr, &stick, &T, {}, {Driven{}}};
-    record.after = {&gone, &chain.v, &chain.a, &then, &free, {}, {Driven{}}};
+    record.before = {&chain.u, &chain.v, nullptr, &stick, &T, {}, {law_check::Driven{}}};
+    record.after = {&gone, &chain.v, &chain.a, &then, &free, {}, {law_check::Driven{}}};
     record.released = {0};
     record.events.push_back({0, "separation", State::stick, after});
-    return tells_of(Witness(chain.model, {}).instant(record), "release");
+    return tells_of(law_check::LawChecker(chain.model, {}).instant(record), "release");
   };
   CHECK_FALSE(law_broken(true));
   CHECK(law_broken(false));
@@ -236,20 +236,20 @@ struct LetGo {
     forces_after << N, slides, -8.0, 30.0 * (u_after[2] - anchor);
     before = {{State::stick, chain.u[2] - held / 90.0}, {State::stick, 0.0}};
     after = {{State::slip_plus, u_after[2] - slides / 90.0}, {State::stick, anchor}};
-    InstantRecord record;
+    law_check::InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
     record.before = chain.sides();
     record.after = chain.sides();
-    record.before.driven = record.after.driven = {Driven{}, Driven{}};
-    for (Driven* d : {&record.before.driven[1], &record.after.driven[1]}) d->q = 8.0;
+    record.before.driven = record.after.driven = {law_check::Driven{}, law_check::Driven{}};
+    for (law_check::Driven* d : {&record.before.driven[1], &record.after.driven[1]}) d->q = 8.0;
     record.before.forces = &forces_before;
     record.before.mode = &before;
     record.after.u = &u_after;
     record.after.forces = &forces_after;
     record.after.mode = &after;
     record.events.push_back({0, "slip", State::stick, State::slip_plus, 1.0, 1e-15, N, held, N, slides});
-    return Witness(chain.model, {}).instant(record);
+    return law_check::LawChecker(chain.model, {}).instant(record);
   }
 };
 
@@ -278,12 +278,12 @@ TEST_CASE("stiff springs of contacts make forces of the rounding of u, and these
   const auto told_at = [&](double off) {
     Vector moved = chain.u;
     moved[2] += off;
-    InstantRecord record;
+    law_check::InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
     record.before = record.after = chain.sides();
     record.after.u = &moved;
-    return tells_of(Witness(chain.model, {}).instant(record), "continuity");
+    return tells_of(law_check::LawChecker(chain.model, {}).instant(record), "continuity");
   };
   CHECK_FALSE(told_at(0.5 * unsure));
   CHECK(told_at(50.0 * unsure));
@@ -299,7 +299,7 @@ TEST_CASE("what slid and stopped at once has a row of slip from stick to stick; 
   const Vector limit = Eigen::Vector2d(chain.forces[0], -0.6 * chain.forces[0]);
   Vector moved = chain.u;
   moved[2] += 0.1;
-  InstantRecord record;
+  law_check::InstantRecord record;
   record.t = 1.0;
   record.resolution = 1e-15;
   record.before = record.after = chain.sides();
@@ -307,9 +307,11 @@ TEST_CASE("what slid and stopped at once has a row of slip from stick to stick; 
   record.before.forces = &limit;
   record.after.mode = &stopped;
   record.after.u = &moved;
-  const auto told = [&] { return tells_of(Witness(chain.model, {}).instant(record), "continuity"); };
+  const auto told = [&] {
+    return tells_of(law_check::LawChecker(chain.model, {}).instant(record), "continuity");
+  };
   CHECK(told());
-  RecordedEvent slip{0, "slip", State::stick, State::stick, -1.0, 1e-15};
+  law_check::RecordedEvent slip{0, "slip", State::stick, State::stick, -1.0, 1e-15};
   record.events = {slip};
   CHECK_FALSE(told());
   record.events[0].type = "stick";

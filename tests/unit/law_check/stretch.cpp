@@ -39,11 +39,15 @@ struct End {
     u[0] = ut;
     forces << -8.0, T;
   }
-  [[nodiscard]] WitnessedSide side() const { return {&u, &v, &a, &mode, &forces, {}, {Driven{}}}; }
+  [[nodiscard]] law_check::CheckedSide side() const {
+    return {&u, &v, &a, &mode, &forces, {}, {law_check::Driven{}}};
+  }
 };
 
-std::string law_of(const Model& model, const End& from, const End& to, const WitnessLimits& limits = {}) {
-  const std::vector<Violation> found = Witness(model, limits).stretch(1.0, from.side(), to.side());
+std::string law_of(const Model& model, const End& from, const End& to,
+                   const law_check::LawLimits& limits = {}) {
+  const std::vector<Violation> found =
+      law_check::LawChecker(model, limits).stretch(1.0, from.side(), to.side());
   return found.empty() ? "" : found[0].law;
 }
 
@@ -76,7 +80,7 @@ TEST_CASE("stretch: what sticks rigidly stays where nothing lets it drift") {
   const ContactState stick{State::stick, 0.1};
   CHECK(law_of(model, {0.1, 4.0, stick}, {0.1, 3.0, stick}) == "");
   CHECK(law_of(model, {0.1, 4.0, stick}, {0.1 + 1e-9, 3.0, stick}) == "unbroken rest");
-  WitnessLimits tolerance;
+  law_check::LawLimits tolerance;
   tolerance.rtol = 1e-6;
   CHECK(law_of(model, {0.1, 4.0, stick}, {0.1 + 1e-9, 3.0, stick}, tolerance) == "");
 }
@@ -87,7 +91,7 @@ TEST_CASE("equilibrium: M a + C v + K u + T = P") {
   end.v[0] = 2.0;
   end.a[0] = -5.0;
   const Vector load = Vector::Constant(1, 2.0 * -5.0 + 3.0 * 2.0 + 50.0 * 0.2 + 4.0);
-  const Witness witness(model, {});
+  const law_check::LawChecker witness(model, {});
   CHECK(witness.equilibrium(1.0, end.side(), load).empty());
   for (double* part : {&end.a[0], &end.v[0], &end.u[0], &end.forces[1]}) {
     const double kept = *part;

@@ -26,19 +26,19 @@ Eigen::MatrixXd banded(Eigen::Index n, Eigen::Index width, double skew, double s
 
 /// Rows [begin, end) of a.
 void fill(const Eigen::MatrixXd& a, Eigen::Index width, Eigen::Index begin, Eigen::Index end,
-          BandFactors& band) {
+          linear::BandFactors& band) {
   band.clear(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
   for (Eigen::Index i = begin; i < end; ++i)
     for (Eigen::Index j = std::max<Eigen::Index>(0, i - width); j < std::min(a.rows(), i + width + 1); ++j)
       band.row(static_cast<std::size_t>(i))[width + j - i] = a(i, j);
 }
 
-bool factor(const Eigen::MatrixXd& a, Eigen::Index width, BandFactors& band) {
+bool factor(const Eigen::MatrixXd& a, Eigen::Index width, linear::BandFactors& band) {
   fill(a, width, 0, a.rows(), band);
   return band.factor();
 }
 
-BandFactors room(const Eigen::MatrixXd& a, Eigen::Index width) {
+linear::BandFactors room(const Eigen::MatrixXd& a, Eigen::Index width) {
   return {static_cast<std::size_t>(a.rows()), static_cast<std::size_t>(width)};
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("solutions are those of the dense matrix, whatever the width, in any u
         CAPTURE(width);
         CAPTURE(scale);
         const Eigen::MatrixXd a = banded(n, width, 0.6, scale);
-        BandFactors band = room(a, width);
+        linear::BandFactors band = room(a, width);
         for (int again = 0; again < 2; ++again) REQUIRE(factor(a, width, band));
         const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(n, 1.0, -2.3);
         // In the units of each unknown: what they make of the matrix is no part of the solution.
@@ -74,7 +74,7 @@ TEST_CASE("a matrix that needs exchanges of rows, or is singular, has no factors
     const Eigen::Vector3d units(1.0, scale, 1.0 / scale);
     const auto factors = [&](const Eigen::Matrix3d& a) {
       const Eigen::MatrixXd scaled = units.asDiagonal() * a * units.asDiagonal();
-      BandFactors band = room(scaled, 1);
+      linear::BandFactors band = room(scaled, 1);
       return factor(scaled, 1, band);
     };
     Eigen::Matrix3d a;
@@ -98,7 +98,7 @@ TEST_CASE("factors of some rows go on from those before, to the last bit") {
       CAPTURE(width);
       CAPTURE(first);
       Eigen::MatrixXd a = banded(n, width, 0.6, 1.0);
-      BandFactors band = room(a, width), whole = room(a, width);
+      linear::BandFactors band = room(a, width), whole = room(a, width);
       REQUIRE(factor(a, width, band));
       a(first, first) *= 1.7;
       if (first > 0) a(first, first - 1) += 0.3;

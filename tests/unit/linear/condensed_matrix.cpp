@@ -15,7 +15,7 @@ using namespace signorini;
 namespace {
 
 /// S, H, R and B as linear/condensed_matrix.hpp names them.
-Eigen::MatrixXd dense(const Model& model, const std::vector<Rows>& rows, const Weights& w) {
+Eigen::MatrixXd dense(const Model& model, const std::vector<Rows>& rows, const linear::Weights& w) {
   const Eigen::Index n = model.size(), size = n + 2 * static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
   a.topLeftCorner(n, n) =
@@ -24,8 +24,10 @@ Eigen::MatrixXd dense(const Model& model, const std::vector<Rows>& rows, const W
     const Eigen::Index N = n + 2 * static_cast<Eigen::Index>(k), T = N + 1;
     const Contact& contact = model.contacts[k];
     const auto couple = [&](Eigen::Index row, const Form& form) {
-      for (const auto& [dof, factor] : contact.normal.terms) a(row, dof) += entry_of(form, factor, 0.0, w);
-      for (const auto& [dof, factor] : contact.tangent.terms) a(row, dof) += entry_of(form, 0.0, factor, w);
+      for (const auto& [dof, factor] : contact.normal.terms)
+        a(row, dof) += linear::entry_of(form, factor, 0.0, w);
+      for (const auto& [dof, factor] : contact.tangent.terms)
+        a(row, dof) += linear::entry_of(form, 0.0, factor, w);
       a(row, N) += form.N;
       a(row, T) += form.T;
     };
@@ -62,19 +64,20 @@ TEST_SUITE_BEGIN("unit/linear/condensed_matrix");
 TEST_CASE("solutions are those of the whole matrix, in every state, at every length, in every order") {
   for (const bool turned : {false, true}) {
     const Model row = rubbing_row(33), model = turned ? shuffled(row) : row;
-    const Structure structure(model);
-    std::optional<CondensedRows> in_force = CondensedRows::of(model, structure, CondensedMatrix::widest);
+    const linear::SystemMatrices structure(model);
+    std::optional<linear::CondensedRows> in_force =
+        linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
     REQUIRE(in_force);
-    CondensedMatrix condensed(*in_force);
+    linear::CondensedMatrix condensed(*in_force);
     for (const int number : {0, 1, 2, 3, 27, 1000})
       for (const double h : {1e-12, 1e-3, 0.1, 30.0}) {
         CAPTURE(turned);
         CAPTURE(number);
         CAPTURE(h);
-        const std::vector<Rows> rows = rows_of(model, rubbing_mode(model, number));
-        const Weights weights{1.0, 0.5 * h, 0.25 * h * h};
+        const std::vector<Rows> rows = linear::rows_of(model, rubbing_mode(model, number));
+        const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
         const Eigen::MatrixXd a = dense(model, rows, weights);
-        const Vector b = Vector::LinSpaced(a.rows(), -1.0, 2.3), expected = solve_dense(a, b);
+        const Vector b = Vector::LinSpaced(a.rows(), -1.0, 2.3), expected = base::solve_dense(a, b);
         in_force->put(rows);
         REQUIRE(condensed.set(weights));
         Vector x = b;
@@ -88,23 +91,24 @@ TEST_CASE("solutions are those of the whole matrix, in every state, at every len
 
 TEST_CASE("rows that hold an acceleration, and wide bands, are left to others") {
   Model model = rubbing_row(9);
-  const Structure structure(model);
-  CHECK_FALSE(CondensedRows::of(model, structure, 1));
+  const linear::SystemMatrices structure(model);
+  CHECK_FALSE(linear::CondensedRows::of(model, structure, 1));
   model.contacts[4].law = Law::rigid;
   model.contacts[4].tangential_stiffness.reset();
-  std::optional<CondensedRows> rows = CondensedRows::of(model, structure, CondensedMatrix::widest);
+  std::optional<linear::CondensedRows> rows =
+      linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
   REQUIRE(rows);
-  CondensedMatrix condensed(*rows);
+  linear::CondensedMatrix condensed(*rows);
   CHECK_FALSE(condensed.set({1.0, 0.1, 0.01}));  // nothing is in force
-  Mode mode = rubbing_mode(model, 0);
+  contact::ContactStates mode = rubbing_mode(model, 0);
   mode[4].state = State::open;
-  rows->put(rows_of(model, mode));
+  rows->put(linear::rows_of(model, mode));
   CHECK(condensed.set({1.0, 0.1, 0.01}));
   mode[4].state = State::stick;
-  rows->put(rows_of(model, mode));
+  rows->put(linear::rows_of(model, mode));
   CHECK_FALSE(condensed.set({1.0, 0.1, 0.01}));
   mode[4].state = State::open;
-  rows->put(4, rows_of(model, mode)[4]);
+  rows->put(4, linear::rows_of(model, mode)[4]);
   CHECK(condensed.set({1.0, 0.1, 0.01}));
 }
 
@@ -115,15 +119,16 @@ TEST_CASE("where states change, factors follow in some rows, and are those of al
     for (int i = 0; i < row.size(); ++i) row.stiffness.coeffRef(i, i) = 18.3;
     for (Contact& contact : row.contacts) contact.normal_stiffness = *(contact.tangential_stiffness = 2.0);
     const Model model = turned ? shuffled(row) : row;
-    const Structure structure(model);
-    std::optional<CondensedRows> rows = CondensedRows::of(model, structure, CondensedMatrix::widest);
+    const linear::SystemMatrices structure(model);
+    std::optional<linear::CondensedRows> rows =
+        linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
     REQUIRE(rows);
-    CondensedMatrix condensed(*rows);
-    Mode mode = rubbing_mode(model, 5);
-    rows->put(rows_of(model, mode));
+    linear::CondensedMatrix condensed(*rows);
+    contact::ContactStates mode = rubbing_mode(model, 5);
+    rows->put(linear::rows_of(model, mode));
     // K counts for little, as much as M, and alone: over more and more rows.
     for (const double h : {0.01, 0.4, 1e3}) {
-      const Weights weights{1.0, 0.5 * h, 0.25 * h * h};
+      const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
       REQUIRE(condensed.set(weights));
       const long made = condensed.factorisations, before = condensed.renewed_rows;
       constexpr int changes = 30;
@@ -134,10 +139,10 @@ TEST_CASE("where states change, factors follow in some rows, and are those of al
         for (const int other : {0, 1}) {  // one, or two of them, close to each other or not
           const auto k = static_cast<std::size_t>(17 * i + other * (i % 3) * 50) % mode.size();
           mode[k].state = mode[k].state == State::open ? State::stick : State::open;
-          rows->put(k, signorini::rows(model.contacts[k], mode[k]));
+          rows->put(k, signorini::contact::rows(model.contacts[k], mode[k]));
         }
         REQUIRE(condensed.set(weights));
-        CondensedMatrix whole(*rows);
+        linear::CondensedMatrix whole(*rows);
         REQUIRE(whole.set(weights));
         Vector x = Vector::LinSpaced(model.size() + 2 * static_cast<Eigen::Index>(mode.size()), -1.0, 2.3),
                y = x;
@@ -153,12 +158,13 @@ TEST_CASE("where states change, factors follow in some rows, and are those of al
 
 TEST_CASE("changes of states that are too many to be remembered cost factors of all rows") {
   const Model model = rubbing_row(40);
-  const Structure structure(model);
-  std::optional<CondensedRows> rows = CondensedRows::of(model, structure, CondensedMatrix::widest);
+  const linear::SystemMatrices structure(model);
+  std::optional<linear::CondensedRows> rows =
+      linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
   REQUIRE(rows);
-  CondensedMatrix condensed(*rows);
+  linear::CondensedMatrix condensed(*rows);
   for (const int number : {3, 9}) {
-    for (int again = 0; again < 2; ++again) rows->put(rows_of(model, rubbing_mode(model, number)));
+    for (int again = 0; again < 2; ++again) rows->put(linear::rows_of(model, rubbing_mode(model, number)));
     REQUIRE(condensed.set({1.0, 0.1, 0.01}));
     REQUIRE(condensed.set({1.0, 0.1, 0.01}));
   }
@@ -170,22 +176,23 @@ TEST_CASE(
     "a row has the band of its neighbours whatever its numbers, a ring twice that; each place is taken "
     "once") {
   const Model row = rubbing_row(50);
-  CHECK(band_order(row, Structure(row)).width <= 3);  // two of a mass, and one mass further
+  CHECK(linear::band_order(row, linear::SystemMatrices(row)).width <=
+        3);  // two of a mass, and one mass further
   const Model model = shuffled(row);
-  const BandOrder order = band_order(model, Structure(model));
+  const linear::BandOrder order = linear::band_order(model, linear::SystemMatrices(model));
   CHECK(order.width <= 3);
   CHECK(std::set<int>(order.place.begin(), order.place.end()).size() == 100);
   CHECK(*std::max_element(order.place.begin(), order.place.end()) == 99);
   Model ring = row;
   for (const int i : {0, 1}) ring.stiffness.coeffRef(i, 98 + i) = ring.stiffness.coeffRef(98 + i, i) = -9.0;
-  CHECK(band_order(ring, Structure(ring)).width <= 7);
+  CHECK(linear::band_order(ring, linear::SystemMatrices(ring)).width <= 7);
   Model apart = row;
   for (const int i : {49, 50, 48, 51})
     for (const int j : {i - 2, i + 2})
       if ((i < 50) != (j < 50))
         for (SparseMatrix* a : {&apart.mass, &apart.damping, &apart.stiffness}) a->coeffRef(i, j) = 0.0;
   for (SparseMatrix* a : {&apart.mass, &apart.damping, &apart.stiffness}) a->prune(0.0);
-  const BandOrder parts = band_order(apart, Structure(apart));
+  const linear::BandOrder parts = linear::band_order(apart, linear::SystemMatrices(apart));
   CHECK(parts.width <= 3);
   CHECK(std::set<int>(parts.place.begin(), parts.place.end()).size() == 100);
 }

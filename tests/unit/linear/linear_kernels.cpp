@@ -26,8 +26,8 @@ Model damped_frame(const std::string& damping, const std::string& more) {
 }
 
 void check_product(const Model& model) {
-  const Structure structure(model);
-  Momentum product(model, structure);
+  const linear::SystemMatrices structure(model);
+  linear::StructuralForces product(model, structure);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Vector a(model.size()), v(model.size()), u(model.size()), r(model.size());
@@ -48,7 +48,7 @@ void check_solves(const Eigen::MatrixXd& dense) {
   const std::vector<std::int64_t> start(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1),
       row(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   std::vector<double> values(a.valuePtr(), a.valuePtr() + a.nonZeros());
-  Klu klu(start, row);
+  linear::Klu klu(start, row);
   for (const double factor : {1.0, 3.0}) {
     for (double& value : values) value *= factor;
     REQUIRE((factor == 1.0 ? klu.factor(values) : klu.refactor(values)));

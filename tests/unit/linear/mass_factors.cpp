@@ -16,14 +16,14 @@ TEST_SUITE_BEGIN("unit/linear/mass_factors");
 TEST_CASE("one factorisation of M solves the system of every state, as the dense matrix does") {
   for (const int masses : {1, 13, 40}) {
     const Model model = rubbing_row(masses);
-    const Structure structure(model);
-    const auto mass = mass_factors(structure);
+    const linear::SystemMatrices structure(model);
+    const auto mass = linear::mass_factors(structure);
     REQUIRE(mass);
     const Eigen::Index n = model.size(), size = n + 2 * static_cast<Eigen::Index>(model.contacts.size());
     for (const int number : {0, 1, 2, 3, 27, 1000}) {
       CAPTURE(masses);
       CAPTURE(number);
-      const std::vector<Rows> rows = rows_of(model, rubbing_mode(model, number));
+      const std::vector<Rows> rows = linear::rows_of(model, rubbing_mode(model, number));
       Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
       a.topLeftCorner(n, n) = model.mass;
       for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -35,12 +35,12 @@ TEST_CASE("one factorisation of M solves the system of every state, as the dense
         a(T, N) = rows[k].tangent.N;
         a(T, T) = rows[k].tangent.T;
       }
-      const std::vector<OwnForces> forces = own_forces(rows);
+      const std::vector<linear::OwnForces> forces = linear::own_forces(rows);
       REQUIRE(forces.size() == rows.size());
       const Vector b = Vector::LinSpaced(size, -1.0, 2.3);
       Vector x = b, work(size);
-      MassSolver(model, mass, forces).solve(x.data(), work.data());
-      const Vector expected = solve_dense(a, b);
+      linear::MassSolver(model, mass, forces).solve(x.data(), work.data());
+      const Vector expected = base::solve_dense(a, b);
       CHECK((x - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.cwiseAbs().maxCoeff());
     }
   }
@@ -48,21 +48,21 @@ TEST_CASE("one factorisation of M solves the system of every state, as the dense
 
 TEST_CASE("rows that hold an acceleration do not tell their forces") {
   Model model = rubbing_row(3);
-  Mode mode = rubbing_mode(model, 0);
-  CHECK(own_forces(rows_of(model, mode)).size() == 3);
+  contact::ContactStates mode = rubbing_mode(model, 0);
+  CHECK(linear::own_forces(linear::rows_of(model, mode)).size() == 3);
   model.contacts[1].law = Law::rigid;
   model.contacts[1].tangential_stiffness.reset();
   mode[1].state = State::stick;
-  CHECK(own_forces(rows_of(model, mode)).empty());
+  CHECK(linear::own_forces(linear::rows_of(model, mode)).empty());
   mode[1].state = State::open;
-  CHECK(own_forces(rows_of(model, mode)).size() == 3);
+  CHECK(linear::own_forces(linear::rows_of(model, mode)).size() == 3);
 }
 
 TEST_CASE("a mass that is singular has no factors") {
   Model model = rubbing_row(2);
   model.mass.setZero();
   model.mass.insert(0, 0) = 1.0;
-  CHECK_FALSE(mass_factors(Structure(model)));
+  CHECK_FALSE(linear::mass_factors(linear::SystemMatrices(model)));
 }
 
 TEST_SUITE_END();

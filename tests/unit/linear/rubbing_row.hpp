@@ -49,9 +49,9 @@ inline Model rubbing_row(int masses) {
 }
 
 /// Number i in a count to the base of four states.
-inline Mode rubbing_mode(const Model& model, int i) {
+inline contact::ContactStates rubbing_mode(const Model& model, int i) {
   constexpr State states[] = {State::stick, State::slip_plus, State::open, State::slip_minus};
-  Mode mode(model.contacts.size());
+  contact::ContactStates mode(model.contacts.size());
   for (ContactState& s : mode) {
     s = {states[i % 4], 0.001 * (i % 7)};
     i = i / 4 + 3;

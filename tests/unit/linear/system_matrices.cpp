@@ -58,7 +58,7 @@ TEST_CASE("forces of bands are those of columns, bit by bit, at every size and w
         CAPTURE(width);
         CAPTURE(size);
         const Banded band = band_of(size, width, gap);
-        const BandedForces forces(band.column_start, band.row, band.c, band.k);
+        const linear::BandedForces forces(band.column_start, band.row, band.c, band.k);
         if (forces.empty()) {
           CHECK(size <= width);  // no band: some diagonals are short
           continue;
@@ -74,8 +74,8 @@ TEST_CASE("forces of bands are those of columns, bit by bit, at every size and w
 TEST_CASE("a matrix with far entries is no band") {
   Banded band = band_of(30, 1, 0);
   band.row.back() = 3;  // of the last column
-  CHECK(BandedForces(band.column_start, band.row, band.c, band.k).empty());
-  CHECK(BandedForces({0}, {}, {}, {}).empty());
+  CHECK(linear::BandedForces(band.column_start, band.row, band.c, band.k).empty());
+  CHECK(linear::BandedForces({0}, {}, {}, {}).empty());
 }
 
 TEST_SUITE_END();

@@ -49,37 +49,39 @@ TEST_CASE(
   const std::vector<Combination> normals{form_of({{0, 0.6}, {1, 0.8}}), form_of({{1, -0.8}, {2, 0.6}}),
                                          form_of({{0, 0.6}, {2, 0.6}})};  // the third is the sum of both
   const Model model = massless_model(normals);
-  const std::vector<DofKind> own(3, DofKind::algebraic);
+  const std::vector<linear::DofKind> own(3, linear::DofKind::algebraic);
   for (unsigned set = 0; set < 8; ++set) {
     CAPTURE(set);
     std::vector<Rows> rows;
     for (unsigned k = 0; k < 3; ++k) rows.push_back(dashpot_row((set >> k & 1U) != 0));
-    const MotionKinds found = kinds_in_mode(own, model, rows);
+    const linear::MotionKinds found = linear::kinds_in_mode(own, model, rows);
     const int closed = __builtin_popcount(set), independent = std::min(closed, 2);
-    CHECK(std::count(found.kinds.begin(), found.kinds.end(), DofKind::damped) == independent);
+    CHECK(std::count(found.kinds.begin(), found.kinds.end(), linear::DofKind::damped) == independent);
     CHECK(found.undamped.size() == (closed == 0 ? 0U : 1U));
-    for (const UndampedMotion& motion : found.undamped) {
+    for (const linear::UndampedMotion& motion : found.undamped) {
       Vector z = Vector::Zero(3);
       z[motion.dof] = 1.0;
-      CHECK(found.kinds[static_cast<std::size_t>(motion.dof)] == DofKind::algebraic);
+      CHECK(found.kinds[static_cast<std::size_t>(motion.dof)] == linear::DofKind::algebraic);
       for (const auto& [dof, value] : motion.others) {
-        CHECK(found.kinds[static_cast<std::size_t>(dof)] == DofKind::damped);
+        CHECK(found.kinds[static_cast<std::size_t>(dof)] == linear::DofKind::damped);
         z[dof] = value;
       }
       for (unsigned k = 0; k < 3; ++k)
         if ((set >> k & 1U) != 0) CHECK(std::abs(normals[k].dot(z)) < 1e-15);
     }
   }
-  CHECK(undamped_together(own, model).size() == 1);
+  CHECK(linear::undamped_together(own, model).size() == 1);
 }
 
 TEST_CASE("dashpots along single degrees of freedom leave all as they are") {
   const Model model = massless_model({form_of({{0, -1.0}}), form_of({{2, 1.0}})});
-  const std::vector<DofKind> own{DofKind::algebraic, DofKind::algebraic, DofKind::damped};
-  const MotionKinds found = kinds_in_mode(own, model, {dashpot_row(true), dashpot_row(true)});
-  CHECK(found.kinds == std::vector<DofKind>{DofKind::damped, DofKind::algebraic, DofKind::damped});
+  const std::vector<linear::DofKind> own{linear::DofKind::algebraic, linear::DofKind::algebraic,
+                                         linear::DofKind::damped};
+  const linear::MotionKinds found = linear::kinds_in_mode(own, model, {dashpot_row(true), dashpot_row(true)});
+  CHECK(found.kinds == std::vector<linear::DofKind>{linear::DofKind::damped, linear::DofKind::algebraic,
+                                                    linear::DofKind::damped});
   CHECK(found.undamped.empty());
-  CHECK(undamped_together(own, model).empty());
+  CHECK(linear::undamped_together(own, model).empty());
 }
 
 TEST_SUITE_END();

@@ -20,7 +20,7 @@ Eigen::MatrixXd band(Eigen::Index n) {
   return a;
 }
 
-std::shared_ptr<const TriangularFactors> factors_of(const Eigen::MatrixXd& a) {
+std::shared_ptr<const linear::TriangularFactors> factors_of(const Eigen::MatrixXd& a) {
   std::vector<std::int64_t> start(1, 0), row;
   std::vector<double> value;
   for (Eigen::Index j = 0; j < a.cols(); ++j) {
@@ -31,9 +31,9 @@ std::shared_ptr<const TriangularFactors> factors_of(const Eigen::MatrixXd& a) {
       }
     start.push_back(static_cast<std::int64_t>(row.size()));
   }
-  Klu klu(start, row);
+  linear::Klu klu(start, row);
   REQUIRE(klu.factor(value));
-  return std::make_shared<const TriangularFactors>(klu.factors());
+  return std::make_shared<const linear::TriangularFactors>(klu.factors());
 }
 
 }  // namespace
@@ -43,16 +43,16 @@ TEST_SUITE_BEGIN("unit/linear/updated_factors");
 TEST_CASE("rows change, change again, and go back: solutions are those of the changed matrix") {
   const Eigen::Index n = 61;
   const Eigen::MatrixXd base = band(n);
-  UpdatedFactors updated;
+  linear::UpdatedFactors updated;
   updated.start(factors_of(base));
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, -2.0);
   for (const std::size_t count : {0U, 1U, 3U, 16U, 5U, 0U}) {
     CAPTURE(count);
     Eigen::MatrixXd a = base;
-    std::vector<ChangedRow> rows;
+    std::vector<linear::ChangedRow> rows;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t r = 3 * k + 2;
-      ChangedRow row{r, {{r, 0.7 + 0.1 * static_cast<double>(k)}, {r + 1, -0.5}, {r, 0.2}}};
+      linear::ChangedRow row{r, {{r, 0.7 + 0.1 * static_cast<double>(k)}, {r + 1, -0.5}, {r, 0.2}}};
       for (const auto& [column, value] : row.entries)
         a(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(column)) += value;
       rows.push_back(row);
@@ -69,17 +69,17 @@ TEST_CASE("rows change, change again, and go back: solutions are those of the ch
 TEST_CASE("too many rows, and rows that make the matrix singular, are refused") {
   const Eigen::Index n = 40;
   const Eigen::MatrixXd base = band(n);
-  UpdatedFactors updated;
+  linear::UpdatedFactors updated;
   CHECK_FALSE(updated.set({}));  // no matrix yet
   updated.start(factors_of(base));
-  std::vector<ChangedRow> many;
-  for (std::size_t r = 0; r <= UpdatedFactors::most_rows; ++r) many.push_back({r, {{r, 0.1}}});
+  std::vector<linear::ChangedRow> many;
+  for (std::size_t r = 0; r <= linear::UpdatedFactors::most_rows; ++r) many.push_back({r, {{r, 0.1}}});
   CHECK_FALSE(updated.set(many));
   // Regular, but what the row says would be a difference of numbers ten thousand times as great.
   CHECK_FALSE(updated.set({{5, {{5, 1e5}}}}));
   CHECK(updated.set({{5, {{5, 1e2}}}}));
   // Row 7 becomes row 8.
-  ChangedRow same{7, {}};
+  linear::ChangedRow same{7, {}};
   for (Eigen::Index j = 0; j < n; ++j)
     if (base(8, j) != base(7, j)) same.entries.emplace_back(j, base(8, j) - base(7, j));
   CHECK_FALSE(updated.set({same}));

@@ -91,7 +91,7 @@ $EndElements
 
 PlaneMesh read_text(const std::string& text, const std::vector<std::string>& surfaces = {}) {
   std::istringstream in(text);
-  return read_gmsh(in, "m.msh", "bodies.b.mesh", surfaces);
+  return mesh::read_gmsh(in, "m.msh", "bodies.b.mesh", surfaces);
 }
 
 std::string changed(std::string text, const std::string& from, const std::string& to) {

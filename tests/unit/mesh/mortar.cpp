@@ -14,7 +14,7 @@ namespace {
 
 /// Edges along given places on a line through the origin at an odd angle; `back`: they run the other way.
 struct Line {
-  std::vector<PlanePoint> at;
+  std::vector<mesh::PlanePoint> at;
   std::vector<PlaneMesh::Edge> slave, master;
   static constexpr double angle = 0.53;
 
@@ -34,8 +34,8 @@ struct Line {
       last = next;
     }
   }
-  [[nodiscard]] MortarSeam seam() const {
-    return mortar_between(slave, master, [&](int n) { return at[static_cast<std::size_t>(n)]; });
+  [[nodiscard]] mesh::MortarSeam seam() const {
+    return mesh::mortar_between(slave, master, [&](int n) { return at[static_cast<std::size_t>(n)]; });
   }
 };
 
@@ -47,13 +47,13 @@ TEST_CASE("two linear edges over one: lengths and weights as by hand") {
   Line line;
   line.add_side({0.0, 1.0, 3.0}, true, false);  // nodes 0, 1, 2
   line.add_side({0.0, 3.0}, false, false);      // nodes 3 at 0, 4 at 3
-  const MortarSeam seam = line.seam();
+  const mesh::MortarSeam seam = line.seam();
   REQUIRE(seam.nodes.size() == 3);
   const double length[3] = {0.5, 1.5, 1.0};
   // psi_k reproduces linear fields: sum_l w_l x_l = x_k.
   const double right[3] = {0.0, 1.0 / 3.0, 1.0};
   for (std::size_t k = 0; k < 3; ++k) {
-    const MortarNode& node = seam.nodes[k];
+    const mesh::MortarNode& node = seam.nodes[k];
     CHECK(node.node == static_cast<int>(k));
     CHECK(node.length == doctest::Approx(length[k]).epsilon(1e-14));
     double w3 = 0.0, w4 = 0.0;
@@ -75,9 +75,9 @@ TEST_CASE(
       Line line;
       line.add_side({0.0, 0.31, 0.8, 1.13, 1.7}, true, slave_quadratic);
       line.add_side({0.0, 0.52, 0.91, 1.7}, false, master_quadratic);
-      const MortarSeam seam = line.seam();
+      const mesh::MortarSeam seam = line.seam();
       std::vector<double> force(line.at.size(), 0.0), wanted(line.at.size(), 0.0);
-      for (const MortarNode& k : seam.nodes) {
+      for (const mesh::MortarNode& k : seam.nodes) {
         double sum = 0.0;
         for (const auto& [l, w] : k.master) force[static_cast<std::size_t>(l)] += w * k.length, sum += w;
         force[static_cast<std::size_t>(k.node)] = k.length;
@@ -102,10 +102,10 @@ TEST_CASE("a partly covered edge: its rows carry the covered length alone") {
   Line line;
   line.add_side({0.0, 1.0, 2.0, 3.0}, true, false);
   line.add_side({0.6, 1.9}, false, false, -0.01);
-  const MortarSeam seam = line.seam();
+  const mesh::MortarSeam seam = line.seam();
   REQUIRE(seam.nodes.size() == 3);  // the one at 3 touches nothing
   double total = 0.0;
-  for (const MortarNode& k : seam.nodes) {
+  for (const mesh::MortarNode& k : seam.nodes) {
     total += k.length;
     double sum = 0.0, moment = 0.0;
     for (const auto& [l, w] : k.master) {
@@ -127,17 +127,17 @@ TEST_CASE(
   Line line;
   line.add_side({0.0, 1.0, 2.0}, true, false);
   line.add_side({-1.0, 1.000001}, false, false);
-  const MortarSeam ended = line.seam();
+  const mesh::MortarSeam ended = line.seam();
   REQUIRE(ended.nodes.size() == 2);
   CHECK(ended.nodes[1].length == doctest::Approx(0.5).epsilon(1e-14));
   Line near;
   near.add_side({0.0, 1.0, 2.0}, true, false);  // 0, 1, 2
   near.add_side({0.0, 1.0000001, 2.0}, false, false);
-  const MortarSeam seam = near.seam();
+  const mesh::MortarSeam seam = near.seam();
   REQUIRE(seam.nodes.size() == 3);
   double total = 0.0;
   std::vector<double> force(near.at.size(), 0.0);
-  for (const MortarNode& k : seam.nodes) {
+  for (const mesh::MortarNode& k : seam.nodes) {
     total += k.length;
     for (const auto& [l, w] : k.master) force[static_cast<std::size_t>(l)] += w * k.length;
   }
@@ -151,21 +151,22 @@ TEST_CASE(
     "power") {
   const auto worst_gap = [](PlaneShape shape, int n) {
     const double end = 0.7;
-    PlaneMesh inner = ring_mesh({{0.1, 0.2}, 0.5, 1.0, 0.0, end}, {shape, {1, 2 * n}, {1.0, 1.0}});
-    const PlaneMesh outer = ring_mesh({{0.1, 0.2}, 1.0, 1.5, 0.0, end}, {shape, {1, 3 * n}, {1.0, 1.0}});
+    PlaneMesh inner = mesh::ring_mesh({{0.1, 0.2}, 0.5, 1.0, 0.0, end}, {shape, {1, 2 * n}, {1.0, 1.0}});
+    const PlaneMesh outer =
+        mesh::ring_mesh({{0.1, 0.2}, 1.0, 1.5, 0.0, end}, {shape, {1, 3 * n}, {1.0, 1.0}});
     const auto shift = static_cast<int>(inner.nodes.size());
     std::vector<PlaneMesh::Edge> slave = inner.groups[0].edges, master = outer.groups[1].edges;
     REQUIRE(inner.groups[0].name == "outer");
     REQUIRE(outer.groups[1].name == "inner");
     for (auto& edge : master)
       for (int& k : edge.nodes) k += shift;
-    const MortarSeam seam = mortar_between(slave, master, [&](int k) {
+    const mesh::MortarSeam seam = mesh::mortar_between(slave, master, [&](int k) {
       const auto& node = k < shift ? inner.nodes[static_cast<std::size_t>(k)]
                                    : outer.nodes[static_cast<std::size_t>(k - shift)];
-      return PlanePoint{node.x, node.y};
+      return mesh::PlanePoint{node.x, node.y};
     });
     double worst = 0.0;
-    for (const MortarNode& k : seam.nodes) worst = std::max(worst, std::abs(k.gap));
+    for (const mesh::MortarNode& k : seam.nodes) worst = std::max(worst, std::abs(k.gap));
     return worst;
   };
   CHECK(std::log2(worst_gap(PlaneShape::q4, 4) / worst_gap(PlaneShape::q4, 8)) >= 1.8);
@@ -178,8 +179,8 @@ TEST_CASE(
     CAPTURE(degrees);
     const double a = degrees * std::numbers::pi / 180.0, c = std::cos(a), s = std::sin(a);
     // Turned as bodies are, about a corner of each: what lies on an axis then lies off it by eps of its distance.
-    std::vector<PlanePoint> at;
-    const auto add = [&](const PlanePoint& corner, double x, double y) {
+    std::vector<mesh::PlanePoint> at;
+    const auto add = [&](const mesh::PlanePoint& corner, double x, double y) {
       const double tx = c * corner[0] - s * corner[1], ty = s * corner[0] + c * corner[1];
       at.push_back({tx + (c * x - s * y), ty + (s * x + c * y)});
     };
@@ -187,14 +188,14 @@ TEST_CASE(
     for (const double x : {0.0, 0.35, 0.55, 0.7}) add({-0.5, -0.2}, x, 0.2);  // 3 to 6: the master, below
     const std::vector<PlaneMesh::Edge> slave{{{0, 1}}, {{1, 2}}}, master{{{6, 5}}, {{5, 4}}, {{4, 3}}};
     const auto place = [&](int n) { return at[static_cast<std::size_t>(n)]; };
-    const MortarSeam seam = mortar_between(slave, master, place);
+    const mesh::MortarSeam seam = mesh::mortar_between(slave, master, place);
     REQUIRE(seam.nodes.size() == 3);
-    for (const MortarNode& node : seam.nodes) CHECK(node.gap == 0.0);
-    for (const MortarNode& node : mortar_on_line(slave, {0.0, 0.0}, {-s, c}, place).nodes)
+    for (const mesh::MortarNode& node : seam.nodes) CHECK(node.gap == 0.0);
+    for (const mesh::MortarNode& node : mesh::mortar_on_line(slave, {0.0, 0.0}, {-s, c}, place).nodes)
       CHECK(node.gap == 0.0);
     at[1][0] += 1e-12 * s;  // what is no rounding stays
     at[1][1] -= 1e-12 * c;
-    CHECK(mortar_between(slave, master, place).nodes[1].gap == doctest::Approx(-1e-12).epsilon(1e-2));
+    CHECK(mesh::mortar_between(slave, master, place).nodes[1].gap == doctest::Approx(-1e-12).epsilon(1e-2));
   }
 }
 
@@ -202,16 +203,16 @@ TEST_CASE("on the ground and on a line") {
   Line line;
   line.add_side({0.0, 0.4, 1.1}, true, false);
   const auto place = [&](int n) { return line.at[static_cast<std::size_t>(n)]; };
-  const MortarSeam ground = mortar_on_ground(line.slave, place);
+  const mesh::MortarSeam ground = mesh::mortar_on_ground(line.slave, place);
   REQUIRE(ground.nodes.size() == 3);
   CHECK(ground.nodes[1].length == doctest::Approx(0.55).epsilon(1e-14));
   CHECK(ground.nodes[1].master.empty());
-  const PlanePoint up{0.0, 1.0};
-  const MortarSeam flat = mortar_on_line(line.slave, {5.0, -2.0}, up, place);
+  const mesh::PlanePoint up{0.0, 1.0};
+  const mesh::MortarSeam flat = mesh::mortar_on_line(line.slave, {5.0, -2.0}, up, place);
   REQUIRE(flat.nodes.size() == 3);
-  for (const MortarNode& k : flat.nodes)
+  for (const mesh::MortarNode& k : flat.nodes)
     CHECK(k.gap == doctest::Approx(place(k.node)[1] + 2.0).epsilon(1e-14));
-  CHECK(mortar_on_line(line.slave, {5.0, 2.0}, {0.0, -1.0}, place).nodes.empty());  // it faces away
+  CHECK(mesh::mortar_on_line(line.slave, {5.0, 2.0}, {0.0, -1.0}, place).nodes.empty());  // it faces away
 }
 
 TEST_CASE("an interference reaches as far as the slave's body: no farther, and not to its other side") {
@@ -227,10 +228,10 @@ TEST_CASE("an interference reaches as far as the slave's body: no farther, and n
       line.master.clear();
       line.add_side({0.4, 2.8}, false, false, off);
     }
-    const MortarSeam seam = mortar_between(
+    const mesh::MortarSeam seam = mesh::mortar_between(
         line.slave, line.master, [&](int n) { return line.at[static_cast<std::size_t>(n)]; }, outline);
     REQUIRE(seam.nodes.size() == (off < 0.5 ? 3 : 0));
-    for (const MortarNode& node : seam.nodes) CHECK(node.gap == doctest::Approx(-off).epsilon(1e-14));
+    for (const mesh::MortarNode& node : seam.nodes) CHECK(node.gap == doctest::Approx(-off).epsilon(1e-14));
     if (off != 0.5) CHECK(line.seam().nodes.size() == 3);  // of what body it is, nobody has said
   }
 }
@@ -241,9 +242,9 @@ TEST_CASE("of two edges behind the slave's the nearer one counts, in any order")
     line.add_side({0.0, 1.0, 3.0}, true, false);
     line.add_side({-0.5, 3.5}, false, false, nearer_first ? 0.1 : 0.3);
     line.add_side({-0.5, 3.5}, false, false, nearer_first ? 0.3 : 0.1);
-    const MortarSeam seam = line.seam();
+    const mesh::MortarSeam seam = line.seam();
     REQUIRE(seam.nodes.size() == 3);
-    for (const MortarNode& node : seam.nodes) CHECK(node.gap == doctest::Approx(-0.1).epsilon(1e-14));
+    for (const mesh::MortarNode& node : seam.nodes) CHECK(node.gap == doctest::Approx(-0.1).epsilon(1e-14));
   }
 }
 

@@ -22,7 +22,9 @@ HistorySpec polynomial(std::vector<double> coefficients) {
   return s;
 }
 
-double negative(const HistorySpec& spec, double t_end) { return negative_at(make_history(spec, "h"), t_end); }
+double negative(const HistorySpec& spec, double t_end) {
+  return history::negative_at(scene::make_history(spec, "h"), t_end);
+}
 
 }  // namespace
 
@@ -91,8 +93,8 @@ TEST_SUITE("unit/model/inputs") {
 
   TEST_CASE("a table from a file: values, jump, zero outside, and Steffen through the same points") {
     const Scene scene = good("rest.toml");
-    const History line = make_history(scene.loads[0].history, "h");
-    const History smooth = make_history(scene.loads[1].history, "h");
+    const History line = scene::make_history(scene.loads[0].history, "h");
+    const History smooth = scene::make_history(scene.loads[1].history, "h");
     for (const History& f : {line, smooth}) {
       CHECK(f.value(0.0) == 0.0);
       CHECK(f.piece_before(0.25).value(0.25) == doctest::Approx(1.5));

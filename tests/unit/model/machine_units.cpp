@@ -90,12 +90,12 @@ TEST_SUITE("unit/model/machine_units") {
     for (const char* name : {"frame", "histories", "order", "reduced", "rest", "touching"}) {
       CAPTURE(name);
       const Scene scene = read_scene(good + name + ".toml");
-      const Model there = build_model(rescaled(scene, odd));
-      check_same(rescaled(build_model(scene), odd), there, scene.run.t_end * odd.time);
+      const Model there = build_model(scene::rescaled(scene, odd));
+      check_same(model::rescaled(build_model(scene), odd), there, scene.run.t_end * odd.time);
     }
     const Scene scene = read_scene(good + "matrices.toml");
     const Factors factors{odd.force, 1.0, odd.time};
-    check_same(rescaled(build_model(scene), factors), build_model(rescaled(scene, factors)),
+    check_same(model::rescaled(build_model(scene), factors), build_model(scene::rescaled(scene, factors)),
                scene.run.t_end * odd.time);
   }
 
@@ -106,13 +106,13 @@ TEST_SUITE("unit/model/machine_units") {
     for (const Unit& of : {Unit{1, 0, 0}, Unit{1, 1, 0}, Unit{2, 1, 3}}) {
       output.unit = of;
       model.outputs = {output};
-      const Output there = rescaled(model, odd).outputs.front();
+      const Output there = model::rescaled(model, odd).outputs.front();
       REQUIRE(there.restoring.size() == 1);
       const Output::Restoring& r = there.restoring.front();
-      CHECK(r.said == 5.0 * odd.force);
+      CHECK(r.scene_force == 5.0 * odd.force);
       // of N = 7 and u_0 = 11
       const double value =
-          r.factor * (7.0 * odd.force - r.said) * r.slip.terms.front().second * 11.0 * odd.length;
+          r.factor * (7.0 * odd.force - r.scene_force) * r.slip.terms.front().second * 11.0 * odd.length;
       CHECK(value == 3.0 * (7.0 - 5.0) * 2.0 * 11.0 * std::pow(odd.force, of.force) *
                          std::pow(odd.length, of.length) * std::pow(odd.time, of.time));
     }
@@ -121,19 +121,20 @@ TEST_SUITE("unit/model/machine_units") {
   TEST_CASE("there and back") {
     const Scene scene = read_scene(good + "frame.toml");
     const Model model = build_model(scene);
-    const Model back = rescaled(rescaled(model, odd), inverse(odd));
+    const Model back = model::rescaled(model::rescaled(model, odd), scene::inverse(odd));
     check_same(model, back, scene.run.t_end);
     CHECK(back.unit.force == 1.0);
     CHECK(back.unit.length == 1.0);
     CHECK(back.unit.time == 1.0);
-    CHECK(rescaled(model, odd).unit.time == 1.0 / odd.time);
+    CHECK(model::rescaled(model, odd).unit.time == 1.0 / odd.time);
   }
 
   TEST_CASE("machine units follow the scene's by powers of two") {
     for (const char* name : {"frame", "histories", "rest"}) {
       CAPTURE(name);
       const Scene scene = read_scene(good + name + ".toml");
-      const Factors here = machine_units(scene), there = machine_units(rescaled(scene, odd));
+      const Factors here = model::machine_units(scene),
+                    there = model::machine_units(scene::rescaled(scene, odd));
       CHECK(there.force == here.force * odd.force);
       CHECK(there.length == here.length * odd.length);
       CHECK(there.time == here.time * odd.time);
@@ -141,13 +142,13 @@ TEST_SUITE("unit/model/machine_units") {
       for (const double x : {here.force, here.length, here.time}) CHECK(std::frexp(x, &exponent) == 0.5);
     }
     const Scene matrices = read_scene(good + "matrices.toml");
-    CHECK(machine_units(matrices).length == 1.0);
+    CHECK(model::machine_units(matrices).length == 1.0);
   }
 
   TEST_CASE("units beyond the range of squares are the scene's") {
     Scene scene = read_scene(good + "minimal.toml");
     for (PointMass& m : scene.masses) m.mass = 1e-300;
-    const Factors units = machine_units(scene);
+    const Factors units = model::machine_units(scene);
     for (const double x : {units.force, units.length, units.time}) CHECK(x == 1.0);
   }
 

@@ -42,7 +42,7 @@ TEST_CASE("flutter of one mass: frequencies that friction brings together") {
   // K_slip = [[a, c - s f kn], [c, b + kn]]; 2 l^2 = -(m +- sqrt(d^2 + c (c - s f kn)))
   const double a = 1000.0, b = 20.0, c = 30.0, f = 0.4, kn = 1000.0;
   const Model model = block(a, b, c, f, 0.0);
-  const auto found = slip_growth(model, {State::slip_plus});
+  const auto found = model::slip_growth(model, {State::slip_plus});
   REQUIRE(found);
   const double mean = 0.5 * (a + b + kn), half = 0.5 * (b + kn - a);
   const double turn = std::sqrt(-(half * half + c * (c - f * kn)));
@@ -51,16 +51,16 @@ TEST_CASE("flutter of one mass: frequencies that friction brings together") {
   CHECK(found->omega == doctest::Approx(std::abs(lambda.imag())).epsilon(1e-9));
   CHECK(found->contacts == std::vector<std::size_t>{0});
   // Back it drives nothing: c (c + f kn) > 0; nor where it sticks, is open or has no friction.
-  CHECK_FALSE(slip_growth(model, {State::slip_minus}));
-  CHECK_FALSE(slip_growth(model, {State::stick}));
-  CHECK_FALSE(slip_growth(model, {State::open}));
-  CHECK_FALSE(slip_growth(block(a, b, c, 0.0, 0.0), {State::closed}));
+  CHECK_FALSE(model::slip_growth(model, {State::slip_minus}));
+  CHECK_FALSE(model::slip_growth(model, {State::stick}));
+  CHECK_FALSE(model::slip_growth(model, {State::open}));
+  CHECK_FALSE(model::slip_growth(block(a, b, c, 0.0, 0.0), {State::closed}));
   // C = c / m M shifts all exponents by c / 2m but for its square: half of the growth, and more than all.
   const double shift = 0.5 * found->rate;
-  const auto damped = slip_growth(block(a, b, c, f, 4.0 * shift), {State::slip_plus});
+  const auto damped = model::slip_growth(block(a, b, c, f, 4.0 * shift), {State::slip_plus});
   REQUIRE(damped);
   CHECK(damped->rate == doctest::Approx(found->rate - shift).epsilon(2e-2));
-  CHECK_FALSE(slip_growth(block(a, b, c, f, 9.0 * shift), {State::slip_plus}));
+  CHECK_FALSE(model::slip_growth(block(a, b, c, f, 9.0 * shift), {State::slip_plus}));
 }
 
 TEST_CASE("a body that is free along its slip drifts, and neither flutters nor runs away") {
@@ -90,14 +90,14 @@ friction = {}
 )",
                                                 b * s * s, b * s * c, b * s * c, b * c * c, s, c, c, -s, f),
                                     "test.toml"));
-        CHECK_FALSE(slip_growth(model, {state}));
+        CHECK_FALSE(model::slip_growth(model, {state}));
       }
 }
 
 TEST_CASE("one that runs away: the determinant of the stiffness has changed its sign") {
   // K_slip = [[a, c - s f kn (tangent)], ...]: with t = (1, x) the normal stiffness falls to kn (1 - s f x).
   const double a = 100.0, b = 50.0, kn = 1000.0;
-  const auto found = slip_growth(block(a, b, 0.0, 0.5, 0.0, 3.0), {State::slip_plus});
+  const auto found = model::slip_growth(block(a, b, 0.0, 0.5, 0.0, 3.0), {State::slip_plus});
   REQUIRE(found);
   CHECK(found->omega == 0.0);
   CHECK(found->rate == doctest::Approx(std::sqrt((0.5 * kn - b) / 2.0)).epsilon(1e-9));

@@ -50,13 +50,13 @@ Model at_limit(double degrees) {
 }
 
 std::vector<MotionJet> motions_in(const Model& model, State first, State second) {
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  JetMaker jets(systems);
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  motion::JetMaker jets(systems);
   std::vector<MotionJet> motions;
-  const ModeSystemPtr system = systems.of({{first, 0.0}, {second, 0.0}});
+  const motion::StateSystemPtr system = systems.of({{first, 0.0}, {second, 0.0}});
   REQUIRE(system);
-  (void)jets.make(system, Forcing(model, 0.0, Side::after), 0.0, model.u0, model.v0, motions);
+  (void)jets.make(system, motion::Forcing(model, 0.0, motion::Side::after), 0.0, model.u0, model.v0, motions);
   return motions;
 }
 
@@ -66,14 +66,14 @@ TEST_SUITE_BEGIN("unit/motion/jet");
 
 TEST_CASE("orders that contacts are asked for are the same to the last bit, whatever others are asked for") {
   const Model model = rubbing_row(17);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  JetMaker jets(systems);
-  const ModeSystemPtr system = systems.of(rubbing_mode(model, 5));
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  motion::JetMaker jets(systems);
+  const motion::StateSystemPtr system = systems.of(rubbing_mode(model, 5));
   REQUIRE(system);
-  const Forcing forcing(model, 0.0, Side::after);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
   std::vector<MotionJet> all, some;
-  const Jet whole = jets.make(system, forcing, 0.0, model.u0, model.v0, all);
+  const motion::Jet whole = jets.make(system, forcing, 0.0, model.u0, model.v0, all);
   const auto same = [](const ContactMotion& a, const ContactMotion& b) {
     return a.N == b.N && a.T == b.T && a.gap == b.gap && a.ut == b.ut && a.vn == b.vn && a.vt == b.vt &&
            a.an == b.an && a.at == b.at;
@@ -81,7 +81,7 @@ TEST_CASE("orders that contacts are asked for are the same to the last bit, what
   for (const std::size_t greatest : {1U, 2U, 3U, 5U}) {
     CAPTURE(greatest);
     const auto asked = [&](std::size_t c) { return 1 + c % greatest; };
-    const Jet jet =
+    const motion::Jet jet =
         jets.make(system, forcing, 0.0, model.u0, model.v0, some,
                   [&](std::size_t c, const MotionJet&, std::size_t orders) { return orders >= asked(c); });
     CHECK(jet.u == whole.u);

@@ -26,8 +26,8 @@ struct Changing {
         taylor(systems),
         motion(model),
         x(at) {
-    Mode mode = rubbing_mode(model, 77);
-    const ModeSystemPtr before = systems.of(mode);
+    contact::ContactStates mode = rubbing_mode(model, 77);
+    const motion::StateSystemPtr before = systems.of(mode);
     taylor.expand(before, forcing(), begin, model.u0, model.v0, levels, scale, motion.whole);
     motion.taken(levels);
     motion.evaluate_at(x, there);
@@ -36,9 +36,10 @@ struct Changing {
     taylor.expand(after, forcing(), time(), there.u, there.v, levels, scale, whole);
   }
   [[nodiscard]] double time() const { return begin + scale * x; }
-  [[nodiscard]] Forcing forcing() const { return {model, begin, Side::after}; }
-  std::optional<NearSeries::Made> expand(NearSeries& near, const std::vector<std::size_t>& changed,
-                                         double reach, double least) {
+  [[nodiscard]] motion::Forcing forcing() const { return {model, begin, motion::Side::after}; }
+  std::optional<motion::LocalSeries::Made> expand(motion::LocalSeries& near,
+                                                  const std::vector<std::size_t>& changed, double reach,
+                                                  double least) {
     return near.expand(changed, after, forcing(), time(), there.u, there.v, levels, scale, reach,
                        {weights, least},
                        {[&](int dof, double* out) { motion.displacement(dof, x, out); },
@@ -46,14 +47,14 @@ struct Changing {
   }
 
   Model model;
-  Structure structure;
-  ModeSystems systems;
-  Taylor taylor;
-  PiecedSeries motion;
+  linear::SystemMatrices structure;
+  motion::StateSystems systems;
+  motion::Taylor taylor;
+  exact::PatchedSeries motion;
   double x;
-  Point there;
-  ModeSystemPtr after;
-  Series whole;
+  motion::Point there;
+  motion::StateSystemPtr after;
+  motion::Series whole;
   std::vector<double> weights = std::vector<double>(2 * masses, 1.0);
 };
 
@@ -70,33 +71,33 @@ TEST_CASE("after a change of state the motion put together from pieces is that o
   for (const std::size_t contact : {std::size_t{0}, std::size_t{142}, std::size_t{151}, std::size_t{299}}) {
     CAPTURE(contact);
     Changing row(lively_row(masses), contact);
-    NearSeries near(row.systems);
+    motion::LocalSeries near(row.systems);
     const auto made = row.expand(near, {contact}, 1.0 - from, 0.0);
     REQUIRE(made);
     CHECK(std::binary_search(made->where->contacts.begin(), made->where->contacts.end(), contact));
     CHECK(4 * made->where->dofs.size() <= row.weights.size());
     row.motion.take_over(*made, from, 1.0 - from);
     CHECK(row.motion.contacts()[contact].origin() == from);
-    PiecedSeries anew(row.model);
+    exact::PatchedSeries anew(row.model);
     anew.whole = row.whole;
     anew.taken(levels);
     for (const double x : {from, 0.5, 0.83, 1.0}) {
       CAPTURE(x);
-      Point pieces, whole;
+      motion::Point pieces, whole;
       row.motion.evaluate_at(x, pieces);
       anew.evaluate_at(x - from, whole);
       CHECK(apart(pieces.u, whole.u) <= 4.0 * rounding::of_many);
       CHECK(apart(pieces.v, whole.v) <= 4.0 * rounding::of_many);
       CHECK(apart(pieces.a, whole.a) <= 16.0 * rounding::of_many);
       CHECK(apart(pieces.forces, whole.forces) <= 16.0 * rounding::of_many);
-      Point one;
+      motion::Point one;
       row.motion.place_at(x, contact, one);
       for (const auto& term : row.model.contacts[contact].normal.terms) {
         CHECK(one.u[term.first] == doctest::Approx(pieces.u[term.first]).epsilon(1e-14));
         CHECK(one.v[term.first] == doctest::Approx(pieces.v[term.first]).epsilon(1e-13));
       }
       CHECK(one.N({}, contact) == doctest::Approx(pieces.N({}, contact)).epsilon(1e-13));
-      CHECK(row.motion.contacts()[contact].value(ContactSeries::N, x) ==
+      CHECK(row.motion.contacts()[contact].value(motion::ContactSeries::N, x) ==
             doctest::Approx(pieces.N({}, contact)).epsilon(1e-13));
     }
   }
@@ -107,11 +108,11 @@ TEST_CASE(
   constexpr std::size_t first = 142, second = 170;
   constexpr double later = 0.62;
   Changing row(lively_row(masses), first);
-  NearSeries near(row.systems);
+  motion::LocalSeries near(row.systems);
   const auto made = row.expand(near, {first}, 1.0 - from, 0.0);
   REQUIRE(made);
   row.motion.take_over(*made, from, 1.0 - from);
-  Mode mode = row.after->mode();
+  contact::ContactStates mode = row.after->mode();
   mode[second].state = mode[second].state == State::open ? State::stick : State::open;
   row.after = row.systems.of(mode);
   row.x = later;
@@ -120,11 +121,11 @@ TEST_CASE(
   REQUIRE(then);
   CHECK(std::binary_search(then->where->contacts.begin(), then->where->contacts.end(), second));
   row.motion.take_over(*then, later, 1.0 - later);
-  PiecedSeries anew(row.model);
+  exact::PatchedSeries anew(row.model);
   row.taylor.expand(row.after, row.forcing(), row.time(), row.there.u, row.there.v, levels, scale,
                     anew.whole);
   anew.taken(levels);
-  Point pieces, whole;
+  motion::Point pieces, whole;
   row.motion.evaluate_at(1.0, pieces);
   anew.evaluate_at(1.0 - later, whole);
   CHECK(apart(pieces.u, whole.u) <= 4.0 * rounding::of_many);
@@ -134,14 +135,14 @@ TEST_CASE(
 
 TEST_CASE("what changes in two places, or is felt beyond the neighbourhood, is made anew of the whole") {
   Changing row(lively_row(masses), 150);
-  NearSeries near(row.systems);
+  motion::LocalSeries near(row.systems);
   CHECK_FALSE(row.expand(near, {10, 290}, 1.0 - from, 0.0));
   // The states of another contact, far away, changed without a word.
   Changing other(lively_row(masses), 150);
-  NearSeries beside(other.systems);
+  motion::LocalSeries beside(other.systems);
   const auto made = other.expand(beside, {150}, 1.0 - from, 0.0);
   REQUIRE(made);
-  Mode mode = other.after->mode();
+  contact::ContactStates mode = other.after->mode();
   const std::size_t edge = made->where->contacts.front() + 1;
   mode[edge].state = mode[edge].state == State::open ? State::stick : State::open;
   other.after = other.systems.of(mode);
@@ -152,10 +153,10 @@ TEST_CASE("what changes in two places, or is felt beyond the neighbourhood, is m
 
 TEST_CASE("a row no longer than its neighbourhoods has none, and is not asked for ever") {
   Model small = lively_row(40);
-  const Structure structure(small);
-  ModeSystems systems(small, structure);
-  const ModeSystemPtr system = systems.of(rubbing_mode(small, 7));
-  Neighbourhoods near(systems, 12);
+  const linear::SystemMatrices structure(small);
+  motion::StateSystems systems(small, structure);
+  const motion::StateSystemPtr system = systems.of(rubbing_mode(small, 7));
+  motion::Neighbourhoods near(systems, 12);
   for (const std::size_t c : {3U, 11U, 24U, 38U}) {
     CHECK_FALSE(near.hopeless());
     CHECK(near.around(c, *system) == nullptr);

@@ -21,9 +21,9 @@ struct Bench {
       : model(std::move(row)), structure(model), systems(model, structure), whole(systems) {}
 
   Model model;
-  Structure structure;
-  ModeSystems systems;
-  JetMaker whole;
+  linear::SystemMatrices structure;
+  motion::StateSystems systems;
+  motion::JetMaker whole;
 };
 
 void check_same(const ContactMotion& near, const ContactMotion& whole, const ContactMotion& noise) {
@@ -44,15 +44,15 @@ TEST_SUITE_BEGIN("unit/motion/near_jets");
 
 TEST_CASE("what contacts ask for near them is what the whole structure says, within its rounding") {
   Bench bench(lively_row(long_row));
-  NearJets jets(bench.systems, 400);
+  motion::LocalDerivatives jets(bench.systems, 400);
   REQUIRE(jets.possible());
   for (const int seed : {5, 77, 1234}) {
-    const ModeSystemPtr system = bench.systems.of(rubbing_mode(bench.model, seed));
+    const motion::StateSystemPtr system = bench.systems.of(rubbing_mode(bench.model, seed));
     REQUIRE(system);
     for (const double t : {0.0, 0.37}) {
-      const Forcing forcing(bench.model, t, Side::after);
+      const motion::Forcing forcing(bench.model, t, motion::Side::after);
       std::vector<MotionJet> whole, near;
-      const Jet all = bench.whole.make(system, forcing, t, bench.model.u0, bench.model.v0, whole);
+      const motion::Jet all = bench.whole.make(system, forcing, t, bench.model.u0, bench.model.v0, whole);
       // Four contacts ask for three orders, at both ends, where a load acts, and beside it.
       const std::vector<std::size_t> asking = {0, 150, 153, long_row - 1};
       const auto told = [&](std::size_t c, const MotionJet&, std::size_t orders) {
@@ -98,23 +98,23 @@ TEST_CASE(
     "should") {
   Bench bench(lively_row(long_row));
   const double t = 0.37;
-  const Forcing forcing(bench.model, t, Side::after);
+  const motion::Forcing forcing(bench.model, t, motion::Side::after);
   const auto told = [](std::size_t c, const MotionJet&, std::size_t orders) {
     return orders >= 3 || c != 153;
   };
-  Mode mode = rubbing_mode(bench.model, 77);
+  contact::ContactStates mode = rubbing_mode(bench.model, 77);
   for (const std::size_t other : {0U, 150U, 153U}) {
     CAPTURE(other);
-    NearJets jets(bench.systems, 400), again(bench.systems, 400);
+    motion::LocalDerivatives jets(bench.systems, 400), again(bench.systems, 400);
     std::vector<MotionJet> motions, alone;
     const auto before =
         jets.make(bench.systems.of(mode), forcing, t, bench.model.u0, bench.model.v0, motions, told);
     REQUIRE(before);
     mode[other].state = mode[other].state == State::stick ? State::open : State::stick;
     mode[other + 2].state = State::slip_plus;
-    const ModeSystemPtr system = bench.systems.of(mode);
+    const motion::StateSystemPtr system = bench.systems.of(mode);
     const auto beside = jets.make(system, forcing, t, bench.model.u0, bench.model.v0, motions, told,
-                                  NearJets::Beside{before->jet, before->open});
+                                  motion::LocalDerivatives::Beside{before->jet, before->open});
     const auto made = again.make(system, forcing, t, bench.model.u0, bench.model.v0, alone, told);
     REQUIRE(beside);
     REQUIRE(made);
@@ -145,13 +145,14 @@ TEST_CASE(
   const auto one_asks = [](std::size_t c, const MotionJet&, std::size_t orders) {
     return c != 3 || orders > 2;
   };
-  const auto made = [](Bench& bench, const JetMaker::Told& told) {
-    NearJets jets(bench.systems, 20);
+  const auto made = [](Bench& bench, const motion::JetMaker::Enough& told) {
+    motion::LocalDerivatives jets(bench.systems, 20);
     REQUIRE(jets.possible());
     std::vector<MotionJet> motions;
     return jets
-        .make(bench.systems.of(rubbing_mode(bench.model, 7)), Forcing(bench.model, 0.0, Side::after), 0.0,
-              bench.model.u0, bench.model.v0, motions, told)
+        .make(bench.systems.of(rubbing_mode(bench.model, 7)),
+              motion::Forcing(bench.model, 0.0, motion::Side::after), 0.0, bench.model.u0, bench.model.v0,
+              motions, told)
         .has_value();
   };
   Bench brief(lively_row(40)), large(lively_row(long_row));
@@ -162,14 +163,14 @@ TEST_CASE(
 
 TEST_CASE("who is told by nothing but the last order takes the whole structure") {
   Bench bench(lively_row(long_row));
-  NearJets jets(bench.systems, 400);
+  motion::LocalDerivatives jets(bench.systems, 400);
   std::vector<MotionJet> motions;
   const auto never = [](std::size_t c, const MotionJet&, std::size_t orders) {
     return c != 40 || orders == MotionJet::orders;
   };
   CHECK_FALSE(jets.make(bench.systems.of(rubbing_mode(bench.model, 7)),
-                        Forcing(bench.model, 0.0, Side::after), 0.0, bench.model.u0, bench.model.v0, motions,
-                        never));
+                        motion::Forcing(bench.model, 0.0, motion::Side::after), 0.0, bench.model.u0,
+                        bench.model.v0, motions, never));
 }
 
 TEST_CASE("small, rigid and massless models, and friction that varies, are none for this") {
@@ -177,7 +178,7 @@ TEST_CASE("small, rigid and massless models, and friction that varies, are none 
     Model model = rubbing_row(long_row);
     change(model);
     Bench bench(std::move(model));
-    return NearJets(bench.systems, 400).possible();
+    return motion::LocalDerivatives(bench.systems, 400).possible();
   };
   CHECK(possible([](Model&) {}));
   CHECK_FALSE(possible([](Model& m) { m.contacts[200].law = Law::rigid; }));
@@ -185,5 +186,5 @@ TEST_CASE("small, rigid and massless models, and friction that varies, are none 
     m.contacts[0].friction.stribeck_velocity = 0.1, m.contacts[0].friction.static_ = 0.5;
   }));
   Bench row(rubbing_row(long_row));
-  CHECK_FALSE(NearJets(row.systems, 2 * long_row + 1).possible());
+  CHECK_FALSE(motion::LocalDerivatives(row.systems, 2 * long_row + 1).possible());
 }

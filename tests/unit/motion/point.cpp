@@ -8,10 +8,10 @@ TEST_SUITE_BEGIN("unit/motion/point");
 
 TEST_CASE("between two points all of the state lies on a straight line") {
   const auto at = [](double x) {
-    return Point{Vector::Constant(2, 1.0 + x), Vector::Constant(2, 2.0 - x), Vector::Constant(4, 3.0 * x),
-                 Vector::Constant(2, 4.0 + 2.0 * x)};
+    return motion::Point{Vector::Constant(2, 1.0 + x), Vector::Constant(2, 2.0 - x),
+                         Vector::Constant(4, 3.0 * x), Vector::Constant(2, 4.0 + 2.0 * x)};
   };
-  const Point p = between(at(0.0), at(1.0), 0.25), q = at(0.25);
+  const motion::Point p = motion::between(at(0.0), at(1.0), 0.25), q = at(0.25);
   CHECK(p.u.isApprox(q.u));
   CHECK(p.v.isApprox(q.v));
   CHECK(p.forces.isApprox(q.forces));

@@ -41,9 +41,9 @@ Model row_of_masses(int n) {
 }
 
 /// Mode number i in a count to the base of stick and slip in both directions.
-Mode mode_number(std::size_t contacts, int i) {
+contact::ContactStates mode_number(std::size_t contacts, int i) {
   constexpr State states[] = {State::stick, State::slip_plus, State::slip_minus};
-  Mode mode(contacts);
+  contact::ContactStates mode(contacts);
   for (ContactState& s : mode) {
     s = {states[i % 3], 0.01 * i};
     i /= 3;
@@ -51,12 +51,13 @@ Mode mode_number(std::size_t contacts, int i) {
   return mode;
 }
 
-Series series_in(ModeSystems& systems, const Mode& mode) {
+motion::Series series_in(motion::StateSystems& systems, const contact::ContactStates& mode) {
   const Model& model = systems.model();
-  const ModeSystemPtr system = systems.of(mode);
+  const motion::StateSystemPtr system = systems.of(mode);
   REQUIRE(system);
-  Series series;
-  Taylor(systems).expand(system, Forcing(model, 0.0, Side::after), 0.0, model.u0, model.v0, 8, 0.1, series);
+  motion::Series series;
+  motion::Taylor(systems).expand(system, motion::Forcing(model, 0.0, motion::Side::after), 0.0, model.u0,
+                                 model.v0, 8, 0.1, series);
   return series;
 }
 
@@ -66,12 +67,12 @@ TEST_SUITE_BEGIN("unit/motion/state_systems");
 
 TEST_CASE("what is known is not factorised again; another anchor is the same matrix") {
   const Model model = row_of_masses(3);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  const Mode mode = mode_number(3, 5);
-  Mode moved = mode;
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  const contact::ContactStates mode = mode_number(3, 5);
+  contact::ContactStates moved = mode;
   for (ContactState& s : moved) s.anchor += 1.0;
-  const ModeSystemPtr first = systems.of(mode), second = systems.of(moved);
+  const motion::StateSystemPtr first = systems.of(mode), second = systems.of(moved);
   CHECK(systems.made() == 1);
   CHECK(&first->factorised() == &second->factorised());
   const auto stuck = static_cast<std::size_t>(
@@ -85,15 +86,15 @@ TEST_CASE("count and bytes are bounded, whatever number of modes a run visits") 
   for (const int masses : {3, 20}) {  // dense and sparse
     CAPTURE(masses);
     const Model model = row_of_masses(masses);
-    const Structure structure(model);
-    ModeSystems one(model, structure);
+    const linear::SystemMatrices structure(model);
+    motion::StateSystems one(model, structure);
     (void)one.of(mode_number(model.contacts.size(), 0));
     const std::size_t each = one.bytes();
     CHECK(each > 0);
-    ModeSystems by_count(model, structure, {4, 100 * each});
-    ModeSystems by_bytes(model, structure, {100, 4 * each + each / 2});
+    motion::StateSystems by_count(model, structure, {4, 100 * each});
+    motion::StateSystems by_bytes(model, structure, {100, 4 * each + each / 2});
     for (int i = 0; i < 27; ++i)
-      for (ModeSystems* systems : {&by_count, &by_bytes}) {
+      for (motion::StateSystems* systems : {&by_count, &by_bytes}) {
         (void)systems->of(mode_number(model.contacts.size(), i));
         CHECK(systems->held() <= 4 + (systems == &by_bytes ? 1 : 0));
         CHECK(systems->bytes() <= 5 * each);
@@ -106,13 +107,13 @@ TEST_CASE("count and bytes are bounded, whatever number of modes a run visits") 
 TEST_CASE("states whose forces follow from places and velocities are not held, and are the same each time") {
   Model model = row_of_masses(20);
   model.contacts.back().tangential_stiffness = 50.0;
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
   const auto mode = [&](int i) { return mode_number(model.contacts.size(), i); };
-  const Series first = series_in(systems, mode(7));
+  const motion::Series first = series_in(systems, mode(7));
   REQUIRE(systems.of(mode(7))->factorised().by_mass);
   (void)systems.of(mode(12));
-  const Series again = series_in(systems, mode(7));
+  const motion::Series again = series_in(systems, mode(7));
   CHECK((first.u.array() == again.u.array()).all());
   CHECK((first.forces.array() == again.forces.array()).all());
   CHECK(systems.made() == 3);
@@ -121,9 +122,9 @@ TEST_CASE("states whose forces follow from places and velocities are not held, a
 
 TEST_CASE("a system greater than all bounds is held until the next one comes") {
   const Model model = row_of_masses(3);
-  const Structure structure(model);
-  ModeSystems systems(model, structure, {10, 1});
-  const ModeSystemPtr first = systems.of(mode_number(3, 0));
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure, {10, 1});
+  const motion::StateSystemPtr first = systems.of(mode_number(3, 0));
   CHECK(systems.held() == 1);
   (void)systems.of(mode_number(3, 0));
   CHECK(systems.made() == 1);
@@ -134,8 +135,8 @@ TEST_CASE("a system greater than all bounds is held until the next one comes") {
 
 TEST_CASE("what was used least recently goes") {
   const Model model = row_of_masses(3);
-  const Structure structure(model);
-  ModeSystems systems(model, structure, {2, std::size_t{1} << 20});
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure, {2, std::size_t{1} << 20});
   const auto visit = [&](int i) {
     const long before = systems.made();
     (void)systems.of(mode_number(3, i));
@@ -153,11 +154,11 @@ TEST_CASE("a series is the same to the last bit after its mode was dropped and m
   for (const int masses : {3, 20}) {
     CAPTURE(masses);
     const Model model = row_of_masses(masses);
-    const Structure structure(model);
-    ModeSystems large(model, structure), tiny(model, structure, {1, 1});
+    const linear::SystemMatrices structure(model);
+    motion::StateSystems large(model, structure), tiny(model, structure, {1, 1});
     for (const int i : {0, 7, 12, 7, 0}) {
-      const Mode mode = mode_number(model.contacts.size(), i);
-      const Series a = series_in(large, mode), b = series_in(tiny, mode);
+      const contact::ContactStates mode = mode_number(model.contacts.size(), i);
+      const motion::Series a = series_in(large, mode), b = series_in(tiny, mode);
       CHECK((a.u.array() == b.u.array()).all());
       CHECK((a.forces.array() == b.forces.array()).all());
     }
@@ -176,8 +177,8 @@ TEST_CASE("dependent rows are no system, and that is remembered too") {
   model.contacts[0] = twin;
   twin.name = "twin";
   model.contacts.push_back(twin);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
   for (int i = 0; i < 2; ++i) CHECK(systems.of({{State::closed, 0.0}, {State::closed, 0.0}}) == nullptr);
   CHECK(systems.made() == 1);
   CHECK(systems.of({{State::closed, 0.0}, {State::open, 0.0}}) != nullptr);

@@ -35,11 +35,12 @@ TEST_SUITE_BEGIN("unit/motion/taylor");
 TEST_CASE("disturbances are irregular, of both signs, and between half of the most and the most") {
   int positive = 0;
   for (std::size_t i = 0; i < 1000; ++i) {
-    const double part = Disturbance::part(i), size = std::abs(part) / (Disturbance::most * 0x1p-52);
+    const double part = motion::DataPerturbation::part(i),
+                 size = std::abs(part) / (motion::DataPerturbation::most * 0x1p-52);
     CHECK(size >= 0.5);
     CHECK(size <= 1.0);
-    CHECK(part == Disturbance::part(i));
-    CHECK(part != Disturbance::part(i + 1));
+    CHECK(part == motion::DataPerturbation::part(i));
+    CHECK(part != motion::DataPerturbation::part(i + 1));
     positive += part > 0.0;
   }
   CHECK(positive > 430);
@@ -53,17 +54,17 @@ TEST_CASE("what sticks to a surface follows it to the last digit, beside a part 
       CAPTURE(velocity);
       CAPTURE(damping);
       const Model model = pulled(velocity, damping);
-      const Structure structure(model);
-      ModeSystems systems(model, structure);
+      const linear::SystemMatrices structure(model);
+      motion::StateSystems systems(model, structure);
       const double t = 0.2;
-      const ModeSystemPtr system = systems.of({{State::stick, 0.0}});
+      const motion::StateSystemPtr system = systems.of({{State::stick, 0.0}});
       REQUIRE(system);
-      const Forcing forcing(model, t, Side::after);
+      const motion::Forcing forcing(model, t, motion::Side::after);
       Vector v = model.v0;
       v[0] = forcing.surface(0, t, 1) / 0.7;
       v[2] = std::numeric_limits<double>::quiet_NaN();  // not read: it has no mass
-      Taylor taylor(systems);
-      Series series;
+      motion::Taylor taylor(systems);
+      motion::Series series;
       constexpr int levels = 14;
       taylor.expand(system, forcing, t, model.u0, v, levels, 1.0, series);
       double factorial = 1.0;
@@ -106,13 +107,14 @@ TEST_CASE("what is held on a slope does not move at all, whatever pulls at it th
                         "normal = {{ d0 = {}, d1 = {} }}\ntangent = {{ d0 = {}, d1 = {} }}",
                         s, c, c, -s)),
         "test.toml"));
-    const Structure structure(model);
-    ModeSystems systems(model, structure);
-    const ModeSystemPtr system = systems.of({{State::stick, 0.0}});
+    const linear::SystemMatrices structure(model);
+    motion::StateSystems systems(model, structure);
+    const motion::StateSystemPtr system = systems.of({{State::stick, 0.0}});
     REQUIRE(system);
-    Taylor taylor(systems);
-    Series series;
-    taylor.expand(system, Forcing(model, 0.0, Side::after), 0.0, model.u0, model.v0, 14, 1.0, series);
+    motion::Taylor taylor(systems);
+    motion::Series series;
+    taylor.expand(system, motion::Forcing(model, 0.0, motion::Side::after), 0.0, model.u0, model.v0, 14, 1.0,
+                  series);
     for (int k = 2; k <= 14; ++k) {
       CHECK(series.u(0, k) == 0.0);
       CHECK(series.u(1, k) == 0.0);
@@ -149,13 +151,14 @@ TEST_CASE(
                      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 2.3\nhistory = { type = \"harmonic\", "
                      "omega = 3.0, phase = 0.4 }\n"),
         "test.toml"));
-    const Structure structure(model);
-    ModeSystems systems(model, structure);
-    const ModeSystemPtr system = systems.of({{State::stick, 0.0}});
+    const linear::SystemMatrices structure(model);
+    motion::StateSystems systems(model, structure);
+    const motion::StateSystemPtr system = systems.of({{State::stick, 0.0}});
     REQUIRE(system);
-    Taylor taylor(systems);
-    Series series;
-    taylor.expand(system, Forcing(model, 0.0, Side::after), 0.0, model.u0, model.v0, 14, 1.0, series);
+    motion::Taylor taylor(systems);
+    motion::Series series;
+    taylor.expand(system, motion::Forcing(model, 0.0, motion::Side::after), 0.0, model.u0, model.v0, 14, 1.0,
+                  series);
     const Combination& t = model.contacts[0].tangent;
     Vector along = Vector::Zero(4);
     t.add_to(along, 1.0);

@@ -17,7 +17,7 @@ int places(const std::function<double(double)>& d, double x_star, bool before, d
     if ((x < x_star) == before) return std::vector<double>{0.3, d(x), 0.7 - d(x)};
     return std::vector<double>{1.0};
   };
-  SequenceSearch search(stretches(0.0), stretches(1.0), enough);
+  orbit::SequenceSearch search(stretches(0.0), stretches(1.0), enough);
   int count = 0;
   for (; !search.done() && count < 100; ++count) {
     const double x = search.next();
@@ -40,12 +40,12 @@ TEST_CASE("stretches between events, the last one into the next period") {
   events[0].t = 0.25;
   events[1].t = 0.5;
   events[2].t = 1.5;
-  const std::vector<double> found = stretches_of(events, 2.0);
+  const std::vector<double> found = orbit::stretches_of(events, 2.0);
   REQUIRE(found.size() == 3);
   CHECK(found[0] == 0.125);
   CHECK(found[1] == 0.5);
   CHECK(found[2] == 0.375);
-  CHECK(stretches_of({}, 2.0).empty());
+  CHECK(orbit::stretches_of({}, 2.0).empty());
 }
 
 TEST_CASE("a stretch that vanishes at a graze or at a crossing, before or behind the change") {
@@ -63,7 +63,7 @@ TEST_CASE("a stretch that vanishes at a graze or at a crossing, before or behind
 
 TEST_CASE("a stretch that jumps, or that nobody knows, is halved") {
   CHECK(places([](double) { return 0.2; }, 0.37, true, 1e-9) == 30);
-  SequenceSearch search({}, {}, 1e-3);
+  orbit::SequenceSearch search({}, {}, 1e-3);
   int count = 0;
   for (; !search.done(); ++count) {
     const double x = search.next();

@@ -9,7 +9,9 @@ using namespace signorini;
 
 namespace {
 
-Eigen::MatrixXd put_together(const MeshMotion& motion) { return motion.shapes * motion.parts.transpose(); }
+Eigen::MatrixXd put_together(const report::MeshMotion& motion) {
+  return motion.shapes * motion.parts.transpose();
+}
 
 /// A line of nodes that moves by three shapes of very different sizes, at uneven times.
 Eigen::MatrixXd wavy(int nodes, int times) {
@@ -29,8 +31,8 @@ TEST_SUITE_BEGIN("unit/report/mesh_motion");
 
 TEST_CASE("mesh motion: few shapes give every displacement back within a thousandth of the greatest") {
   const Eigen::MatrixXd u = wavy(40, 33);
-  MeshMotion motion;
-  split_motion(u, 100000, motion);
+  report::MeshMotion motion;
+  report::split_motion(u, 100000, motion);
   CHECK(motion.greatest == u.cwiseAbs().maxCoeff());
   CHECK(motion.shapes.cols() <= 3);
   CHECK((put_together(motion) - u).cwiseAbs().maxCoeff() <= 1e-3 * motion.greatest);
@@ -40,17 +42,17 @@ TEST_CASE("mesh motion: few shapes give every displacement back within a thousan
 
 TEST_CASE("mesh motion: a full page has one shape, the one that leaves least; nothing moves without any") {
   const Eigen::MatrixXd u = wavy(40, 33);
-  MeshMotion motion;
-  split_motion(u, 1, motion);
+  report::MeshMotion motion;
+  report::split_motion(u, 1, motion);
   REQUIRE(motion.shapes.cols() == 1);
   // No sum of one shape leaves less: the rest is at right angles to it.
   const Eigen::MatrixXd rest = u - put_together(motion);
   CHECK((motion.shapes.col(0).transpose() * rest).cwiseAbs().maxCoeff() <= 1e-9 * u.norm());
   CHECK(rest.norm() < 0.5 * u.norm());
-  split_motion(Eigen::MatrixXd::Zero(6, 4), 1000, motion);
+  report::split_motion(Eigen::MatrixXd::Zero(6, 4), 1000, motion);
   CHECK(motion.greatest == 0.0);
   CHECK(motion.shapes.cols() == 0);
-  CHECK(mesh_motion_json({}).is_null());
+  CHECK(report::mesh_motion_json({}).is_null());
 }
 
 TEST_SUITE_END();

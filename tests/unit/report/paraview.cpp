@@ -10,8 +10,8 @@ using namespace signorini;
 namespace {
 
 /// A column of 2 on a support, a beam of 4 to its right; its end moves up at 1 a second, and there is a contact.
-Json two_nodes() {
-  Json data = parse_json(std::string(R"({
+base::Json two_nodes() {
+  base::Json data = base::parse_json(std::string(R"({
     "nodes": [{"name": "A", "x": 0.0, "y": 0.0, "u": [-1, -1, -1]}, {"name": "B", "x": 4.0, "y": 0.0, "u": [-1, 0, 1]}],
     "pieces": [{"a": 0, "b": 1, "bar": false, "shape": 1}],
     "springs": [{"a": 0, "b": 1, "dx": 1.0, "dy": 0.0}, {"a": 1, "b": -1, "dx": 0.0, "dy": 1.0}],
@@ -21,7 +21,7 @@ Json two_nodes() {
                              "T": [2.0, 2.0, 0.0, 0.0], "gap": [0.0, 0.0, 0.0, null]}}],
     "curve": {"times": [[0.0, 2.0]], "columns": [{"t": 0, "u": [0.0, 2.0]}, {"t": 0, "u": [0.0, 0.75]}]},
     "events": [[1.0, 0, "separation", "stick", "open"], [1.0, -1, "time", "", ""]]})"));
-  data["shapes"] = shapes_json();
+  data["shapes"] = report::shapes_json();
   return data;
 }
 
@@ -29,7 +29,7 @@ Json two_nodes() {
 
 TEST_SUITE("unit/report/paraview") {
   TEST_CASE("paraview: as many points, offsets and data as the file says") {
-    const std::string text = vtu_frame(two_nodes(), 0.5);
+    const std::string text = report::vtu_frame(two_nodes(), 0.5);
     // 11 of the beam, 2 of the spring between nodes, 2 nodes, a contact, a load
     CHECK(text.find("NumberOfPoints=\"17\" NumberOfCells=\"6\"") != std::string::npos);
     CHECK(test::array_of(text, "points").size() == 3 * 17);
@@ -42,7 +42,7 @@ TEST_SUITE("unit/report/paraview") {
   }
 
   TEST_CASE("paraview: displacements between rows and along the cubic of a beam") {
-    const std::vector<double> u = test::array_of(vtu_frame(two_nodes(), 1.5), "displacement");
+    const std::vector<double> u = test::array_of(report::vtu_frame(two_nodes(), 1.5), "displacement");
     CHECK(u[3 * 10 + 1] == doctest::Approx(1.5));  // its end
     CHECK(u[3 * 14 + 1] == doctest::Approx(1.5));  // node B
     // v(s) = v (3 s^2 - 2 s^3) + L r (s^3 - s^2) in the middle, r = 0.75 * 0.75
@@ -50,27 +50,28 @@ TEST_SUITE("unit/report/paraview") {
   }
 
   TEST_CASE("paraview: forces on the structure are -N n - T t and f d, after a jump those after it") {
-    const Json data = two_nodes();
-    const std::vector<double> before = test::array_of(vtu_frame(data, 0.5), "force");
+    const base::Json data = two_nodes();
+    const std::vector<double> before = test::array_of(report::vtu_frame(data, 0.5), "force");
     CHECK(before[3 * 15] == doctest::Approx(-2.0));     // t = [1, 0]
     CHECK(before[3 * 15 + 1] == doctest::Approx(6.0));  // -N n
     CHECK(before[3 * 16] == doctest::Approx(6.0));
     CHECK(before[3 * 16 + 1] == doctest::Approx(8.0));
-    const std::string after = vtu_frame(data, 1.0);
+    const std::string after = report::vtu_frame(data, 1.0);
     CHECK(test::array_of(after, "force")[3 * 15 + 1] == 0.0);
     CHECK(test::array_of(after, "force")[3 * 16] == 0.0);
     CHECK(test::array_of(after, "state") == std::vector<double>{-1, -1, -1, -1, 4, -1});
-    CHECK(test::array_of(vtu_frame(data, 0.999), "state")[4] == 0);
+    CHECK(test::array_of(report::vtu_frame(data, 0.999), "state")[4] == 0);
   }
 
   TEST_CASE("paraview: as many times as asked for, at equal distances; those of events where asked for") {
-    const Json data = two_nodes();
-    CHECK(frame_times(data, 2, false) == std::vector<double>{0.0, 2.0});
-    CHECK(frame_times(data, 2, true) == std::vector<double>{0.0, 1.0, 2.0});
-    CHECK(frame_times(data, 3, true) == std::vector<double>{0.0, 1.0, 2.0});
-    CHECK(frame_times(data, 1, false) == std::vector<double>{0.0});
-    CHECK(frame_times(parse_json(std::string(R"({"curve": {"times": [], "columns": []}, "events": []})")), 5,
-                      true)
+    const base::Json data = two_nodes();
+    CHECK(report::frame_times(data, 2, false) == std::vector<double>{0.0, 2.0});
+    CHECK(report::frame_times(data, 2, true) == std::vector<double>{0.0, 1.0, 2.0});
+    CHECK(report::frame_times(data, 3, true) == std::vector<double>{0.0, 1.0, 2.0});
+    CHECK(report::frame_times(data, 1, false) == std::vector<double>{0.0});
+    CHECK(report::frame_times(
+              base::parse_json(std::string(R"({"curve": {"times": [], "columns": []}, "events": []})")), 5,
+              true)
               .empty());
   }
 }

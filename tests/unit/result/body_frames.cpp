@@ -56,9 +56,9 @@ TEST_CASE(
     const Model model = build_model(scene);
     const Folder folder;
     for (const bool pictures : {true, false}) {
-      RunDirectoryOptions options;
+      result::RunDirectoryOptions options;
       options.pictures = pictures;
-      RunDirectory directory(folder / (pictures ? "with" : "without"), scene, model, options);
+      result::RunDirectory directory(folder / (pictures ? "with" : "without"), scene, model, options);
       directory.finish(simulate(model, scene.run, directory));
     }
     CHECK_FALSE(std::filesystem::exists(folder / "without" / "body_motion.csv"));

@@ -18,7 +18,7 @@ TEST_CASE("docs/output.md: the columns of events.csv, and the types of events") 
   for (const EventColumn& c : event_columns)
     columns += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning);
   std::string certified = "| column | unit | meaning |\n|---|---|---|\n";
-  for (const CertificateColumn& c : certificate_columns)
+  for (const result::CertificateColumn& c : result::certificate_columns)
     certified += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning);
   std::string types = "| event | what happens |\n|---|---|\n";
   for (const EventTypeName& type : all_event_types)
@@ -34,7 +34,7 @@ TEST_CASE("docs/output.md: the files of a manifest, in their order") {
   std::string text = made_up::slurp(SIGNORINI_MODELS "/../docs/output.md");
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::string files;
-  for (const std::string_view file : result_files) files += fmt::format("{}, ", file);
+  for (const std::string_view file : base::result_files) files += fmt::format("{}, ", file);
   files.replace(files.size() - 2, 2, ".");
   for (std::size_t at; (at = text.find(",   ")) != std::string::npos;) text.replace(at, 4, ", ");
   INFO("docs/output.md should hold: ", files);

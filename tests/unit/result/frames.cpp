@@ -27,7 +27,7 @@ struct Tip {
     u[test::dof(model, "R.uy")] = 0.02;
     u[test::dof(model, "R.ux")] = 0.01;
   }
-  void feed(RunDirectory& directory, double t, bool frame) const {
+  void feed(result::RunDirectory& directory, double t, bool frame) const {
     Sample s;
     s.t = t;
     s.u = &u;
@@ -45,7 +45,7 @@ TEST_SUITE_BEGIN("unit/result/frames");
 TEST_CASE("frames: two rows an element, one a named node, forces on the body") {
   const Folder folder;
   const Tip tip;
-  RunDirectory directory(folder / "run", tip.scene, tip.model);
+  result::RunDirectory directory(folder / "run", tip.scene, tip.model);
   tip.feed(directory, 0.0, false);
   CHECK_FALSE(std::filesystem::exists(folder / "run" / "frames.csv"));
   tip.feed(directory, 0.5, true);
@@ -60,67 +60,68 @@ TEST_CASE("frames: two rows an element, one a named node, forces on the body") {
   CHECK(slurp(folder / "run" / "frame_contacts.csv") ==
         "t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T\n"
         "0.5,foot,stick,R,4,0,0.01,0.02,0,1,1,0,-30,4\n");
-  const auto frames = read_frames(TableFolder(folder / "run"), 0.0, 1.0);
+  const auto frames = result::read_frames(result::TableFolder(folder / "run"), 0.0, 1.0);
   REQUIRE(frames.size() == 1);
   REQUIRE(frames[0].elements.size() == 2);
   REQUIRE(frames[0].forces.size() == 1);
   CHECK(frames[0].forces[0].fx == -4.0);
   CHECK(frames[0].forces[0].fy == 30.0);
-  CHECK(read_frames(TableFolder(folder / "run"), 0.6, 1.0).empty());
+  CHECK(result::read_frames(result::TableFolder(folder / "run"), 0.6, 1.0).empty());
 }
 
 TEST_CASE("frames: the drawn curve is the beam's own, and magnification keeps it readable") {
-  Frame::Element e{"beam", {0.0, 0.0, 0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0, 0.0}};
+  result::Frame::Element e{"beam", {0.0, 0.0, 0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0, 0.0}};
   e.b.rz = 0.4;
   // A turned end without displacement: u = L (s^3 - s^2) rz.
-  CHECK(between(e, 0.5).uy == doctest::Approx(-2.0 * 0.125 * 0.4));
-  CHECK(between(e, 0.5).ux == 0.0);
+  CHECK(result::between(e, 0.5).uy == doctest::Approx(-2.0 * 0.125 * 0.4));
+  CHECK(result::between(e, 0.5).ux == 0.0);
   e.kind = "bar";
-  CHECK(between(e, 0.5).uy == 0.0);
+  CHECK(result::between(e, 0.5).uy == 0.0);
 
-  Frame frame;
+  result::Frame frame;
   frame.elements = {{"beam", {0.0, 0.0, 0.0, 0.0, 0.0}, {10.0, 0.0, 0.0, 3e-3, 0.0}}};
   frame.points = {{"L", true, frame.elements[0].a}, {"R", false, frame.elements[0].b}};
-  CHECK(scales_of({frame}).magnification == 200.0);
+  CHECK(result::scales_of({frame}).magnification == 200.0);
   frame.points[1].at.uy = 20.0;
-  CHECK(scales_of({frame}).magnification == 1.0);
+  CHECK(result::scales_of({frame}).magnification == 1.0);
 }
 
 TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnified") {
-  Frame frame;
+  result::Frame frame;
   frame.points = {{"L", false, {0.0, 0.0, 0.51, 0.0, 0.0}}, {"R", false, {10.0, 0.0, 0.49, 0.0, 0.0}}};
   frame.elements = {{"bar", frame.points[0].at, frame.points[1].at}};
-  std::vector<Frame> frames{frame};
-  take_out_slides(frames);
+  std::vector<result::Frame> frames{frame};
+  result::take_out_slides(frames);
   CHECK(frames[0].slid_x == doctest::Approx(0.5));
   CHECK(frames[0].points[0].at.x == doctest::Approx(0.5));
   CHECK(frames[0].points[0].at.ux == doctest::Approx(0.01));
   CHECK(frames[0].elements[0].b.ux == doctest::Approx(-0.01));
-  CHECK(scales_of(frames).magnification == 100.0);
+  CHECK(result::scales_of(frames).magnification == 100.0);
   frame.points[1].at.ux = -0.4;  // a deformation as large as the motion: nothing is taken out
   frames = {frame};
-  take_out_slides(frames);
+  result::take_out_slides(frames);
   CHECK(frames[0].slid_x == 0.0);
   CHECK(frames[0].points[0].at.ux == 0.51);
 }
 
 TEST_CASE("frames: the longest arrow is that of the run, whether or not a frame shows it") {
-  Frame frame;
+  result::Frame frame;
   frame.points = {{"L", true, {0.0, 0.0, 0.0, 0.0, 0.0}}, {"R", false, {10.0, 0.0, 0.0, 0.0, 0.0}}};
   frame.forces.resize(1);
   frame.forces[0].fy = 30.0;
-  const FrameScales of_run = scales_of({frame}, 60.0), of_frame = scales_of({frame}, 0.0);
+  const result::FrameScales of_run = result::scales_of({frame}, 60.0),
+                            of_frame = result::scales_of({frame}, 0.0);
   CHECK(of_run.greatest_force == 60.0);
   CHECK(of_frame.greatest_force == 30.0);
   CHECK(of_run.force_scale == doctest::Approx(0.5 * of_frame.force_scale));
-  CHECK(scales_of(frame, of_run).force_scale == of_run.force_scale);
+  CHECK(result::scales_of(frame, of_run).force_scale == of_run.force_scale);
 }
 
 TEST_CASE("frames: one picture a frame, and --force clears them away") {
   const Folder folder;
   const Tip tip;
   {
-    RunDirectory directory(folder / "run", tip.scene, tip.model);
+    result::RunDirectory directory(folder / "run", tip.scene, tip.model);
     tip.feed(directory, 0.0, true);
     tip.feed(directory, 0.5, true);
     tip.feed(directory, 1.0, false);
@@ -129,12 +130,12 @@ TEST_CASE("frames: one picture a frame, and --force clears them away") {
     one.audit.friction_work = {0.5};
     one.audit.friction.contact = 0;
     (void)directory.finish(one);
-    const auto scripts = write_plots(folder / "run");
+    const auto scripts = result::write_plots(folder / "run");
     std::string names;
     for (const auto& script : scripts) names += script.stem().string() + " ";
     CHECK(names == "displacement contact-foot states cone frame-1 frame-2 energy ");
   }
-  RunDirectory again(folder / "run", tip.scene, tip.model, {true, {}});
+  result::RunDirectory again(folder / "run", tip.scene, tip.model, {true, {}});
   tip.feed(again, 0.0, false);
   CHECK_FALSE(std::filesystem::exists(folder / "run" / "frames.csv"));
   CHECK_FALSE(std::filesystem::exists(folder / "run" / "plots"));
@@ -143,7 +144,7 @@ TEST_CASE("frames: one picture a frame, and --force clears them away") {
 TEST_CASE("frames: a label stands at the tail of its arrow, and its text ends inside the panel") {
   const Folder folder;
   const Tip tip;
-  RunDirectory directory(folder / "run", tip.scene, tip.model);
+  result::RunDirectory directory(folder / "run", tip.scene, tip.model);
   tip.feed(directory, 0.0, true);
   tip.feed(directory, 1.0, false);
   Report one = report();
@@ -156,7 +157,7 @@ TEST_CASE("frames: a label stands at the tail of its arrow, and its text ends in
           fmt::format(
               "t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T\n0,foot,stick,R,{},0,0,0,{},{},{},{},-30,0\n",
               x, nx, ny, ny, -nx));
-    (void)write_plots(folder / "run");
+    (void)result::write_plots(folder / "run");
     const std::string script = slurp(folder / "run" / "plots" / "frame-1.gp");
     const std::size_t begin = script.find("set label 'foot: N = -30");
     REQUIRE(begin != std::string::npos);

@@ -15,22 +15,22 @@ TEST_CASE("every phrase stands in every language once, with the same places for 
     for (std::size_t at = text.find("{}"); at != std::string::npos; at = text.find("{}", at + 2)) ++count;
     return count;
   };
-  const std::vector<std::string> phrases = translated_phrases();
+  const std::vector<std::string> phrases = result::translated_phrases();
   CHECK(std::set<std::string>(phrases.begin(), phrases.end()).size() == phrases.size());
   for (const std::string& phrase : phrases) {
     CAPTURE(phrase);
-    CHECK(say("en", phrase) == phrase);
-    for (const std::string& language : picture_languages()) {
-      CHECK_FALSE(say(language, phrase).empty());
-      CHECK(places(say(language, phrase)) == places(phrase));
+    CHECK(result::say("en", phrase) == phrase);
+    for (const std::string& language : result::picture_languages()) {
+      CHECK_FALSE(result::say(language, phrase).empty());
+      CHECK(places(result::say(language, phrase)) == places(phrase));
     }
-    const std::string russian = say("ru", phrase);
+    const std::string russian = result::say("ru", phrase);
     CHECK(
         std::any_of(russian.begin(), russian.end(), [](char c) { return static_cast<signed char>(c) < 0; }));
   }
-  CHECK(say("de", "slip") == "Gleiten");
-  CHECK(say("ru", "stick") == "сцепление");
-  CHECK(say("de", "contact of mine") == "contact of mine");
+  CHECK(result::say("de", "slip") == "Gleiten");
+  CHECK(result::say("ru", "stick") == "сцепление");
+  CHECK(result::say("de", "contact of mine") == "contact of mine");
 }
 
 TEST_SUITE_END();

@@ -15,7 +15,7 @@ namespace {
 
 /// A run in folder/run with output times 0 and 1, and these events between them.
 void write_run(const Folder& folder, const Model& model, const std::vector<Event>& events = {}) {
-  RunDirectory directory(folder / "run", scene(), model);
+  result::RunDirectory directory(folder / "run", scene(), model);
   feed(directory, 0.0);
   for (const Event& event : events) directory.event(event);
   feed(directory, 1.0);
@@ -27,37 +27,38 @@ void write_run(const Folder& folder, const Model& model, const std::vector<Event
 TEST_SUITE_BEGIN("unit/result/plots");
 
 TEST_CASE("plots: nothing in a name is expanded by gnuplot") {
-  CHECK(quoted("it's `rm`") == "'it''s `rm`'");
-  CHECK(quoted("two\nlines") == "'two lines'");
-  CHECK(quoted("'tis a title") == "'\u2019tis a title'");
-  CHECK(quoted("end'") == "'end'''");
-  CHECK(quoted("6'' on a plate") == R"('6'."\047\047".' on a plate')");
-  CHECK(quoted("'''") == R"(''."\047\047\047".'')");
-  CHECK(named_tics('x', {{"%s of 100 %", 0}, {"it's", 3}}) == "set xtics ('%%s of 100 %%' 0, 'it''s' 3)");
+  CHECK(result::quoted("it's `rm`") == "'it''s `rm`'");
+  CHECK(result::quoted("two\nlines") == "'two lines'");
+  CHECK(result::quoted("'tis a title") == "'\u2019tis a title'");
+  CHECK(result::quoted("end'") == "'end'''");
+  CHECK(result::quoted("6'' on a plate") == R"('6'."\047\047".' on a plate')");
+  CHECK(result::quoted("'''") == R"(''."\047\047\047".'')");
+  CHECK(result::named_tics('x', {{"%s of 100 %", 0}, {"it's", 3}}) ==
+        "set xtics ('%%s of 100 %%' 0, 'it''s' 3)");
 }
 
 TEST_CASE("plots: a row a contact is as high as a picture allows, and names do not overlap") {
-  const PictureLook screen;
-  CHECK(row_height(34.0, 3, screen) == 34.0);
+  const result::PictureLook screen;
+  CHECK(result::row_height(34.0, 3, screen) == 34.0);
   for (const std::size_t count : {800UL, 1000UL, 5000UL}) {
-    const double row = row_height(34.0, count, screen);
-    const double dots = 1.5 * (row * static_cast<double>(count) + room_above + room_below);
+    const double row = result::row_height(34.0, count, screen);
+    const double dots = 1.5 * (row * static_cast<double>(count) + result::room_above + result::room_below);
     CHECK(dots <= 32767.0);  // Cairo's limit
     CHECK(dots >= 20000.0);
-    const std::string ticks = row_tics(std::vector<RunFacts::Contact>(count), row);
+    const std::string ticks = result::row_tics(std::vector<result::RunFacts::Contact>(count), row);
     CHECK(static_cast<double>(std::count(ticks.begin(), ticks.end(), ',')) * 13.0 <
           row * static_cast<double>(count));
   }
-  PictureLook paper;
+  result::PictureLook paper;
   paper.width = 400.0;
-  CHECK(row_height(34.0, 1000, paper) < row_height(34.0, 1000, screen));
+  CHECK(result::row_height(34.0, 1000, paper) < result::row_height(34.0, 1000, screen));
 }
 
 TEST_CASE("plots: scripts, and bands that are exact to the event") {
   const Folder folder;
   write_run(folder, model(), {slip(0.123456789)});
 
-  const auto scripts = write_plots(folder / "run");
+  const auto scripts = result::write_plots(folder / "run");
   REQUIRE(scripts.size() == 7);
   CHECK(scripts[1].filename() == "contact-foot.gp");
   CHECK(scripts[2].filename() == "contact-pad__left.gp");
@@ -70,20 +71,20 @@ TEST_CASE("plots: scripts, and bands that are exact to the event") {
 }
 
 TEST_CASE("plots: a curve reads the rows that it draws") {
-  PlottedRun run = untold_run("", {"N", "kg", "m", "s"});
+  result::PlottedRun run = result::unreported_run("", {"N", "kg", "m", "s"});
   run.slugs = {"a", "b"};
   run.bands = {{{0.0, 1.0, "stick"}, {1.0, 2.0, "slip+"}, {2.0, 3.0, "stick"}, {3.0, 4.0, "open"}},
                {{0.0, 4.0, "stick"}}};
-  CHECK(band_table(run.bands[0]) == "from,to,state\n3,4,open\n1,2,slip+\n0,1,stick\n2,3,stick\n");
+  CHECK(result::band_table(run.bands[0]) == "from,to,state\n3,4,open\n1,2,slip+\n0,1,stick\n2,3,stick\n");
   const auto rows = [&](std::size_t k, const std::string& state) {
-    return band_curve(run, k, state, 2.0, 3.0, 1.0).value().rows;
+    return result::band_curve(run, k, state, 2.0, 3.0, 1.0).value().rows;
   };
   CHECK(rows(0, "open") == "'states-a.csv' skip 1 every ::0::0");
   CHECK(rows(0, "slip+") == "'states-a.csv' skip 1 every ::1::1");
   CHECK(rows(0, "stick") == "'states-a.csv' skip 1 every ::2::3");
   CHECK(rows(1, "stick") == "'states-b.csv' skip 1 every ::0::0");
-  CHECK_FALSE(band_curve(run, 1, "open", 0.0, 1.0, 1.0));
-  CHECK(band_curve(run, 0, "stick", 2.0, 3.0, 1.0)->columns == "1:(2.5):1:2:(2):(3)");
+  CHECK_FALSE(result::band_curve(run, 1, "open", 0.0, 1.0, 1.0));
+  CHECK(result::band_curve(run, 0, "stick", 2.0, 3.0, 1.0)->columns == "1:(2.5):1:2:(2):(3)");
 }
 
 TEST_CASE("plots: marks stand by type and contact, whatever the order of events") {
@@ -102,12 +103,13 @@ TEST_CASE("plots: marks stand by type and contact, whatever the order of events"
              event(0.3, 1, EventType::slip, State::stick, State::slip_minus),
              event(0.4, 0, EventType::stick, State::slip_minus, State::stick),
              event(0.5, 0, EventType::slip, State::stick, State::slip_minus)});
-  const PlottedRun run = read_plotted_run(TableFolder(folder / "run"), read_run_facts(folder / "run"), {});
+  const result::PlottedRun run = result::read_plotted_run(result::TableFolder(folder / "run"),
+                                                          result::read_run_facts(folder / "run"), {});
   std::vector<std::pair<int, double>> order;
-  for (const Mark& mark : run.marks) order.emplace_back(mark.row, mark.t);
+  for (const result::Mark& mark : run.marks) order.emplace_back(mark.row, mark.t);
   CHECK(order == std::vector<std::pair<int, double>>{{0, 0.2}, {0, 0.5}, {1, 0.3}, {0, 0.4}, {1, 0.1}});
   const auto rows = [&](const char* type, std::optional<int> row = std::nullopt) {
-    const PlottedRun::Rows found = marks_of(run, type, row);
+    const result::PlottedRun::Rows found = result::marks_of(run, type, row);
     return std::pair(found.first, found.count);
   };
   CHECK(rows("slip") == std::pair<std::size_t, std::size_t>(0, 3));
@@ -116,7 +118,7 @@ TEST_CASE("plots: marks stand by type and contact, whatever the order of events"
   CHECK(rows("stick", 1) == std::pair<std::size_t, std::size_t>(4, 1));
   CHECK(rows("impact").second == 0);
   // Each panel of the cone draws its own, each lane of the raster those of its type.
-  (void)write_plots(folder / "run");
+  (void)result::write_plots(folder / "run");
   const std::string cone = slurp(folder / "run" / "plots" / "cone.gp"),
                     raster = slurp(folder / "run" / "plots" / "raster.gp");
   for (const char* of_panel : {"::0::1", "::2::2", "::3::3", "::4::4"})
@@ -127,13 +129,13 @@ TEST_CASE("plots: marks stand by type and contact, whatever the order of events"
 }
 
 TEST_CASE("plots: a picture is its panels, from above, each with its axes and curves") {
-  const PlottedRun run = untold_run("A portal", {"N", "kg", "m", "s"});
-  Picture picture{"two", "Twice", canvas_of({}, 400.0, false), false};
+  const result::PlottedRun run = result::unreported_run("A portal", {"N", "kg", "m", "s"});
+  result::Picture picture{"two", "Twice", result::canvas_of({}, 400.0, false), false};
   picture.panels.push_back(
       {"upper [m]", {{"'a.csv'", "1:2", "with lines", "it's"}, {"'b.csv'", "1:3", "with points"}}});
   picture.panels.push_back(
       {"lower [N]", {{"3*x", "", "with lines"}}, "set logscale y\n", 2.0, "unset logscale y\n"});
-  const std::string script = script_of(run, picture);
+  const std::string script = result::script_of(run, picture);
   const auto at = [&](const std::string& text) {
     const std::size_t place = script.find(text);
     CAPTURE(text);
@@ -149,7 +151,7 @@ TEST_CASE("plots: a picture is its panels, from above, each with its axes and cu
   // Only the lowest one has figures at its horizontal axis.
   CHECK(at("unset xlabel") < at(upper));
   CHECK(at("set xlabel 'time t [s]'") > at(upper));
-  const auto edges = stacked({1.0, 2.0}, picture.canvas, picture.space);
+  const auto edges = result::stacked({1.0, 2.0}, picture.canvas, picture.space);
   CHECK(2.0 * (edges[0].top - edges[0].bottom) == doctest::Approx(edges[1].top - edges[1].bottom));
   // 400 less 62, 70 and 22 for what is above, below and between, a third of it.
   CHECK(400.0 * (edges[0].top - edges[0].bottom) == doctest::Approx(246.0 / 3.0));
@@ -159,14 +161,14 @@ TEST_CASE("plots: what earlier pictures left goes only where new ones come") {
   const Folder folder;
   const auto ours = [](const std::filesystem::path& file) { return file.stem() == "old"; };
   std::filesystem::create_directories(folder / "run" / "plots");
-  write_file(folder / "run" / "plots" / "old.gp", "plot 1\n");
-  write_file(folder / "run" / "plots" / "mine.txt", "kept\n");
-  PictureFiles files(ours);
+  result::write_file(folder / "run" / "plots" / "old.gp", "plot 1\n");
+  result::write_file(folder / "run" / "plots" / "mine.txt", "kept\n");
+  result::PictureFiles files(ours);
   files.add_table("numbers", "a\n1\n");
-  files.add({}, Picture{});
+  files.add({}, result::Picture{});
   CHECK(files.write(folder / "run").empty());
   CHECK(slurp(folder / "run" / "plots" / "old.gp") == "plot 1\n");
-  Picture picture{"new", "", canvas_of({}, 400.0, false), false};
+  result::Picture picture{"new", "", result::canvas_of({}, 400.0, false), false};
   picture.panels.push_back({"", {{"x", "", "with lines"}}});
   files.add({}, picture);
   const auto scripts = files.write(folder / "run");
@@ -183,7 +185,7 @@ TEST_CASE("plots: names that look alike as file names stay apart") {
   m.contacts[0].name = "a/b";
   m.contacts[1].name = "a.b";
   write_run(folder, m);
-  const auto scripts = write_plots(folder / "run");
+  const auto scripts = result::write_plots(folder / "run");
   CHECK(scripts[1].filename() == "contact-a_b.gp");
   CHECK(scripts[2].filename() == "contact-a_b-2.gp");
 }
@@ -195,65 +197,66 @@ TEST_CASE("plots: the close-up of one contact is not the picture of another") {
     m.contacts[0].name = other_first ? "a-events" : "a";
     m.contacts[1].name = other_first ? "a" : "a-events";
     write_run(folder, m);
-    const auto scripts = write_plots(folder / "run");
+    const auto scripts = result::write_plots(folder / "run");
     CHECK(scripts[1].filename() == (other_first ? "contact-a-events.gp" : "contact-a.gp"));
     CHECK(scripts[2].filename() == (other_first ? "contact-a-2.gp" : "contact-a-events-2.gp"));
   }
 }
 
 TEST_CASE("plots: a legend has room for its names") {
-  CHECK(room_for({"ida", "exact"}) == Canvas::usual_legend);
+  CHECK(result::room_for({"ida", "exact"}) == result::Canvas::usual_legend);
   const std::string name = "friction-iteration:dt=1e-3";
   // 9 points a letter, and the line in front of it.
-  CHECK(room_for({"ida", name}) >= 8.5 * static_cast<double>(name.size()) + 50.0);
-  CHECK(legend_name(name) == name);
+  CHECK(result::room_for({"ida", name}) >= 8.5 * static_cast<double>(name.size()) + 50.0);
+  CHECK(result::legend_name(name) == name);
   const std::string longer = std::string(100, 'a') + std::string(100, 'b');
-  CHECK(legend_name(longer).size() <= 44);
-  CHECK(legend_name(longer).find("a...b") != std::string::npos);
-  CHECK(canvas_of({}, 800.0, true).right(room_for({longer})) >= 0.5);
+  CHECK(result::legend_name(longer).size() <= 44);
+  CHECK(result::legend_name(longer).find("a...b") != std::string::npos);
+  CHECK(result::canvas_of({}, 800.0, true).right(result::room_for({longer})) >= 0.5);
   std::string umlauts;
   for (int i = 0; i < 60; ++i) umlauts += "\u00e4";
-  CHECK(legend_name(umlauts).find("\u00e4...\u00e4") != std::string::npos);
-  CHECK(legend_name("x" + umlauts).find("\u00e4...\u00e4") != std::string::npos);
+  CHECK(result::legend_name(umlauts).find("\u00e4...\u00e4") != std::string::npos);
+  CHECK(result::legend_name("x" + umlauts).find("\u00e4...\u00e4") != std::string::npos);
 }
 
 TEST_CASE("plots: the axis of a curve that hardly moves is no picture of rounding") {
   const auto range = [](double least, double greatest) {
-    Range r;
+    result::Range r;
     r.take(least);
     r.take(greatest);
     return r;
   };
   // A pipe on its shoes: 7e-5 m with noise in the sixteenth digit. One per cent to each side; by hand.
-  CHECK(steady(range(-8e-5, -8e-5 * (1.0 + 1e-15)), 2e-3) == "set yrange [-8.08e-05:-7.92e-05]\n");
-  CHECK(steady(range(8.0, 8.0), 8.0) == "set yrange [7.92:8.08]\n");
+  CHECK(result::steady(range(-8e-5, -8e-5 * (1.0 + 1e-15)), 2e-3) == "set yrange [-8.08e-05:-7.92e-05]\n");
+  CHECK(result::steady(range(8.0, 8.0), 8.0) == "set yrange [7.92:8.08]\n");
   // What is rounding beside its like is zero: a thousandth of that to each side.
-  CHECK(steady(range(-1e-19, 1.4e-19), 2.0) == "set yrange [-0.002:0.002]\n");
-  CHECK(is_rounding(range(-1e-19, 1.4e-19), 2e-3));
-  CHECK_FALSE(is_rounding(range(0.0, 1e-9), 2e-3));
+  CHECK(result::steady(range(-1e-19, 1.4e-19), 2.0) == "set yrange [-0.002:0.002]\n");
+  CHECK(result::is_rounding(range(-1e-19, 1.4e-19), 2e-3));
+  CHECK_FALSE(result::is_rounding(range(0.0, 1e-9), 2e-3));
   // A small motion is none, nor what six digits can tell apart.
-  CHECK(steady(range(0.0, 1e-9), 2e-3).empty());
-  CHECK(steady(range(1.0, 1.001), 2.0).empty());
-  CHECK(steady(Range{}, 1.0).empty());
-  CHECK(steady(range(0.0, 0.0), 0.0).empty());
+  CHECK(result::steady(range(0.0, 1e-9), 2e-3).empty());
+  CHECK(result::steady(range(1.0, 1.001), 2.0).empty());
+  CHECK(result::steady(result::Range{}, 1.0).empty());
+  CHECK(result::steady(range(0.0, 0.0), 0.0).empty());
 }
 
 TEST_CASE("plots: on paper letters stay readable, and take their room") {
-  PictureLook look;
-  CHECK(canvas_of(look, 800.0, true).width == 1120.0);
+  result::PictureLook look;
+  CHECK(result::canvas_of(look, 800.0, true).width == 1120.0);
   for (const double mm : {85.0, 120.0, 160.0, 240.0}) {
     CAPTURE(mm);
     look.width = mm;
-    const Canvas canvas = canvas_of(look, 800.0, true);
+    const result::Canvas canvas = result::canvas_of(look, 800.0, true);
     CHECK(canvas.width * canvas.pixel * 25.4 / 96.0 == doctest::Approx(mm));
     CHECK(canvas.font(13.0) * 72.0 / 96.0 >= 6.0 - 1e-12);                         // points
     CHECK((canvas.right() - canvas.left()) * canvas.width >= 0.5 * canvas.width);  // left for the curves
     CHECK(canvas.height * canvas.pixel >= 800.0 * mm / 1120.0 * 96.0 / 25.4 * 0.25);
-    CHECK(stacked({1.0, 1.0}, canvas, 20.0).back().bottom * canvas.height == doctest::Approx(room_below));
+    CHECK(result::stacked({1.0, 1.0}, canvas, 20.0).back().bottom * canvas.height ==
+          doctest::Approx(result::room_below));
   }
   look.width = 160.0;
   look.height = 90.0;
-  const Canvas flat = canvas_of(look, 1000.0, true);
+  const result::Canvas flat = result::canvas_of(look, 1000.0, true);
   CHECK(flat.height * flat.pixel * 25.4 / 96.0 == doctest::Approx(90.0));
   CHECK(flat.height >= 500.0 - 1e-9);
 }
@@ -263,7 +266,7 @@ TEST_CASE("plots: a contact without friction has neither T nor slip, and no part
   Model m = model();
   m.contacts[0].friction = {};
   write_run(folder, m);
-  (void)write_plots(folder / "run");
+  (void)result::write_plots(folder / "run");
   const auto plots = folder / "run" / "plots";
   const std::string smooth = slurp(plots / "contact-foot.gp"), rough = slurp(plots / "contact-pad__left.gp");
   CHECK(smooth.find("'T [") == std::string::npos);
@@ -276,10 +279,10 @@ TEST_CASE("plots: a run of one instant has no pictures, a folder without a run i
   const Folder folder;
   const Scene s = scene();
   const Model m = model();
-  RunDirectory directory(folder / "run", s, m);
+  result::RunDirectory directory(folder / "run", s, m);
   feed(directory, 0.0);
-  CHECK(write_plots(folder / "run").empty());
-  CHECK_THROWS_AS((void)write_plots(folder / "elsewhere"), FileError);
+  CHECK(result::write_plots(folder / "run").empty());
+  CHECK_THROWS_AS((void)result::write_plots(folder / "elsewhere"), FileError);
 }
 
 TEST_SUITE_END();

@@ -19,7 +19,7 @@ TEST_CASE("run directory: nothing is there before the run starts") {
   const Scene s = scene();
   const Model m = model();
   {
-    RunDirectory directory(folder / "run", s, m);
+    result::RunDirectory directory(folder / "run", s, m);
     CHECK_FALSE(directory.started());
   }
   CHECK_FALSE(std::filesystem::exists(folder / "run"));
@@ -29,8 +29,8 @@ TEST_CASE("run directory: all files of a run, and a summary that says running un
   const Folder folder;
   const Scene s = scene();
   const Model m = model();
-  RunDirectory directory(folder / "deep" / "run", s, m,
-                         {.force = false, .command_line = {"signorini", "run"}});
+  result::RunDirectory directory(folder / "deep" / "run", s, m,
+                                 {.force = false, .command_line = {"signorini", "run"}});
   feed(directory, 0.0);
   const auto path = directory.path();
   CHECK(json::parse(slurp(path / "summary.json"))["outcome"]["kind"] == "running");
@@ -48,7 +48,7 @@ TEST_CASE("run directory: a run that fails at its first decision leaves its dire
   const Folder folder;
   const Scene s = scene();
   const Model m = model();
-  RunDirectory directory(folder / "run", s, m);
+  result::RunDirectory directory(folder / "run", s, m);
   Report r = report(Outcome::Kind::stopped);
   r.outcome.reason = "no consistent state at t = 0";
   (void)directory.finish(r);
@@ -65,10 +65,10 @@ TEST_CASE("run directory: an existing one is refused unless empty or forced") {
   const Model m = model();
   const auto path = folder / "run";
   std::filesystem::create_directory(path);
-  CHECK_NOTHROW(RunDirectory(path, s, m));
+  CHECK_NOTHROW(result::RunDirectory(path, s, m));
   spill(path / "notes.txt", "mine");
   CHECK_THROWS_WITH_AS(
-      RunDirectory(path, s, m),
+      result::RunDirectory(path, s, m),
       (path.string() + ": directory exists and is not empty; use --force to replace the run in it").c_str(),
       FileError);
 }
@@ -79,17 +79,17 @@ TEST_CASE("run directory: force removes what Signorini wrote and nothing else") 
   const Model m = model();
   const auto path = folder / "run";
   {
-    RunDirectory first(path, s, m);
+    result::RunDirectory first(path, s, m);
     feed(first, 0.0);
     feed(first, 1.0);
     (void)first.finish(report());
-    CHECK(write_plots(path).size() == 6);
+    CHECK(result::write_plots(path).size() == 6);
   }
   spill(path / "notes.txt", "mine");
   spill(path / "plots" / "mine.png", "mine");
   spill(path / "plots" / "contact-gone.svg", "old");
   {
-    RunDirectory second(path, s, m, {.force = true, .command_line = {}});
+    result::RunDirectory second(path, s, m, {.force = true, .command_line = {}});
     CHECK(std::filesystem::exists(path / "plots" / "energy.gp"));  // not before the run starts
     (void)second.progress(0.0);
   }
@@ -105,13 +105,13 @@ TEST_CASE("run directory: a file of that name is refused, forced or not") {
   spill(folder / "run", "a file");
   const Scene s = scene();
   const Model m = model();
-  CHECK_THROWS_AS(RunDirectory(folder / "run", s, m, {.force = true, .command_line = {}}), FileError);
+  CHECK_THROWS_AS(result::RunDirectory(folder / "run", s, m, {.force = true, .command_line = {}}), FileError);
   CHECK(slurp(folder / "run") == "a file");
 }
 
 TEST_CASE("summary: holds what a reader needs") {
-  const json j =
-      json::parse(summary_json(scene(), model(), {report(), {}, ""}, {"signorini", "run", "made-up.toml"}));
+  const json j = json::parse(
+      result::summary_json(scene(), model(), {report(), {}, ""}, {"signorini", "run", "made-up.toml"}));
   CHECK(j["outcome"]["kind"] == "done");
   CHECK(j["engine"] == "ida");
   CHECK(j["units"]["energy"] == "kN m");
@@ -133,7 +133,7 @@ TEST_CASE("summary: holds what a reader needs") {
 TEST_CASE("summary: an odd byte in a name does not cost the summary") {
   Scene s = scene();
   s.title = "na\xefve";
-  CHECK(json::parse(summary_json(s, model(), {report(), {}, ""}, {})).contains("title"));
+  CHECK(json::parse(result::summary_json(s, model(), {report(), {}, ""}, {})).contains("title"));
 }
 
 TEST_CASE("run directory: two runs at once do not share it") {
@@ -141,17 +141,17 @@ TEST_CASE("run directory: two runs at once do not share it") {
   const Scene s = scene();
   const Model m = model();
   {
-    RunDirectory first(folder / "run", s, m);
-    RunDirectory second(folder / "run", s, m);
+    result::RunDirectory first(folder / "run", s, m);
+    result::RunDirectory second(folder / "run", s, m);
     feed(first, 0.0);
     (void)first.finish(report());
-    RunDirectory third(folder / "run", s, m, {.force = true, .command_line = {}});
+    result::RunDirectory third(folder / "run", s, m, {.force = true, .command_line = {}});
     CHECK_THROWS_WITH_AS(feed(third, 0.0), doctest::Contains("another run is being written to it"),
                          FileError);
     CHECK_THROWS_AS(feed(second, 0.0), FileError);
     CHECK(json::parse(slurp(folder / "run" / "summary.json"))["outcome"]["kind"] == "done");
   }
-  RunDirectory later(folder / "run", s, m, {.force = true, .command_line = {}});
+  result::RunDirectory later(folder / "run", s, m, {.force = true, .command_line = {}});
   feed(later, 0.0);
   CHECK(json::parse(slurp(folder / "run" / "summary.json"))["outcome"]["kind"] == "running");
 }
@@ -161,12 +161,12 @@ TEST_CASE("run directory: a summary that names a contact twice is none") {
   const Scene s = scene();
   Model m = model();
   m.contacts[1].name = m.contacts[0].name;
-  RunDirectory directory(folder / "run", s, m);
+  result::RunDirectory directory(folder / "run", s, m);
   feed(directory, 0.0);
   feed(directory, 1.0);
   (void)directory.finish(report());
-  CHECK_THROWS_WITH_AS((void)write_plots(folder / "run"), doctest::Contains("names the contact 'foot' twice"),
-                       FileError);
+  CHECK_THROWS_WITH_AS((void)result::write_plots(folder / "run"),
+                       doctest::Contains("names the contact 'foot' twice"), FileError);
 }
 
 TEST_SUITE_END();

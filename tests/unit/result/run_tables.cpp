@@ -29,13 +29,13 @@ TEST_CASE("csv: numbers read back exactly") {
                                        std::numeric_limits<double>::max(),
                                        std::nextafter(1.0, 2.0)};
   {
-    CsvFile file(folder / "numbers.csv");
-    CsvBlock block;
+    result::CsvFile file(folder / "numbers.csv");
+    result::CsvBlock block;
     block.text("x").end_row();
     for (const double x : numbers) block.number(x).end_row();
     file.write(block);
   }
-  CsvReader reader(folder / "numbers.csv");
+  result::CsvReader reader(folder / "numbers.csv");
   for (const double x : numbers) {
     REQUIRE(reader.next());
     CHECK(reader.number(0) == x);
@@ -45,7 +45,7 @@ TEST_CASE("csv: numbers read back exactly") {
 }
 
 TEST_CASE("csv: the shortest digits that do") {
-  CsvBlock block;
+  result::CsvBlock block;
   block.number(0.1).number(1e6).number(-0.3).number(std::optional<double>{}).end_row();
   CHECK(block.str() == "0.1,1e+06,-0.3,\n");
 }
@@ -53,13 +53,13 @@ TEST_CASE("csv: the shortest digits that do") {
 TEST_CASE("csv: names with commas, quotes and line breaks survive") {
   const Folder folder;
   {
-    CsvFile file(folder / "names.csv");
-    CsvBlock block;
+    result::CsvFile file(folder / "names.csv");
+    result::CsvBlock block;
     block.text("name").text("other").end_row();
     block.text("pad, \"left\"\nor so").text("plain").end_row();
     file.write(block);
   }
-  CsvReader reader(folder / "names.csv");
+  result::CsvReader reader(folder / "names.csv");
   REQUIRE(reader.next());
   CHECK(reader.cell(0) == "pad, \"left\"\nor so");
   CHECK(reader.cell(1) == "plain");
@@ -67,8 +67,8 @@ TEST_CASE("csv: names with commas, quotes and line breaks survive") {
 
 TEST_CASE("csv: every block is on disk when write returns") {
   const Folder folder;
-  CsvFile file(folder / "a.csv");
-  CsvBlock block;
+  result::CsvFile file(folder / "a.csv");
+  result::CsvBlock block;
   block.text("t").end_row();
   file.write(block);
   CHECK(slurp(folder / "a.csv") == "t\n");
@@ -80,15 +80,15 @@ TEST_CASE("csv: every block is on disk when write returns") {
 TEST_CASE("csv: a row cut short by a kill is left out when reading") {
   const Folder folder;
   spill(folder / "a.csv", "t,x\n1,2\n3,4");
-  CsvReader reader(folder / "a.csv");
+  result::CsvReader reader(folder / "a.csv");
   CHECK(reader.next());
   CHECK_FALSE(reader.next());
 }
 
 TEST_CASE("csv: a full disk is an error with the file's name") {
   if (!std::filesystem::exists("/dev/full")) return;
-  CsvFile file("/dev/full");
-  CsvBlock block;
+  result::CsvFile file("/dev/full");
+  result::CsvBlock block;
   block.text("t").end_row();
   try {
     file.write(block);
@@ -101,14 +101,14 @@ TEST_CASE("csv: a full disk is an error with the file's name") {
 
 TEST_CASE("csv: a file that cannot be created is an error") {
   const Folder folder;
-  CHECK_THROWS_AS(CsvFile(folder / "no" / "such.csv"), FileError);
+  CHECK_THROWS_AS(result::CsvFile(folder / "no" / "such.csv"), FileError);
 }
 
 TEST_CASE("events.csv: header, gaps of sliders, impulses, load jumps") {
   const Folder folder;
   const Model m = model();
   {
-    TableFile<Event> table(folder / "events.csv", event_table(m));
+    result::TableFile<Event> table(folder / "events.csv", result::event_table(m));
     table.add(slip(0.125));
     Event pad = slip(0.25);
     pad.contact = 1;
@@ -136,9 +136,9 @@ TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {
   struct Tables : Recorder {
     Tables(const Folder& f, const Model& model_of)
         : model(model_of),
-          history(f / "history.csv", history_table(model_of)),
-          contacts(f / "contacts.csv", contact_table()),
-          energy(f / "energy.csv", energy_table()) {}
+          history(f / "history.csv", result::history_table(model_of)),
+          contacts(f / "contacts.csv", result::contact_table()),
+          energy(f / "energy.csv", result::energy_table()) {}
     void event(const Event&) override {}
     void sample(const Sample& s) override {
       history.add(s);
@@ -147,9 +147,9 @@ TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {
       energy.add(s);
     }
     const Model& model;
-    TableFile<Sample> history;
-    TableFile<ContactRow> contacts;
-    TableFile<Sample> energy;
+    result::TableFile<Sample> history;
+    result::TableFile<result::ContactRow> contacts;
+    result::TableFile<Sample> energy;
   } tables(folder, m);
   feed(tables, 0.001);
   tables.history.flush();
@@ -172,10 +172,10 @@ TEST_CASE("contacts.csv: ratio is empty where a contact is open, has no friction
   const ContactSample stuck{State::stick, 0.0, 0.0, 0.0, 0.0, -8.0, -3.0}, open{State::open, 0.5},
       inside{State::inside, -0.5}, unloaded{State::stick, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
       closed{State::closed, 0.0, 0.0, 0.0, 0.0, -8.0, 0.0};
-  const std::vector<ContactRow> rows = {{0.0, m.contacts[0], stuck},    {0.0, m.contacts[0], open},
-                                        {0.0, m.contacts[0], inside},   {0.0, m.contacts[0], unloaded},
-                                        {0.0, m.contacts[1], unloaded}, {0.0, smooth, closed}};
-  std::istringstream lines(contact_table().text(rows));
+  const std::vector<result::ContactRow> rows = {
+      {0.0, m.contacts[0], stuck},    {0.0, m.contacts[0], open},     {0.0, m.contacts[0], inside},
+      {0.0, m.contacts[0], unloaded}, {0.0, m.contacts[1], unloaded}, {0.0, smooth, closed}};
+  std::istringstream lines(result::contact_table().text(rows));
   std::vector<std::string> ratios;
   for (std::string line; std::getline(lines, line);) ratios.push_back(line.substr(line.rfind(',') + 1));
   CHECK(ratios == std::vector<std::string>{"ratio", "0.375", "", "", "", "", ""});
@@ -187,9 +187,9 @@ TEST_CASE("tables: columns by name, cells of every kind, numbers for gnuplot") {
     std::optional<long> count;
     double x;
   };
-  CsvTable<Row> table = {{"name", &Row::name}, {"count", &Row::count}};
+  result::CsvTable<Row> table = {{"name", &Row::name}, {"count", &Row::count}};
   table.add("twice", [](const Row& row) { return 2.0 * row.x; });
-  table.add_put("both", [](CsvBlock& block, const Row& row) { block.text(row.name + "!"); });
+  table.add_put("both", [](result::CsvBlock& block, const Row& row) { block.text(row.name + "!"); });
   CHECK(table.text(std::vector<Row>{{"a, b", 3, 0.25}, {"c", std::nullopt, -1.0}}) ==
         "name,count,twice,both\n\"a, b\",3,0.5,\"a, b!\"\nc,,-2,c!\n");
   CHECK(table.number("twice") == 3);
@@ -197,14 +197,14 @@ TEST_CASE("tables: columns by name, cells of every kind, numbers for gnuplot") {
   CHECK(table.word("name") == "strcol(1)");
   CHECK_THROWS_AS((void)table.number("thrice"), std::logic_error);
   // Pictures read both files of contacts by these places.
-  CHECK(contact_table().number("N") == 8);
+  CHECK(result::contact_table().number("N") == 8);
 }
 
 TEST_CASE("files: a link that stands where the draft goes is not followed") {
   const Folder folder;
   spill(folder / "precious", "mine");
   std::filesystem::create_symlink(folder / "precious", folder / "a.json.part");
-  write_file(folder / "a.json", "ours");
+  result::write_file(folder / "a.json", "ours");
   CHECK(slurp(folder / "precious") == "mine");
   CHECK(slurp(folder / "a.json") == "ours");
 }
@@ -212,19 +212,19 @@ TEST_CASE("files: a link that stands where the draft goes is not followed") {
 TEST_CASE("csv: what is no file is not waited for") {
   const Folder folder;
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  CHECK_THROWS_WITH_AS(CsvReader(folder / "pipe"), doctest::Contains("is a pipe, expected a file"),
+  CHECK_THROWS_WITH_AS(result::CsvReader(folder / "pipe"), doctest::Contains("is a pipe, expected a file"),
                        FileError);
-  CHECK_THROWS_WITH_AS(CsvReader(folder / ""), doctest::Contains("is a directory"), FileError);
+  CHECK_THROWS_WITH_AS(result::CsvReader(folder / ""), doctest::Contains("is a directory"), FileError);
 }
 
 // Negative zero is a number of the machine, none of mechanics.
 TEST_CASE("tables and JSON have no negative zero") {
-  CsvBlock block;
+  result::CsvBlock block;
   block.number(-0.0).number(-1e-300).end_row();
   CHECK(block.str() == "0,-1e-300\n");
-  const Json numbers = {{"a", -0.0}, {"b", {1, -0.0, -2.5}}, {"c", {{"d", -0.0}}}};
-  CHECK(json_line(numbers) == R"({"a":0.0,"b":[1,0.0,-2.5],"c":{"d":0.0}})");
-  CHECK(json_text(Json{{"n", -3}}).find("-3") != std::string::npos);
+  const base::Json numbers = {{"a", -0.0}, {"b", {1, -0.0, -2.5}}, {"c", {{"d", -0.0}}}};
+  CHECK(base::json_line(numbers) == R"({"a":0.0,"b":[1,0.0,-2.5],"c":{"d":0.0}})");
+  CHECK(base::json_text(base::Json{{"n", -3}}).find("-3") != std::string::npos);
 }
 
 TEST_SUITE_END();

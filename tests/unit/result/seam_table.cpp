@@ -29,7 +29,7 @@ TEST_CASE("seam_row: sums of forces and lengths, moment about the middle of the 
   contacts[2].state = State::slip_minus;
   contacts[3].state = State::open;
 
-  const SeamRow row = seam_row(seam, 1.5, contacts);
+  const result::SeamRow row = result::seam_row(seam, 1.5, contacts);
   CHECK(row.t == 1.5);
   CHECK(row.seam == "joint");
   CHECK(row.N == doctest::Approx(-10.0));

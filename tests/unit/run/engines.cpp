@@ -10,7 +10,7 @@ TEST_SUITE_BEGIN("unit/run/engines");
 
 TEST_CASE("engines: every name has a row, is found by its name, and `auto` is none of them") {
   for (const EngineName& engine : all_engines) {
-    CHECK(engine_row(engine.engine).engine == engine.engine);
+    CHECK(run::engine_row(engine.engine).engine == engine.engine);
     CHECK(engine_called(engine.name) == engine.engine);
     CHECK(to_string(engine.engine) == engine.name);
   }

@@ -41,7 +41,7 @@ TEST_SUITE_BEGIN("unit/run/relay");
 
 TEST_CASE("everything that a run tells reaches the recorder behind") {
   Told told;
-  ForwardingRecorder relay(&told);
+  run::ForwardingRecorder relay(&told);
   NoLoads loads;
   relay.event({});
   relay.sample({});
@@ -61,7 +61,7 @@ TEST_CASE("everything that a run tells reaches the recorder behind") {
 }
 
 TEST_CASE("it has come as far as the last event, row or step; alone it wants nothing and goes on") {
-  ForwardingRecorder relay;
+  run::ForwardingRecorder relay;
   Event event;
   event.t = 0.25;
   relay.event(event);

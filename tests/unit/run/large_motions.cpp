@@ -46,13 +46,13 @@ TEST_CASE("of pendulums ut beyond a quarter of the radius counts, and amplitudes
   Contact contact;
   contact.name = "p";
   contact.tangent.terms = {{0, 1.0}};
-  contact.bowl = Bowl{};
+  contact.bowl = CurvedSurface{};
   contact.bowl->radius = 2.0;
   model.contacts.push_back(contact);
   model.unit = {1.0, 1.0, 4.0};
-  const Forcing forcing = Forcing::none(model);
+  const motion::Forcing forcing = motion::Forcing::none(model);
   const auto told = [&](double u) {
-    LargeMotions large(model);
+    run::LargeMotions large(model);
     large.see(0.5, forcing, {Vector::Constant(1, u), Vector::Zero(1), Vector::Zero(2)});
     return large.warning();
   };

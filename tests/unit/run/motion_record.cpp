@@ -67,7 +67,7 @@ TEST_SUITE_BEGIN("unit/run/motion_record");
 TEST_CASE("bodies that turn at one time but for its rounding are one moment") {
   const Model model = build_model(read_scene(pipeline));
   const Result recorder;
-  MotionRecord record(model, 1.0, recorder);
+  run::MotionRecord record(model, 1.0, recorder);
   std::vector<double> turns;
   for (int i = 0; i < 1000; ++i) turns.push_back(0.25 * (1.0 + 1e-17 * i));
   for (int i = 0; i < 1000; ++i) turns.push_back(0.5 * (1.0 + 1e-16 * i));

@@ -11,11 +11,11 @@ namespace {
 
 using Field = std::function<double(double, double)>;
 
-std::vector<Chebyshev::Values> sampled(std::size_t points, const Field& p) {
-  std::vector<Chebyshev::Values> f(points);
+std::vector<run::Chebyshev::Values> sampled(std::size_t points, const Field& p) {
+  std::vector<run::Chebyshev::Values> f(points);
   for (std::size_t i = 0; i < points; ++i)
-    for (std::size_t j = 0; j < Chebyshev::count; ++j)
-      f[i][j] = p(Along::point(points, i), Chebyshev::nodes()[j]);
+    for (std::size_t j = 0; j < run::Chebyshev::count; ++j)
+      f[i][j] = p(base::Along::point(points, i), run::Chebyshev::nodes()[j]);
   return f;
 }
 
@@ -31,13 +31,13 @@ TEST_CASE("a hill whose top wanders along the stretch: the time of its highest p
   };
   for (const double sign : {1.0, -1.0}) {
     const auto f = sampled(6, [&](double x, double t) { return sign * hill(x, t); });
-    const std::vector<double> peaks = peaks_along(f, 1, sign, sign * 4.9);
+    const std::vector<double> peaks = run::peaks_along(f, 1, sign, sign * 4.9);
     REQUIRE(peaks.size() == 1);
     CHECK(std::abs(peaks[0] - 0.37) < 1e-9);
-    const Along::Extremes e = Along::extremes(values_along(f, 1, peaks[0]), 6);
+    const base::Along::Extremes e = base::Along::extremes(run::values_along(f, 1, peaks[0]), 6);
     CHECK(std::abs((sign > 0.0 ? e.greatest : -e.least) - 5.0) < 1e-13);
     CHECK(std::abs((sign > 0.0 ? e.at_greatest : e.at_least) - 0.4 - 0.1 * std::sin(0.37)) < 1e-7);
-    CHECK(peaks_along(f, 1, sign, sign * 6.0).empty());  // nothing that high is there
+    CHECK(run::peaks_along(f, 1, sign, sign * 6.0).empty());  // nothing that high is there
   }
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("the greatest of two branches that cross has a valley there, and peaks
     return (1.0 - x) * a + x * b;
   };
   const auto f = sampled(3, two);
-  const std::vector<double> peaks = peaks_along(f, 1, 1.0, 0.0);
+  const std::vector<double> peaks = run::peaks_along(f, 1, 1.0, 0.0);
   REQUIRE(peaks.size() == 2);
   CHECK(std::abs(peaks[0] + 0.6) < 1e-9);
   CHECK(std::abs(peaks[1] - 0.5) < 1e-9);
@@ -58,16 +58,16 @@ TEST_CASE("bounds along a stretch hold everything on it, and of one point they a
   const Field wave = [](double x, double t) { return std::sin(2.0 * t + 3.0 * x) + 0.2 * x * x * x * t; };
   for (const std::size_t points : {std::size_t(3), std::size_t(5), std::size_t(6)}) {
     const auto f = sampled(points, wave);
-    const ValueBounds b = bounds_along(f, 1, true);
+    const run::ValueBounds b = run::bounds_along(f, 1, true);
     for (int i = 0; i <= 40; ++i)
       for (int j = 0; j <= 40; ++j) {
-        const double p = Along::through(values_along(f, 1, j / 20.0 - 1.0), points, i / 40.0);
+        const double p = base::Along::through(run::values_along(f, 1, j / 20.0 - 1.0), points, i / 40.0);
         CHECK(p <= b.greatest + 1e-12);
         CHECK(p >= b.least - 1e-12);
       }
   }
   const auto one = sampled(1, [](double, double t) { return t * t; });
-  const ValueBounds b = bounds_along(one, 4, false);
+  const run::ValueBounds b = run::bounds_along(one, 4, false);
   CHECK(b.least == 0.0);
   CHECK(b.greatest == 1.0);
 }

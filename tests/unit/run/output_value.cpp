@@ -7,7 +7,7 @@ namespace signorini::tests::output_values {
 TEST_SUITE_BEGIN("unit/run/output_value");
 
 TEST_CASE("an output is the sum of its terms, its magnitude that of their sizes, whatever cancels") {
-  Point point;
+  motion::Point point;
   point.u = Eigen::Vector2d(2.0, -1.0);
   point.v = Eigen::Vector2d(0.5, -3.0);
   point.a = Eigen::Vector2d(4.0, 1.0);
@@ -22,15 +22,15 @@ TEST_CASE("an output is the sum of its terms, its magnitude that of their sizes,
   output.given.resize(2);
   output.given[0].history = History::constant(5.0);
   output.given[1].history = History::constant(-3.0);
-  for (const Side side : {Side::before, Side::after}) {
-    CHECK(value_of(output, 0.7, side, point, {}, {}) == -3.0);
-    CHECK(magnitude_of(output, 0.7, side, point, {}) == 49.0);
+  for (const motion::Side side : {motion::Side::before, motion::Side::after}) {
+    CHECK(run::value_of(output, 0.7, side, point, {}, {}) == -3.0);
+    CHECK(run::magnitude_of(output, 0.7, side, point, {}) == 49.0);
   }
   // Two forces in balance: nothing is left of them but their rounding, which is that of both.
   Output balance;
   balance.forces = {{0, 1.0, 0.0}, {1, -0.5, 0.0}};
-  CHECK(value_of(balance, 0.0, Side::after, point, {}, {}) == 0.0);
-  CHECK(magnitude_of(balance, 0.0, Side::after, point, {}) == 8.0);
+  CHECK(run::value_of(balance, 0.0, motion::Side::after, point, {}, {}) == 0.0);
+  CHECK(run::magnitude_of(balance, 0.0, motion::Side::after, point, {}) == 8.0);
 }
 
 TEST_SUITE_END();

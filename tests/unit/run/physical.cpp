@@ -13,7 +13,7 @@ TEST_CASE("physical: every column of an event goes by the unit that its table na
   Event event;
   event.t = event.N = event.T_after = event.vn = event.vt_after = 1.0;
   event.gap = event.impulse_n = event.t_uncertainty = event.guard_rate = 1.0;
-  const Event seen = physical(event, of);
+  const Event seen = run::physical(event, of);
   CHECK(seen.t == 5.0);
   CHECK(seen.gap == 3.0);
   CHECK(seen.N == 2.0);
@@ -35,7 +35,7 @@ TEST_CASE("physical: no column with a number has a unit that is not brought to t
       event.** optional = 1.0;
     else
       continue;
-    const Event seen = physical(event, {2.0, 3.0, 5.0});
+    const Event seen = run::physical(event, {2.0, 3.0, 5.0});
     const auto value_of = [&](const Event& e) {
       if (const auto* number = std::get_if<double Event::*>(&column.field)) return e.**number;
       return *(e.*std::get<std::optional<double> Event::*>(column.field));

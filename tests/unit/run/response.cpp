@@ -19,8 +19,8 @@ struct Rows : Recorder {
 };
 
 /// u = e^-t/10 sin 3 t and N = 1e8 cos 5 t on both contacts, off by some roundings of it.
-struct Known : DenseOutput {
-  void evaluate(double t, Point& p) override {
+struct Known : engine::DenseOutput {
+  void evaluate(double t, motion::Point& p) override {
     ++asked;
     p.u = Vector::Constant(1, std::exp(-0.1 * t) * std::sin(3.0 * t));
     p.v = Vector::Constant(1, std::exp(-0.1 * t) * (3.0 * std::cos(3.0 * t) - 0.1 * std::sin(3.0 * t)));
@@ -30,29 +30,31 @@ struct Known : DenseOutput {
     p.forces[0] = N;
     p.forces[2] = -N + noise;
   }
-  void integrate(double, double, Works&) override {}
+  void integrate(double, double, motion::WorkIntegrals&) override {}
   double residual() override { return 0.0; }
-  StepFacts facts() const override { return {}; }
+  engine::StepFacts facts() const override { return {}; }
   long asked = 0;
 };
 
 /// u = sin 3 t + fast sin 1e4 t, as an engine that knows both.
-struct Rippled : Known, FastModes {
+struct Rippled : Known, engine::FastModes {
   explicit Rippled(double of_fast) : fast(of_fast) {}
-  void evaluate(double t, Point& p) override {
+  void evaluate(double t, motion::Point& p) override {
     Known::evaluate(t, p);
     p.u = Vector::Constant(1, std::sin(3.0 * t) + fast * std::sin(1e4 * t));
   }
-  StepFacts facts() const override {
-    StepFacts facts;
+  engine::StepFacts facts() const override {
+    engine::StepFacts facts;
     facts.fast_modes = this;
     return facts;
   }
-  std::optional<Ripple> fast_mode_bound(double omega) const override {
+  std::optional<engine::FastModeBound> fast_mode_bound(double omega) const override {
     const double u = (omega < 1e4 ? fast : 0.0) + (omega < 3.0 ? 1.0 : 0.0);
-    return Ripple{u, 1e4 * u, 1e8 * u, Vector::Zero(4)};
+    return engine::FastModeBound{u, 1e4 * u, 1e8 * u, Vector::Zero(4)};
   }
-  Ripple term_sizes() const override { return Ripple{1.0, 3.0, 9.0, Vector::Zero(4)}; }
+  engine::FastModeBound term_sizes() const override {
+    return engine::FastModeBound{1.0, 3.0, 9.0, Vector::Zero(4)};
+  }
   double form_norm(const Combination& form) const override { return form.magnitude(Vector::Ones(1)); }
   double fast;
 };
@@ -80,13 +82,13 @@ TEST_CASE("extremes of a decaying sine between two rows: times and values of the
   const Model model = model_with(output);
   Rows rows;
   Known motion;
-  ResponseWatch watch(model, 20.0, rows, true);
-  Point point;
+  run::ResponseWatch watch(model, 20.0, rows, true);
+  motion::Point point;
   motion.evaluate(0.0, point);
-  watch.row(0.0, Side::after, point, {});
+  watch.row(0.0, motion::Side::after, point, {});
   watch.inside(motion, 0.0, 20.0);
   motion.evaluate(20.0, point);
-  watch.row(20.0, Side::after, point, {});
+  watch.row(20.0, motion::Side::after, point, {});
   // u' = 0 at tan 3t = 30; the first is the highest, the second the lowest
   const double first = std::atan(30.0) / 3.0, second = first + M_PI / 3.0;
   const auto value = [](double t) { return 0.5 - 2.0 * std::exp(-0.1 * t) * std::sin(3.0 * t); };
@@ -114,10 +116,10 @@ TEST_CASE("a pulse asks for a finer search while it acts, not after") {
     if (*load != 0) model.loads.back().history = History({1.0, 1.0 + 1e-7}, {Piece{}, swing, Piece{}});
     Rows rows;
     Known motion;
-    ResponseWatch watch(model, 20.0, rows, true);
-    Point point;
+    run::ResponseWatch watch(model, 20.0, rows, true);
+    motion::Point point;
     motion.evaluate(0.0, point);
-    watch.row(0.0, Side::after, point, {});
+    watch.row(0.0, motion::Side::after, point, {});
     const double ends[] = {0.0, 1.0, 1.0 + 1e-7, 20.0};
     for (int i = 0; i < 3; ++i) watch.inside(motion, ends[i], ends[i + 1]);
     CHECK_FALSE(watch.coarse());
@@ -135,10 +137,10 @@ TEST_CASE(
   const Model model = model_with(output);
   Rows rows;
   Known motion;
-  ResponseWatch watch(model, 20.0, rows, true);
-  Point point;
+  run::ResponseWatch watch(model, 20.0, rows, true);
+  motion::Point point;
   motion.evaluate(0.0, point);
-  watch.row(0.0, Side::after, point, {});
+  watch.row(0.0, motion::Side::after, point, {});
   motion.asked = 0;
   watch.inside(motion, 0.0, 20.0);
   // 100 rad of the fastest motion in four parts, of 17 points and a few turns each
@@ -155,10 +157,10 @@ TEST_CASE("what an engine knows to be rounding of an output is not looked for, w
     CAPTURE(fast);
     Rows rows;
     Rippled motion(fast);
-    ResponseWatch watch(model, 2.0, rows, true);
-    Point point;
+    run::ResponseWatch watch(model, 2.0, rows, true);
+    motion::Point point;
     motion.evaluate(0.0, point);
-    watch.row(0.0, Side::after, point, {});
+    watch.row(0.0, motion::Side::after, point, {});
     motion.asked = 0;
     watch.inside(motion, 0.0, 2.0);
     // 2e4 rad are 625 parts of five points at least
@@ -177,10 +179,11 @@ TEST_CASE("a motion of more turns than anybody waits for is looked at in coarser
   model.omega_max = 1e4;
   Rows rows;
   Rippled motion(0.5);
-  ResponseWatch watch(model, 1e7, rows, true);  // 1e11 rad of the run; a step of 2 of them is passed here
-  Point point;
+  run::ResponseWatch watch(model, 1e7, rows,
+                           true);  // 1e11 rad of the run; a step of 2 of them is passed here
+  motion::Point point;
   motion.evaluate(0.0, point);
-  watch.row(0.0, Side::after, point, {});
+  watch.row(0.0, motion::Side::after, point, {});
   motion.asked = 0;
   watch.inside(motion, 0.0, 2.0);
   CHECK(motion.asked < 2000);
@@ -190,12 +193,12 @@ TEST_CASE("a motion of more turns than anybody waits for is looked at in coarser
 
 TEST_CASE("polynomials of a step need no parts, whatever frequencies the structure has") {
   struct Parabola : Known {
-    void evaluate(double t, Point& p) override {
+    void evaluate(double t, motion::Point& p) override {
       Known::evaluate(t, p);
       p.u = Vector::Constant(1, t * (1.5 - t));
     }
-    StepFacts facts() const override {
-      StepFacts facts;
+    engine::StepFacts facts() const override {
+      engine::StepFacts facts;
       facts.radians = 6.28;
       return facts;
     }
@@ -206,10 +209,10 @@ TEST_CASE("polynomials of a step need no parts, whatever frequencies the structu
   model.omega_max = 1e150;
   Rows rows;
   Parabola motion;
-  ResponseWatch watch(model, 2.0, rows, true);
-  Point point;
+  run::ResponseWatch watch(model, 2.0, rows, true);
+  motion::Point point;
   motion.evaluate(0.0, point);
-  watch.row(0.0, Side::after, point, {});
+  watch.row(0.0, motion::Side::after, point, {});
   watch.inside(motion, 0.0, 2.0);
   CHECK(motion.asked < 50);
   CHECK(watch.extremes()[0].maximum == doctest::Approx(4.0 * 0.5625).epsilon(1e-15));

@@ -40,16 +40,16 @@ TEST_SUITE_BEGIN("unit/run/samples");
 TEST_CASE("samples: rows and frames come in the order of time, both at once where they coincide") {
   const Scene scene = falling_mass();
   const Model model = build_model(scene);
-  const Structure structure(model);
-  Auditor auditor(model, structure);
+  const linear::SystemMatrices structure(model);
+  run::Auditor auditor(model, structure);
   Times times;
-  Samples samples(model, scene.run, auditor, times);
-  const Forcing forcing(model, 0.0, Side::after);
-  const Point point{model.u0, model.v0, Vector(), Vector::Zero(model.size())};
+  run::Samples samples(model, scene.run, auditor, times);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  const motion::Point point{model.u0, model.v0, Vector(), Vector::Zero(model.size())};
   std::vector<double> asked;
   while (samples.next() < std::numeric_limits<double>::infinity()) {
     asked.push_back(samples.next());
-    samples.emit(asked.back(), Works(), forcing, {}, point);
+    samples.emit(asked.back(), motion::WorkIntegrals(), forcing, {}, point);
   }
   CHECK(asked == std::vector<double>{0.0, 0.25, 0.3, 0.5, 0.75, 1.0});
   CHECK(times.rows == std::vector<double>{0.0, 0.25, 0.5, 0.75, 1.0});

@@ -7,19 +7,19 @@ using namespace signorini;
 TEST_SUITE_BEGIN("unit/run/standstill");
 
 TEST_CASE("standstill: more instants than allowed within ten resolutions are one too many") {
-  Standstill watch(1.0, 3);
+  run::StallDetector watch(1.0, 3);
   for (const double t : {0.5, 0.5, 0.5 + 9e-9}) CHECK_FALSE(watch.count(t, 1e-9));
   CHECK(watch.count(0.5 + 9e-9, 1e-9) == "3 events at one instant; time does not advance");
 }
 
 TEST_CASE("standstill: the count starts anew where time has moved on") {
-  Standstill watch(1.0, 3);
+  run::StallDetector watch(1.0, 3);
   for (int i = 0; i < 100; ++i) CHECK_FALSE(watch.count(0.5 + 11e-9 * (i / 3), 1e-9));
 }
 
 TEST_CASE("standstill: ten thousand events may take a hundred thousandth of the run, and no less") {
   const auto after = [](double length) {
-    Standstill watch(2.0, 100);
+    run::StallDetector watch(2.0, 100);
     std::optional<std::string> reason;
     for (int i = 1; i <= 10000 && !reason; ++i) reason = watch.count(length * i / 10000.0, 0.0);
     return reason;
@@ -29,7 +29,7 @@ TEST_CASE("standstill: ten thousand events may take a hundred thousandth of the 
 }
 
 TEST_CASE("standstill: contacts are those of the instants that were too many") {
-  Standstill watch(1.0, 2);
+  run::StallDetector watch(1.0, 2);
   CHECK_FALSE(watch.count(0.25, 1e-9, {7}));  // long ago
   CHECK_FALSE(watch.count(0.5, 1e-9, {4}));
   CHECK_FALSE(watch.count(0.5, 1e-9, {1, 4}));
@@ -38,7 +38,7 @@ TEST_CASE("standstill: contacts are those of the instants that were too many") {
 }
 
 TEST_CASE("standstill: contacts of ten thousand events are those since the last look") {
-  Standstill watch(2.0, 100000);
+  run::StallDetector watch(2.0, 100000);
   for (int i = 0; i < 10000; ++i) CHECK_FALSE(watch.count(0.6, 0.0, {9}));
   for (int i = 1; i < 10000; ++i)
     CHECK_FALSE(watch.count(0.6 + 1e-9 * i, 0.0, {static_cast<std::size_t>(i % 2)}));

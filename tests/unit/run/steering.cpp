@@ -56,9 +56,9 @@ TEST_CASE("forces, moments and distributed loads may be changed on the way; weig
   Model model = loaded();
   RunSpec run;
   run.engine = Engine::ida;
-  const EngineRow& engine = engine_row(Engine::ida);
+  const run::EngineRow& engine = run::engine_row(Engine::ida);
   const Method method = engine.method(model, run);
-  LoadChanges changes(model, run, engine, method);
+  run::LoadChanges changes(model, run, engine, method);
   changes.at(0.5);
   long given = 0, others = 0;
   for (const std::string name : {"push", "twist", "snow"}) {
@@ -71,7 +71,7 @@ TEST_CASE("forces, moments and distributed loads may be changed on the way; weig
         CHECK(load.history.piece_before(0.5).value(0.5) != 7.0);
       }
     changes.apply();
-    const LoadChanges::Change change = changes.change();
+    const run::LoadChanges::Change change = changes.change();
     CHECK(change.any);
     CHECK(change.jump);
   }
@@ -87,7 +87,7 @@ TEST_CASE("forces, moments and distributed loads may be changed on the way; weig
   CHECK_FALSE(changes.change().any);
   changes.set_load("push", History::constant(7.0));  // as it is already
   changes.apply();
-  const LoadChanges::Change same = changes.change();
+  const run::LoadChanges::Change same = changes.change();
   CHECK(same.any);
   CHECK_FALSE(same.jump);
 }

@@ -11,7 +11,7 @@ namespace signorini::tests::components {
 
 void is_unit(const std::string& name, const Unit& expected) {
   CAPTURE(name);
-  const Unit of = motion_named(name).unit();
+  const Unit of = scene::motion_named(name).unit();
   CHECK(of.force == expected.force);
   CHECK(of.length == expected.length);
   CHECK(of.time == expected.time);
@@ -36,7 +36,7 @@ TEST_CASE("a motion's unit follows from its component, whatever stands before it
 TEST_CASE("names stand for components, others for none") {
   std::size_t index = 0;
   for (const char* name : {"ux", "uy", "rz", "vx", "vy", "wz"}) {
-    const auto named = component_named(name);
+    const auto named = scene::component_named(name);
     REQUIRE(named);
     CHECK(named->index == index % 3);
     CHECK(named->rate == (index >= 3));
@@ -44,15 +44,16 @@ TEST_CASE("names stand for components, others for none") {
     CHECK(named->component().rotation == (index % 3 == 2));
     ++index;
   }
-  for (const char* name : {"", "u", "v", "x", "ux.", "uxx", "slip"}) CHECK_FALSE(component_named(name));
+  for (const char* name : {"", "u", "v", "x", "ux.", "uxx", "slip"})
+    CHECK_FALSE(scene::component_named(name));
 }
 
 TEST_CASE("columns of displacements are told from rates and from all else") {
-  for (const char* column : {"A.ux", "A-B.3.uy", "wz.rz", "d0.u"}) CHECK(is_displacement(column));
+  for (const char* column : {"A.ux", "A-B.3.uy", "wz.rz", "d0.u"}) CHECK(scene::is_displacement(column));
   for (const char* column : {"A.vx", "A.vy", "ux.wz", "d0.v", "t", "u", "first.slip", "d.uu"})
-    CHECK_FALSE(is_displacement(column));
-  CHECK(motion_named("A.rz").rotation);
-  CHECK_FALSE(motion_named("d0.v").rotation);
+    CHECK_FALSE(scene::is_displacement(column));
+  CHECK(scene::motion_named("A.rz").rotation);
+  CHECK_FALSE(scene::motion_named("d0.v").rotation);
 }
 
 TEST_SUITE_END();

@@ -57,7 +57,7 @@ class Dump {
 };
 
 /// Of a law of one's own; empty: there is none.
-std::vector<double> numbers_of(const std::shared_ptr<const OwnLaw>& own) {
+std::vector<double> numbers_of(const std::shared_ptr<const UserContactLaw>& own) {
   std::vector<double> numbers;
   if (!own) return numbers;
   static_cast<void>(visited(*own, [&](double& x, const Unit&) { numbers.push_back(x); }));

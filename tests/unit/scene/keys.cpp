@@ -23,21 +23,21 @@ std::string reference() {
 TEST_SUITE("unit/scene/keys") {
   TEST_CASE("keys: no key stands twice in its table, every one has a type and a meaning") {
     std::set<std::pair<std::string, std::string>> seen;
-    for (const Key& key : all_keys()) {
+    for (const scene::Key& key : scene::all_keys()) {
       CAPTURE(key.table);
       CAPTURE(key.name);
       CHECK(seen.emplace(key.table, key.name).second);
       CHECK(key.meaning.ends_with("."));
-      CHECK_FALSE(describe_type(key).empty());
-      CHECK(find_key(key.table, key.name) == &key);
-      CHECK((key.type == KeyType::choice) == !key.choices.empty());
+      CHECK_FALSE(scene::describe_type(key).empty());
+      CHECK(scene::find_key(key.table, key.name) == &key);
+      CHECK((key.type == scene::KeyType::choice) == !key.choices.empty());
     }
   }
 
   TEST_CASE("keys: every constant of friction has one, with its unit") {
     for (const FrictionConstant& constant : friction_constants) {
       CAPTURE(constant.key);
-      const Key* key = find_key("contacts[].friction", constant.key);
+      const scene::Key* key = scene::find_key("contacts[].friction", constant.key);
       REQUIRE(key);
       CHECK(key->unit == unit_text(constant.unit, {"force", "mass", "length", "time"}));
     }

@@ -113,21 +113,21 @@ TEST_CASE("contacts.* are those of [[stops]], too") {
 
 TEST_CASE("a path with * says how many tables it met") {
   const toml::table root = toml::parse(guided("tangential_stiffness = 1e3\n"));
-  CHECK(tables_met(root, "contacts.*.friction") == "3 of [[contacts]], 2 of [[stops]]");
-  CHECK(tables_met(root, "stops.*.friction") == "2 of [[stops]]");
-  CHECK(tables_met(root, "masses.*.mass") == "3 of [[masses]]");
-  CHECK(tables_met(root, "contacts.under-a.friction").empty());
-  CHECK(tables_met(root, "contacts.*.tangent") ==
+  CHECK(scene::tables_met(root, "contacts.*.friction") == "3 of [[contacts]], 2 of [[stops]]");
+  CHECK(scene::tables_met(root, "stops.*.friction") == "2 of [[stops]]");
+  CHECK(scene::tables_met(root, "masses.*.mass") == "3 of [[masses]]");
+  CHECK(scene::tables_met(root, "contacts.under-a.friction").empty());
+  CHECK(scene::tables_met(root, "contacts.*.tangent") ==
         "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key as they are)");
   // A guide without a tangential stiffness stays without friction, and is told.
   const std::string smooth = guided("");
-  CHECK(tables_met(toml::parse(smooth), "contacts.*.friction") ==
+  CHECK(scene::tables_met(toml::parse(smooth), "contacts.*.friction") ==
         "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key as they are)");
   const Scene scene = parse_scene(smooth, "test.toml", {{"contacts.*.friction", "0.7"}});
   CHECK(scene.contacts[0].friction.static_ == 0.7);
   CHECK_FALSE(scene.contacts[3].friction.any());
   // Two paths of one key overlap.
-  const std::vector<std::string> places = places_of(root, "contacts.*.friction");
+  const std::vector<std::string> places = scene::places_of(root, "contacts.*.friction");
   CHECK(places == std::vector<std::string>{"contacts.1.friction", "contacts.2.friction",
                                            "contacts.3.friction", "stops.1.friction", "stops.2.friction"});
 }

@@ -16,10 +16,10 @@ namespace {
 
 Scene says() { return read_scene(SIGNORINI_TEST_DATA "/scenes/good/says.toml"); }
 
-std::string refusal(const std::string& text, const TableLayout& layout) {
+std::string refusal(const std::string& text, const scene::TableLayout& layout) {
   std::istringstream in(text);
   try {
-    (void)read_time_table(in, "file", "key", layout);
+    (void)scene::read_time_table(in, "file", "key", layout);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -42,7 +42,7 @@ TEST_CASE("a record of PEER, in g") {
     CHECK(quake.values[i] == doctest::Approx(in_g[i] * 9.80665).epsilon(1e-15));
   CHECK(quake.amplitude == 2.0);
   std::istringstream older(heading + "    3    0.0100   NPTS, DT\n 1 2 3\n");
-  const TimeTable table = read_time_table(older, "file", "key", {0, 0.0, true});
+  const scene::TimeTable table = scene::read_time_table(older, "file", "key", {0, 0.0, true});
   CHECK(table.in_g);
   CHECK(table.times == std::vector<double>{0.0, 0.01, 0.02});
   CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", {0, 0.0, true}).find("expected 4 as NPTS says") !=
@@ -55,19 +55,19 @@ TEST_CASE("columns, values alone, periods and shifts") {
   const Scene scene = says();
   const HistorySpec& up = scene.base_motion.at(1).acceleration;
   CHECK(up.values == std::vector<double>{1.0, 2.0, 3.0});
-  const History f = make_history(up, "f");
+  const History f = scene::make_history(up, "f");
   for (const double t : {1.05, 1.25, 1.45, 1.85})
     CHECK(f.value(t) == doctest::Approx(1.5 * 9.80665).epsilon(1e-12));
   CHECK(f.value(0.9) == 0.0);
   const HistorySpec& wind = scene.loads.at(2).history;
   CHECK(wind.values == std::vector<double>{0.0, 1.0, 4.0, 9.0, 16.0, 25.0});
   CHECK(wind.times.back() == 0.625);
-  const History pulses = make_history(scene.loads.at(1).history, "f");
+  const History pulses = scene::make_history(scene.loads.at(1).history, "f");
   CHECK(pulses.value(0.3) == 0.0);
   CHECK(pulses.value(0.4) == 1.0);
   CHECK(pulses.value(0.7) == 0.0);
   CHECK(pulses.value(0.9) == 1.0);
-  const History heat = make_history(scene.members.at(0).temperature, "f");
+  const History heat = scene::make_history(scene.members.at(0).temperature, "f");
   CHECK(heat.value(0.5) == 50.0);
   CHECK(heat.value(7.0) == 60.0);
   CHECK(refusal("0 1\n1 2 3\n", {3, 0.0, false}).find("a value in column 3") != std::string::npos);
@@ -113,7 +113,7 @@ TEST_CASE("a record of PEER in other units, and what is no acceleration") {
   };
   const auto factor = [&](const std::string& unit) {
     std::istringstream in(with("ACCELERATION TIME HISTORY IN UNITS OF " + unit));
-    return read_time_table(in, "file", "key", {0, 0.0, true}).unit.value();
+    return scene::read_time_table(in, "file", "key", {0, 0.0, true}).unit.value();
   };
   CHECK(factor("G") == 9.80665);
   CHECK(factor("cm/s/s") == 0.01);
@@ -173,7 +173,7 @@ TEST_CASE(
         "test.toml");
   };
   const auto value = [](const Scene& scene, double t) {
-    return make_history(scene.base_motion.at(0).acceleration, "f").value(t);
+    return scene::make_history(scene.base_motion.at(0).acceleration, "f").value(t);
   };
   const Scene in_g = read("G", "0.1 0.3 -0.2", ""), in_cm = read("CM/S/S", "98.0665 294.1995 -196.133", "");
   const Scene all_in_g = read("G", "0.1 0.3 -0.2", ", unit = \"g\"");
@@ -205,7 +205,7 @@ TEST_CASE("hold beside a period: the last value holds until the shape begins ane
   spec.hold = true;
   spec.period = 0.5;
   spec.rounds = 3;
-  const History f = make_history(spec, "f");
+  const History f = scene::make_history(spec, "f");
   CHECK(f.value(1.3) == 4.0);
   CHECK(f.value(1.6) == doctest::Approx(2.0).epsilon(1e-13));
   CHECK(f.value(1.9) == 4.0);
@@ -215,14 +215,15 @@ TEST_CASE("hold beside a period: the last value holds until the shape begins ane
 TEST_CASE("a saved state: the time asked for, or the last") {
   const std::string file = "t,A.ux,A.vx,c.T\n0.5,1,2,3\n1.5,4,5,6\n";
   std::istringstream first(file), last(file), none(file);
-  CHECK(read_saved_states(first, "file", "key", 0.5).wanted.value().motions.at(1).second == 2.0);
-  CHECK(read_saved_states(last, "file", "key", std::nullopt).wanted.value().shears.at(0).second == 6.0);
-  const SavedStates others = read_saved_states(none, "file", "key", 0.7);
+  CHECK(scene::read_saved_states(first, "file", "key", 0.5).wanted.value().motions.at(1).second == 2.0);
+  CHECK(scene::read_saved_states(last, "file", "key", std::nullopt).wanted.value().shears.at(0).second ==
+        6.0);
+  const scene::SavedStates others = scene::read_saved_states(none, "file", "key", 0.7);
   CHECK_FALSE(others.wanted);
   CHECK(others.times == std::vector<std::string>{"0.5", "1.5"});
   std::istringstream cut(file + "2.5,7,8"), wrong(file + "2.5,7,x,9\n");
-  CHECK(read_saved_states(cut, "file", "key", std::nullopt).wanted.value().shears.at(0).second == 6.0);
-  CHECK_THROWS_WITH_AS((void)read_saved_states(wrong, "file", "key", 0.5),
+  CHECK(scene::read_saved_states(cut, "file", "key", std::nullopt).wanted.value().shears.at(0).second == 6.0);
+  CHECK_THROWS_WITH_AS((void)scene::read_saved_states(wrong, "file", "key", 0.5),
                        "file:4: key: found \"x\", expected a number", SceneError);
 }
 

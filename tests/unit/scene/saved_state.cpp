@@ -13,7 +13,7 @@ TEST_CASE("contacts.csv with and without the column ratio") {
   const Folder folder;
   const auto read = [&](const std::string& text) {
     spill(folder / "contacts.csv", text);
-    return read_left_contacts(folder / "contacts.csv", 0.5);
+    return scene::read_left_contacts(folder / "contacts.csv", 0.5);
   };
   for (const char* text :
        {"t,contact,state,gap,ut,vt,slip,N,T\n0,a,open,1,0,0,0,0,0\n0.5,a,stick,,1,2,3,-4,1\n",

@@ -21,9 +21,10 @@ namespace {
 /// Says where and why a value is no instance of a schema; empty where it is.
 class Validator {
  public:
-  explicit Validator(const Json& root) : root_(root) {}
+  explicit Validator(const base::Json& root) : root_(root) {}
 
-  [[nodiscard]] std::string why_not(const Json& value, const Json& schema, const std::string& path) const {
+  [[nodiscard]] std::string why_not(const base::Json& value, const base::Json& schema,
+                                    const std::string& path) const {
     static const std::set<std::string> words = {"$ref",        "$schema", "title",
                                                 "description", "default", "definitions"};
     for (const auto& [word, rule] : schema.items()) {
@@ -35,16 +36,16 @@ class Validator {
   }
 
  private:
-  const Json& root_;
+  const base::Json& root_;
 
-  [[nodiscard]] const Json& definition(const std::string& address) const {
+  [[nodiscard]] const base::Json& definition(const std::string& address) const {
     const std::string start = "#/definitions/";
     REQUIRE(address.starts_with(start));
     REQUIRE(root_["definitions"].contains(address.substr(start.size())));
     return root_["definitions"][address.substr(start.size())];
   }
 
-  [[nodiscard]] static bool is(const Json& value, const std::string& type) {
+  [[nodiscard]] static bool is(const base::Json& value, const std::string& type) {
     if (type == "integer") return value.is_number_integer();
     if (type == "number") return value.is_number();
     if (type == "string") return value.is_string();
@@ -54,10 +55,11 @@ class Validator {
     throw std::runtime_error("unknown type " + type);
   }
 
-  [[nodiscard]] std::string members(const Json& value, const Json& schema, const std::string& path) const {
+  [[nodiscard]] std::string members(const base::Json& value, const base::Json& schema,
+                                    const std::string& path) const {
     for (const auto& [name, member] : value.items()) {
       const std::string below = path + "." + name;
-      const Json& others = schema["additionalProperties"];
+      const base::Json& others = schema["additionalProperties"];
       const bool known = schema.contains("properties") && schema["properties"].contains(name);
       if (!known && others == false) return below + ": unknown";
       if (const std::string why = why_not(member, known ? schema["properties"][name] : others, below);
@@ -67,18 +69,18 @@ class Validator {
     return {};
   }
 
-  [[nodiscard]] std::string any_or_all(const std::string& word, const Json& rule, const Json& value,
-                                       const std::string& path) const {
+  [[nodiscard]] std::string any_or_all(const std::string& word, const base::Json& rule,
+                                       const base::Json& value, const std::string& path) const {
     std::string last;
-    for (const Json& each : rule) {
+    for (const base::Json& each : rule) {
       last = why_not(value, each, path);
       if (last.empty() == (word == "anyOf")) return last;
     }
     return last;
   }
 
-  [[nodiscard]] std::string breaks(const std::string& word, const Json& rule, const Json& value,
-                                   const Json& schema, const std::string& path) const {
+  [[nodiscard]] std::string breaks(const std::string& word, const base::Json& rule, const base::Json& value,
+                                   const base::Json& schema, const std::string& path) const {
     const auto unless = [&](bool kept) {
       return kept ? std::string() : path + ": " + word + " " + rule.dump();
     };
@@ -96,12 +98,12 @@ class Validator {
     if (word == "additionalProperties") return members(value, schema, path);
     if (word == "properties") return {};  // beside additionalProperties, always
     if (word == "required") {
-      for (const Json& name : rule)
+      for (const base::Json& name : rule)
         if (!value.contains(name.get<std::string>())) return path + ": misses " + name.get<std::string>();
       return {};
     }
     if (word == "items") {
-      for (const Json& item : value)
+      for (const base::Json& item : value)
         if (const std::string why = why_not(item, rule, path + "[]"); !why.empty()) return why;
       return {};
     }
@@ -110,8 +112,8 @@ class Validator {
 };
 
 std::string against_schema(const toml::table& scene) {
-  static const Json schema = parse_json(scene_schema());
-  return Validator(schema).why_not(json_of(scene), schema, "scene");
+  static const base::Json schema = base::parse_json(scene::scene_schema());
+  return Validator(schema).why_not(scene::json_of(scene), schema, "scene");
 }
 
 std::string text_against_schema(std::string_view text) { return against_schema(toml::parse(text)); }
@@ -201,13 +203,14 @@ TEST_SUITE("unit/scene/schema") {
   }
 
   TEST_CASE("schema: every key is described, with its unit and its default") {
-    const Json schema = parse_json(scene_schema());
-    const Json& contact = schema["definitions"]["contacts"]["properties"];
+    const base::Json schema = base::parse_json(scene::scene_schema());
+    const base::Json& contact = schema["definitions"]["contacts"]["properties"];
     CHECK(contact["gap"]["description"] == "Gap of the undeformed state. Unit: length.");
     CHECK(contact["gap"]["default"] == 0.0);
     CHECK_FALSE(contact["law"].contains("default"));
     CHECK(schema["definitions"]["run"]["properties"]["step"]["default"] == "fixed");
-    CHECK(schema["definitions"]["loads"]["properties"]["history"]["default"] == Json{{"type", "constant"}});
+    CHECK(schema["definitions"]["loads"]["properties"]["history"]["default"] ==
+          base::Json{{"type", "constant"}});
     for (const auto& [name, table] : schema["definitions"].items())
       for (const auto& [key, rules] : table["properties"].items()) {
         CAPTURE(name);

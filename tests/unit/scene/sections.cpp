@@ -242,7 +242,7 @@ station = 0.25
   const Scene scene = parse_scene(text, "test.toml");
   CHECK(testing::dump(parse_scene(scene.resolved, "test.toml")) == testing::dump(scene));
   CHECK(parse_scene(scene.resolved, "test.toml").resolved == scene.resolved);
-  const Scene other = rescaled(scene, {4.0, 2.0, 1.0});
+  const Scene other = scene::rescaled(scene, {4.0, 2.0, 1.0});
   CHECK(other.sections[0].area == 4.0 * scene.sections[0].area);
   CHECK(other.sections[0].modulus == 8.0 * scene.sections[0].modulus);
   CHECK(other.sections[0].pipe_radius == 2.0 * scene.sections[0].pipe_radius);
@@ -256,7 +256,7 @@ TEST_CASE("units as texts") {
   const Units names{"kN", "t", "m", "s"};
   const auto is_unit = [&](const char* text, int force, int length, int time) {
     CAPTURE(text);
-    const auto unit = unit_of_text(text, names);
+    const auto unit = scene::unit_of_text(text, names);
     REQUIRE(unit);
     CHECK(unit->force == force);
     CHECK(unit->length == length);
@@ -270,7 +270,7 @@ TEST_CASE("units as texts") {
   is_unit("m^3/kN s", -1, 3, -1);
   for (const char* wrong : {"", "/m", "mm", "m^", "m^0", "m^2.5", "1/", "m/s/s", "kN--m"}) {
     CAPTURE(wrong);
-    CHECK(!unit_of_text(wrong, names));
+    CHECK(!scene::unit_of_text(wrong, names));
   }
 }
 

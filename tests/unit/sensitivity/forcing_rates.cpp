@@ -22,7 +22,7 @@ TEST_CASE("polynomials and sines whose origin, amplitude, frequency and phase mo
   constexpr std::size_t count = 6;
   const Piece rates{0.2, {1.0, p, 0.7}, 0.1, 0.4, -0.3};
   std::vector<double> found(count, 0.25);
-  add_rate_series(moving_piece(p), rates, t, scale, count, 2.0, found.data());
+  sensitivity::add_rate_series(moving_piece(p), rates, t, scale, count, 2.0, found.data());
   const double h = 1e-3;
   std::vector<double> values[4];
   const double weights[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
@@ -41,7 +41,7 @@ TEST_CASE("polynomials and sines whose origin, amplitude, frequency and phase mo
 
 TEST_CASE("what stands still adds nothing") {
   std::vector<double> found(4, 0.0);
-  add_rate_series(moving_piece(1.0), Piece{0.0, {0.0, 0.0, 0.0}, 0.0, 0.0, 0.0}, 0.5, 1.0, 4, 1.0,
-                  found.data());
+  sensitivity::add_rate_series(moving_piece(1.0), Piece{0.0, {0.0, 0.0, 0.0}, 0.0, 0.0, 0.0}, 0.5, 1.0, 4,
+                               1.0, found.data());
   for (const double x : found) CHECK(x == 0.0);
 }

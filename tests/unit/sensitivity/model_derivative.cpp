@@ -30,13 +30,13 @@ SceneReader beam_reader(const std::string& more = "") {
 
 /// In the units of the machine, those of the scene without changes.
 Model computed(const SceneReader& read, const std::vector<Override>& changes = {}) {
-  return rescaled(build_model(read(changes)), inverse(build_model(read({})).machine));
+  return model::rescaled(build_model(read(changes)), scene::inverse(build_model(read({})).machine));
 }
 
-ModelDerivative of(const SceneReader& read, const std::string& path) {
+sensitivity::ModelDerivative of(const SceneReader& read, const std::string& path) {
   const Scene scene = read({});
-  const double value = value_of(scene, path);
-  return derivative(read, computed(read), path, value, value != 0.0 ? std::abs(value) : 1.0);
+  const double value = sensitivity::value_of(scene, path);
+  return sensitivity::derivative(read, computed(read), path, value, value != 0.0 ? std::abs(value) : 1.0);
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ TEST_SUITE_BEGIN("unit/sensitivity/model_derivative");
 
 TEST_CASE("K by EI is K of a beam of EI one; M does not move") {
   const SceneReader read = beam_reader();
-  const ModelDerivative d = of(read, "sections.pipe.EI");
+  const sensitivity::ModelDerivative d = of(read, "sections.pipe.EI");
   const SparseMatrix more = computed(read, {{"sections.pipe.EI", "3e3"}}).stiffness;
   const SparseMatrix less = computed(read, {{"sections.pipe.EI", "1e3"}}).stiffness;
   const SparseMatrix expected = (more - less) / 2e3;  // linear in EI
@@ -56,8 +56,8 @@ TEST_CASE("K by EI is K of a beam of EI one; M does not move") {
 
 TEST_CASE("what goes as 1/p^3, and an equilibrium, against differences of a hundredth of the step") {
   const SceneReader read = beam_reader();
-  const ModelDerivative d = of(read, "nodes.B.1");
-  const auto model = [&](double x) { return computed(read, {set_to("nodes.B.1", x)}); };
+  const sensitivity::ModelDerivative d = of(read, "nodes.B.1");
+  const auto model = [&](double x) { return computed(read, {sensitivity::set_to("nodes.B.1", x)}); };
   const double h = 1e-4;
   const Model a = model(2.0 - h), b = model(2.0 + h);
   const SparseMatrix expected = (b.stiffness - a.stiffness) / (2.0 * h);
@@ -68,13 +68,13 @@ TEST_CASE("what goes as 1/p^3, and an equilibrium, against differences of a hund
 }
 
 TEST_CASE("rows and guards of a contact by its friction") {
-  const ModelDerivative d = of(beam_reader(), "contacts.c.friction");
-  const ContactRates& c = d.contacts[0];
-  CHECK(c.rows[index_of(State::slip_plus)].tangent.N == doctest::Approx(1.0));
-  CHECK(c.rows[index_of(State::slip_minus)].tangent.N == doctest::Approx(-1.0));
-  CHECK(c.guards[index_of(State::stick)][1].N == doctest::Approx(-1.0));
-  CHECK(c.guards[index_of(State::slip_plus)][1].vn == doctest::Approx(1.0));  // s kn/kt
-  CHECK(c.rows[index_of(State::stick)].tangent.ut == 0.0);
+  const sensitivity::ModelDerivative d = of(beam_reader(), "contacts.c.friction");
+  const sensitivity::ContactRates& c = d.contacts[0];
+  CHECK(c.rows[sensitivity::index_of(State::slip_plus)].tangent.N == doctest::Approx(1.0));
+  CHECK(c.rows[sensitivity::index_of(State::slip_minus)].tangent.N == doctest::Approx(-1.0));
+  CHECK(c.guards[sensitivity::index_of(State::stick)][1].N == doctest::Approx(-1.0));
+  CHECK(c.guards[sensitivity::index_of(State::slip_plus)][1].vn == doctest::Approx(1.0));  // s kn/kt
+  CHECK(c.rows[sensitivity::index_of(State::stick)].tangent.ut == 0.0);
   CHECK(d.stiffness.nonZeros() + d.mass.nonZeros() + d.damping.nonZeros() == 0);
   CHECK(d.u0.norm() == 0.0);
 }
@@ -90,7 +90,7 @@ TEST_CASE("at the edge of what a key may be the differences go to one side") {
   const SceneReader ball = [text](const std::vector<Override>& changes) {
     return parse_scene(text, "ball.toml", changes);
   };
-  const ModelDerivative d = of(ball, "contacts.c.restitution");
+  const sensitivity::ModelDerivative d = of(ball, "contacts.c.restitution");
   CHECK(d.one_sided);
   CHECK(d.contacts[0].restitution == doctest::Approx(1.0));
   CHECK_THROWS_AS(of(ball, "contacts.c.friction"), UsageError);  // without friction there is another law
@@ -99,6 +99,8 @@ TEST_CASE("at the edge of what a key may be the differences go to one side") {
 TEST_CASE("shapes of a reduced model that move with the key are refused, friction is not") {
   const SceneReader reduced = beam_reader("[reduction]\ncutoff_frequency = 20.0\n");
   CHECK_THROWS_AS(of(reduced, "sections.pipe.EI"), UsageError);
-  CHECK(of(reduced, "contacts.c.friction").contacts[0].rows[index_of(State::slip_plus)].tangent.N ==
-        doctest::Approx(1.0));
+  CHECK(of(reduced, "contacts.c.friction")
+            .contacts[0]
+            .rows[sensitivity::index_of(State::slip_plus)]
+            .tangent.N == doctest::Approx(1.0));
 }

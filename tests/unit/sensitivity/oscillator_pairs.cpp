@@ -52,7 +52,7 @@ TEST_CASE("divided differences of oscillators, however near to each other") {
   for (const double alpha : {0.0, 3.0})
     for (const double t : {0.01, 0.3, 1.0}) {
       const std::vector<double> l{0.0, 1e-4, 2.25, 2.26, 5.9, 6.3, 40.0, 40.0 * (1.0 + 1e-7), 900.0, 1e5};
-      OscillatorPairs<double> pairs;
+      sensitivity::OscillatorPairs<double> pairs;
       pairs.fill(l, alpha, t);
       for (std::size_t k = 0; k < l.size(); ++k)
         for (std::size_t j = 0; j < l.size(); ++j) {
@@ -73,14 +73,15 @@ TEST_CASE("divided differences of oscillators, however near to each other") {
 
 TEST_CASE("modes that come in conjugate pairs") {
   const double alpha = 2.0, t = 0.4;
-  const std::vector<Complex> l{Complex(3.0), Complex(50.0, 7.0), Complex(50.0, -7.0), Complex(50.0, 7.01),
-                               Complex(4000.0)};
-  OscillatorPairs<Complex> pairs;
+  const std::vector<modal::Complex> l{modal::Complex(3.0), modal::Complex(50.0, 7.0),
+                                      modal::Complex(50.0, -7.0), modal::Complex(50.0, 7.01),
+                                      modal::Complex(4000.0)};
+  sensitivity::OscillatorPairs<modal::Complex> pairs;
   pairs.fill(l, alpha, t);
-  const auto wide = [](Complex a) { return Wide(a.re, a.im); };
+  const auto wide = [](modal::Complex a) { return Wide(a.re, a.im); };
   for (std::size_t k = 0; k < l.size(); ++k)
     for (std::size_t j = 0; j < l.size(); ++j) {
-      const double scale = t * t / (1.0 + std::max(size_of(l[k]), size_of(l[j])) * t * t);
+      const double scale = t * t / (1.0 + std::max(modal::size_of(l[k]), modal::size_of(l[j])) * t * t);
       const Wide c = apart(wide(l[k]), wide(l[j]), alpha, t, 1.0L, 0.0L, 0.0L);
       const Wide s = apart(wide(l[k]), wide(l[j]), alpha, t, 0.0L, 1.0L, 0.0L);
       CHECK(static_cast<double>(std::abs(wide(pairs.C_row(k)[j]) - c)) <= 1e-9 * scale);

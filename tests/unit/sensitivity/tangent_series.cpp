@@ -14,7 +14,7 @@ TEST_CASE("a polynomial about another place is the same polynomial") {
   Model model;
   model.dofs.resize(1);
   model.u0 = model.v0 = Vector::Zero(1);
-  Series s;
+  motion::Series s;
   s.t = 2.0;
   s.scale = 0.5;
   s.levels = 3;
@@ -22,18 +22,18 @@ TEST_CASE("a polynomial about another place is the same polynomial") {
   s.u << 1.0, -2.0, 0.5, 3.0, -0.25, 0.125;
   s.forces.resize(2, 6);  // levels 0 to 3, and room that nobody has written to
   s.forces << 1.0, 2.0, -1.0, 0.5, NAN, NAN, 3.0, 0.0, 0.0, -2.0, NAN, NAN;
-  Series moved;
-  recentre(s, Forcing::none(model), 0.4, 0.5, moved);
+  motion::Series moved;
+  sensitivity::recentre(s, motion::Forcing::none(model), 0.4, 0.5, moved);
   CHECK(moved.t == doctest::Approx(2.2));
   CHECK(moved.scale == doctest::Approx(0.25));
-  const auto value = [](const Series& series, double x) {
+  const auto value = [](const motion::Series& series, double x) {
     double sum = 0.0;
     for (Eigen::Index k = series.u.cols(); k-- > 0;) sum = sum * x + series.u(0, k);
     return sum;
   };
   for (const double x : {-1.0, 0.0, 0.3, 1.0})
     for (Eigen::Index f = 0; f < 2; ++f) {
-      const auto force = [f](const Series& series, double z) {
+      const auto force = [f](const motion::Series& series, double z) {
         return series.forces(f, 0) +
                z * (series.forces(f, 1) + z * (series.forces(f, 2) + z * series.forces(f, 3)));
       };

@@ -164,8 +164,9 @@ TEST_SUITE("unit/validation") {
       CAPTURE(found.what);
       CHECK(found.verdict == Likeness::Class::same);
       // A run that goes on has those after its start; nothing happens within an error of it.
-      const auto after = std::count_if(judge.run().events.begin(), judge.run().events.end(),
-                                       [&](const LoggedEvent& event) { return event.t > related.from; });
+      const auto after =
+          std::count_if(judge.run().events.begin(), judge.run().events.end(),
+                        [&](const compare::LoggedEvent& event) { return event.t > related.from; });
       CHECK(after > 0);
       CHECK(found.events == static_cast<std::size_t>(after));
     });

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace signorini {
+namespace signorini::modal {
 
 template <class R>
 struct BasicComplex {
@@ -78,4 +78,4 @@ void cauchy_vector(const double* base, const double* tiny, std::ptrdiff_t n, dou
                    double* out);
 [[nodiscard]] Complex sum_of_all(const double* re, const double* im, std::ptrdiff_t n);
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -5,9 +5,10 @@
 #include "base/eigen_dense.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
-std::string DampedFlow::start(const Segment& segment, const Vector& q, const Vector& rate, ModalPoint& now) {
+std::string DampedFlow::start(const engine::Segment& segment, const Vector& q, const Vector& rate,
+                              ModalPoint& now) {
   if (std::string why = motion_.start(segment, q, rate, now); !why.empty()) return why;
   proof_.start();
   works_.start();
@@ -15,14 +16,14 @@ std::string DampedFlow::start(const Segment& segment, const Vector& q, const Vec
 }
 
 void DampedFlow::find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                            TurningPoints& turning, LastTurns& turns) {
+                            events::TurningPoints& turning, LastTurns& turns) {
   const auto advance = [&](const ModalPoint& at, double step, ModalPoint& to) {
     motion_.advance(at, step, to);
   };
   find_passage_turns(proof_, advance, from, begin, length, observed, turning, turns);
 }
 
-void DampedFlow::forces(const ModalPoint& at, Point& point) const {
+void DampedFlow::forces(const ModalPoint& at, motion::Point& point) const {
   const ForceLayout& layout = motion_.model().layout;
   double* const forces = point.forces.data();
   for (std::size_t c = 0; c < motion_.model().contacts.size(); ++c) {
@@ -62,7 +63,7 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
   const auto within = [&](Eigen::VectorXd x) {
     if (rigid == 0) return x;
     const auto u = forces.leftCols(rigid), v = forms.leftCols(rigid);
-    for (int twice = 0; twice < 2; ++twice) x -= u * solve_dense(v.transpose() * u, v.transpose() * x);
+    for (int twice = 0; twice < 2; ++twice) x -= u * base::solve_dense(v.transpose() * u, v.transpose() * x);
     return x;
   };
   const Eigen::VectorXd place = within(q.cwiseQuotient(size));
@@ -79,4 +80,4 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
     out.failure = "the modes of the state are nearly dependent";
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

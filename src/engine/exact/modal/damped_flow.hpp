@@ -8,7 +8,7 @@
 #include "engine/exact/modal/damped_works.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 class DampedFlow final : public ModalFlow {
  public:
@@ -19,7 +19,7 @@ class DampedFlow final : public ModalFlow {
         works_(motion_),
         made_before_(motion_.system().made()) {}
 
-  [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+  [[nodiscard]] std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now) override;
   [[nodiscard]] Passage pass(const ModalPoint& at, double remaining) override {
     return proof_.pass(at, remaining);
@@ -31,31 +31,32 @@ class DampedFlow final : public ModalFlow {
   void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const override {
     motion_.motion(at, q, rate, change);
   }
-  void forces(const ModalPoint& at, Point& point) const override;
-  [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at, const Point& /*point*/,
+  void forces(const ModalPoint& at, motion::Point& point) const override;
+  [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at, const motion::Point& /*point*/,
                              double /*t*/) const override {
     return proof_.slope(slot, at);
   }
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const override {
     return proof_.magnitude(slot, at);
   }
-  void find_turns(const ModalPoint& from, double begin, double length, bool observed, TurningPoints& turning,
-                  LastTurns& turns) override;
-  void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/, Works& works) const override {
+  void find_turns(const ModalPoint& from, double begin, double length, bool observed,
+                  events::TurningPoints& turning, LastTurns& turns) override;
+  void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/,
+                 motion::WorkIntegrals& works) const override {
     works_.add(from, to, works);
   }
-  [[nodiscard]] std::optional<Ripple> ripple(const ModalPoint& from, double time,
-                                             double omega) const override {
+  [[nodiscard]] std::optional<engine::FastModeBound> fast_mode_bound(const ModalPoint& from, double time,
+                                                                     double omega) const override {
     return motion_.ripple(from, time, omega);
   }
-  [[nodiscard]] double dependence() const override { return motion_.dependence(); }
+  [[nodiscard]] double eigenvector_condition() const override { return motion_.eigenvector_condition(); }
   [[nodiscard]] SumTerms terms(const ModalPoint& at) const override { return motion_.terms(at); }
   [[nodiscard]] long states_made() const override { return motion_.system().made() - made_before_; }
 
  private:
   DampedMotion motion_;
   DampedProof proof_;
-  DampedWorks works_;
+  DampedWorkIntegrals works_;
   long made_before_;
 };
 
@@ -68,4 +69,4 @@ class DampedFlow final : public ModalFlow {
 /// rotated.
 void test_round_trip(const DampedPencil& pencil, DampedModes& modes);
 
-}  // namespace signorini
+}  // namespace signorini::modal

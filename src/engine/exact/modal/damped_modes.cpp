@@ -8,7 +8,7 @@
 #include "engine/exact/modal/damped_flow.hpp"
 #include "engine/exact/modal/damped_pencil.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 using Long = DampedPencil::Long;
@@ -296,4 +296,4 @@ DampedModes damped_modes(const Eigen::VectorXd& square, const Eigen::VectorXd& d
   return Search(pencil).run();
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace signorini {
+namespace signorini::modal {
 
 /// u: direction of the force, v: form that the force follows; both in all modes.
 struct ModalTerm {
@@ -48,4 +48,4 @@ struct DampedModes {
 [[nodiscard]] DampedModes damped_modes(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
                                        const std::vector<ModalTerm>& terms);
 
-}  // namespace signorini
+}  // namespace signorini::modal

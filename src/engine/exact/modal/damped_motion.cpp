@@ -6,7 +6,7 @@
 #include "base/eigen_dense.hpp"
 #include "contact/friction.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 /// Limit for the amplification of rounding in the response of a slow mode, or one near resonance, to a force: the same
@@ -16,7 +16,7 @@ constexpr double most_loss = 1e3;
 }  // namespace
 
 /// u_c: the displacement held by constraints, in open modes.
-Eigen::MatrixXd DampedMotion::held(const Segment& segment, const Vector& q) const {
+Eigen::MatrixXd DampedMotion::held(const engine::Segment& segment, const Vector& q) const {
   const auto rigid = static_cast<Eigen::Index>(state_->rigid.size());
   Eigen::MatrixXd asked = Eigen::MatrixXd::Zero(rigid, time_.size());
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -44,11 +44,12 @@ Eigen::MatrixXd DampedMotion::forces() const {
     const Contact& contact = model_.contacts[c];
     const ContactRows& own = state_->contacts[c];
     const ContactState& state = decision_->mode[c];
-    Course N = time_.constant(-own.normal.constant) - own.normal.pressing * contacts_[c].pressing;
+    Course N = time_.constant(-own.normal.constant) -
+               own.normal.applied_normal_force * contacts_[c].applied_normal_force;
     if (own.normal.an != 0.0) N.setZero();
     N[0] -= own.normal.gap * contact.gap;
     p -= basis_.normal(c) * N.transpose();
-    const Form tangent = rows(contact, state).tangent;
+    const Form tangent = contact::rows(contact, state).tangent;
     if (tangent.at != 0.0) continue;
     Course T = time_.constant(-tangent.constant) - tangent.N * N + tangent.ut * contacts_[c].surface;
     p -= basis_.tangent(c) * T.transpose();
@@ -67,7 +68,7 @@ Eigen::MatrixXd DampedMotion::inertia_of(const Eigen::MatrixXd& held) const {
   return p;
 }
 
-std::string DampedMotion::start(const Segment& segment, const Vector& q, const Vector& rate,
+std::string DampedMotion::start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                 ModalPoint& now) {
   decision_ = segment.decision;
   state_ = system_.state(decision_->mode);
@@ -85,13 +86,13 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   contacts_.resize(model_.contacts.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].surface = time_.of(model_.contacts[c].surface_motion.piece(t));
-    contacts_[c].pressing = time_.of(model_.contacts[c].normal_force.piece(t));
+    contacts_[c].applied_normal_force = time_.of(model_.contacts[c].normal_force.piece(t));
   }
   place_ = Eigen::MatrixXd::Zero(q.size(), time_.size());
   if (!state_->rigid.empty()) place_ = held(segment, q);
   Eigen::MatrixXd p = forces();
   if (!state_->rigid.empty()) p -= inertia_of(place_);
-  const Eigen::MatrixXcd pressed = complex_product(modes.from_rate, p.cast<std::complex<double>>());
+  const Eigen::MatrixXcd pressed = base::complex_product(modes.from_rate, p.cast<std::complex<double>>());
   Eigen::MatrixXcd answers(modes.root.size(), time_.size());
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
     answers.row(k) = time_.answer(modes.root[k], pressed.row(k).transpose()).transpose();
@@ -99,7 +100,7 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   now.y =
       modes.from_q * (q - place_ * b) + modes.from_rate * (rate - time_.derivative(place_) * b) - answers * b;
   now.time = 0.0;
-  place_ += complex_product(modes.shape, answers).real();
+  place_ += base::complex_product(modes.shape, answers).real();
   rate_ = time_.derivative(place_);
   change_ = time_.derivative(rate_);
   place_lengths_ = place_.colwise().norm().transpose();
@@ -132,9 +133,9 @@ void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::Mat
       out.N = -own.normal.gap * out.gap;
       if (own.normal.vn != 0.0) out.N += -own.normal.vn * derivative(out.gap);
       out.N.course[0] -= own.normal.constant;
-      out.N.course -= own.normal.pressing * out.pressing;
+      out.N.course -= own.normal.applied_normal_force * out.applied_normal_force;
     }
-    const Form tangent = rows(contact, decision_->mode[c]).tangent;
+    const Form tangent = contact::rows(contact, decision_->mode[c]).tangent;
     if (tangent.at != 0.0) {
       out.T = of_constraint(own.tangent_term);
       continue;
@@ -159,14 +160,15 @@ ModalQuantity DampedMotion::of(const Form& form, std::size_t c) const {
   add(form.vt, [&] { return derivative(own.ut); });
   add(form.an, [&] { return derivative(derivative(own.gap)); });
   add(form.at, [&] { return derivative(derivative(own.ut)); });
-  sum.course += form.pressing * own.pressing + form.pressing_rate * time_.derivative(own.pressing);
+  sum.course += form.applied_normal_force * own.applied_normal_force +
+                form.applied_normal_force_rate * time_.derivative(own.applied_normal_force);
   return sum;
 }
 
-Ripple DampedMotion::ripple(const ModalPoint& from, double time, double omega) const {
+engine::FastModeBound DampedMotion::ripple(const ModalPoint& from, double time, double omega) const {
   const auto count = model_.force_count();
-  Ripple r{0.0, 0.0, 0.0, Eigen::VectorXd::Zero(count)};
-  SumOfModes u(dependence()), v(dependence()), a(dependence());
+  engine::FastModeBound r{0.0, 0.0, 0.0, Eigen::VectorXd::Zero(count)};
+  SumOfModes u(eigenvector_condition()), v(eigenvector_condition()), a(eigenvector_condition());
   for (Eigen::Index k = 0; k < root().size(); ++k) {
     const double rate = std::abs(root()[k]);
     if (!(rate > omega)) continue;
@@ -211,4 +213,4 @@ void DampedMotion::motion(const ModalPoint& at, Vector& q, Vector& rate, Vector*
   if (change) *change = (shape * root().cwiseProduct(first)).real() + change_ * b;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

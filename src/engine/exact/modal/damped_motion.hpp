@@ -15,7 +15,7 @@
 #include "engine/exact/modal/time_basis.hpp"
 #include "engine/stepper.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 struct ModalQuantity {
   Eigen::VectorXcd row;
@@ -44,25 +44,25 @@ class DampedMotion {
         system_(kept == nullptr ? *own_ : *kept) {}
 
   /// Same meaning as ModalFlow::start.
-  [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+  [[nodiscard]] std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now);
   void advance(const ModalPoint& from, double time, ModalPoint& to) const;
   void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const;
 
   [[nodiscard]] const DampedState& state() const { return *state_; }
-  [[nodiscard]] double dependence() const { return state_ ? state_->modes.condition : 1.0; }
+  [[nodiscard]] double eigenvector_condition() const { return state_ ? state_->modes.condition : 1.0; }
   [[nodiscard]] const DampedSystem& system() const { return system_; }
   [[nodiscard]] const Eigen::VectorXcd& root() const { return state_->modes.root; }
   [[nodiscard]] const TimeBasis& time() const { return time_; }
   [[nodiscard]] const Model& model() const { return model_; }
-  [[nodiscard]] const Decision& decision() const { return *decision_; }
+  [[nodiscard]] const decide::Decision& decision() const { return *decision_; }
   /// Q and its rate, n x b.
   [[nodiscard]] const Eigen::MatrixXd& place() const { return place_; }
   [[nodiscard]] const Eigen::MatrixXd& rate() const { return rate_; }
 
   struct ContactQuantities {
     ModalQuantity N, T, gap, ut;
-    Course surface, pressing;
+    Course surface, applied_normal_force;
   };
   [[nodiscard]] const ContactQuantities& contact(std::size_t c) const { return contacts_[c]; }
   [[nodiscard]] ModalQuantity derivative(const ModalQuantity& f) const {
@@ -79,7 +79,7 @@ class DampedMotion {
     return f.row.cwiseProduct(at.y).sum().real() + f.course.dot(time_.at(at.time));
   }
   /// Bounds of the modes with |l| > omega, as in ModalFlow.
-  [[nodiscard]] Ripple ripple(const ModalPoint& from, double time, double omega) const;
+  [[nodiscard]] engine::FastModeBound ripple(const ModalPoint& from, double time, double omega) const;
   /// Sum of the magnitudes of the terms of f.
   [[nodiscard]] double magnitude(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseAbs().dot(at.y.cwiseAbs()) + f.course.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
@@ -88,7 +88,7 @@ class DampedMotion {
   [[nodiscard]] SumTerms terms(const ModalPoint& at) const;
 
  private:
-  [[nodiscard]] Eigen::MatrixXd held(const Segment& segment, const Vector& q) const;
+  [[nodiscard]] Eigen::MatrixXd held(const engine::Segment& segment, const Vector& q) const;
   [[nodiscard]] Eigen::MatrixXd forces() const;
   [[nodiscard]] Eigen::MatrixXd inertia_of(const Eigen::MatrixXd& held) const;
   void find_contacts(const Eigen::MatrixXd& forces, const Eigen::MatrixXcd& answers);
@@ -99,7 +99,7 @@ class DampedMotion {
   std::unique_ptr<DampedSystem> own_;
   DampedSystem& system_;
   std::shared_ptr<const DampedState> state_;
-  const Decision* decision_ = nullptr;
+  const decide::Decision* decision_ = nullptr;
   TimeBasis time_;
   Eigen::MatrixXd place_, rate_, change_;
   Eigen::VectorXd lengths_, swings_;  // lengths of the shapes, and of omega times the shapes
@@ -107,4 +107,4 @@ class DampedMotion {
   std::vector<ContactQuantities> contacts_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

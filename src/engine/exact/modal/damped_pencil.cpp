@@ -6,7 +6,7 @@
 
 #include "base/eigen_dense.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 using Long = DampedPencil::Long;
@@ -62,7 +62,7 @@ void DampedPencil::turn_equal_poles() {
     Eigen::MatrixXd seen(rows, terms);
     for (Index a = 0; a < terms; ++a)
       seen.col(a) = terms_[static_cast<std::size_t>(a)].v.segment(first, rows);
-    const EigenPairs pairs = symmetric_eigen(seen * seen.transpose());
+    const base::EigenPairs pairs = base::symmetric_eigen(seen * seen.transpose());
     turns_.emplace_back(first, pairs.vectors);
     const double most = unseen_part * seen.cwiseAbs().maxCoeff();
     const Eigen::MatrixXd turned = pairs.vectors.transpose() * seen;
@@ -92,9 +92,9 @@ Eigen::VectorXcd DampedPencil::begin() const {
     if (damping_[a] != 0.0) c += damping_[a] * u * v.transpose();
   }
   if (constraints > 0) {
-    const Eigen::MatrixXd z = orthogonal_complement(forms.leftCols(constraints)),
-                          left = orthogonal_complement(forces.leftCols(constraints)).transpose();
-    const Eigen::MatrixXd p = solve_dense(left * z, left);
+    const Eigen::MatrixXd z = base::orthogonal_complement(forms.leftCols(constraints)),
+                          left = base::orthogonal_complement(forces.leftCols(constraints)).transpose();
+    const Eigen::MatrixXd p = base::solve_dense(left * z, left);
     k = (p * k * z).eval();
     c = (p * c * z).eval();
   }
@@ -112,7 +112,7 @@ Eigen::VectorXcd DampedPencil::begin() const {
       all(2 * i + 1, 2 * j + 1) -= c(row, column);
     }
   }
-  return count > 0 ? general_eigenvalues(all) : Eigen::VectorXcd();
+  return count > 0 ? base::general_eigenvalues(all) : Eigen::VectorXcd();
 }
 
 /// Adds the contribution of a mode outside G to T.
@@ -198,4 +198,4 @@ std::optional<DampedPencil::Wide> DampedPencil::polished(Wide l) const {
   return std::nullopt;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -17,7 +17,7 @@
 #include "engine/exact/modal/small_matrices.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 // K - s M as a band, factored for any shift.
 //
@@ -183,4 +183,4 @@ class DampedPencil {
   Long softest_ = 1;  // reference frequency for slow roots
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -6,7 +6,7 @@
 #include "base/rounding.hpp"
 #include "engine/exact/modal/modal_proof.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr double quarter_of_guard = 0.25;          // limit for all fast modes together
@@ -19,17 +19,21 @@ constexpr double slow_rounding = 1.0 + 1e-12;
 
 void DampedProof::start() {
   guards_.clear();
-  arming_.start(motion_.decision().guards);
+  active_guards_.start(motion_.decision().guards);
   full_ = false;
   size_ = motion_.root().cwiseAbs();
   series_.resize(motion_.model().contacts.size());
   for (std::size_t slot = 0; slot < motion_.decision().guards.size(); ++slot) {
-    if (arming_.idle(slot)) continue;
-    const Decision& decision = motion_.decision();
-    Watched guard{
-        slot, decision.guards[slot].noise, motion_.of(decision.form(slot), contact_of_guard(slot)), {}, 0.0};
+    if (active_guards_.idle(slot)) continue;
+    const decide::Decision& decision = motion_.decision();
+    Watched guard{slot,
+                  decision.guards[slot].noise,
+                  motion_.of(decision.form(slot), contact::contact_of_guard(slot)),
+                  {},
+                  0.0};
     guard.lead = guard.guard;
-    for (std::size_t i = 0; i < arming_.leading(slot); ++i) guard.lead = motion_.derivative(guard.lead);
+    for (std::size_t i = 0; i < active_guards_.leading(slot); ++i)
+      guard.lead = motion_.derivative(guard.lead);
     guards_.push_back(std::move(guard));
   }
 }
@@ -52,8 +56,8 @@ double DampedProof::slope(std::size_t slot, const ModalPoint& at) const {
 
 void DampedProof::rearm(const ModalPoint& at) {
   for (const Watched& guard : guards_)
-    if (!arming_.armed(guard.slot))
-      arming_.see(guard.slot, motion_.value(guard.guard, at), 4.0 * guard.noise);
+    if (!active_guards_.armed(guard.slot))
+      active_guards_.see(guard.slot, motion_.value(guard.guard, at), 4.0 * guard.noise);
 }
 
 void DampedProof::measure(const ModalPoint& at) {
@@ -150,20 +154,20 @@ bool DampedProof::settle(const Watched& guard, const ModalPoint& at, Passage& pa
   on_step.ripple = part.ripple;
   on_step.ripple_rate = part.ripple_rate;
   on_step.noise = guard.noise;
-  on_step.leading = arming_.leading(guard.slot);
-  on_step.armed = arming_.armed(guard.slot);
+  on_step.leading = active_guards_.leading(guard.slot);
+  on_step.armed = active_guards_.armed(guard.slot);
   ModalPoint point;
   const auto value_at = [&](double x) {
     motion_.advance(at, h_ * x, point);
     return motion_.value(guard.guard, point);
   };
-  return settle_guard(on_step, guard.slot, h_, value_at, arming_, passage, limit, event);
+  return settle_guard(on_step, guard.slot, h_, value_at, active_guards_, passage, limit, event);
 }
 
 Passage DampedProof::pass(const ModalPoint& at, double remaining) {
   measure(at);
   for (const Watched& guard : guards_)
-    if (arming_.leading(guard.slot) > 0 && !(guard.now > 0.0)) arming_.doubt(guard.slot);
+    if (active_guards_.leading(guard.slot) > 0 && !(guard.now > 0.0)) active_guards_.doubt(guard.slot);
   choose_step(remaining);
   expand(at);
   Passage passage;
@@ -180,7 +184,7 @@ std::array<const ModalQuantity*, 4> DampedProof::shown(std::size_t c) const {
   return {&own.N, &own.T, &own.gap, &own.ut};
 }
 
-double DampedProof::within(const ModalPoint& at, const TurningPoints& known, double x_end) const {
+double DampedProof::within(const ModalPoint& at, const events::TurningPoints& known, double x_end) const {
   std::vector<double> room(count_), rate(count_ - 1);
   double safe = 1.0;
   for (std::size_t c = 0; c < series_.size() && safe > 0.0; ++c)
@@ -190,7 +194,7 @@ double DampedProof::within(const ModalPoint& at, const TurningPoints& known, dou
       const double off = part.ripple_rate * h_ + part.rest * static_cast<double>(count_ + 1);
       const double forth =
           stays_above(rate.data(), rate.size() - 1, x_end, rate[0] < 0.0 ? -1.0 : 1.0, -off, room);
-      const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
+      const events::TurningPoints::Range& range = known.range(c, events::TurningPoints::watched[f]);
       const double off_place = part.ripple + part.rest;
       if (range.is_left(part.p[0], part.p[1], off_place) &&  // as in ModalProof::within
           range.is_left(part.p[0], part.p[1],
@@ -206,7 +210,7 @@ double DampedProof::within(const ModalPoint& at, const TurningPoints& known, dou
   return safe * x_end;
 }
 
-double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& known, double share,
+double DampedProof::expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
                                   double remaining) {
   amplitude_ = at.y.cwiseAbs();
   const Eigen::Index n = size_.size();
@@ -214,7 +218,7 @@ double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& kno
   for (std::size_t c = 0; c < series_.size(); ++c)
     for (std::size_t f = 0; f < 4; ++f) {
       const ModalQuantity& quantity = *shown(c)[f];
-      const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
+      const events::TurningPoints::Range& range = known.range(c, events::TurningPoints::watched[f]);
       first = slow_for(quantity, first, share * range.width(motion_.value(quantity, at)));
     }
   double h = remaining;
@@ -226,30 +230,30 @@ double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& kno
   return h_;
 }
 
-const std::vector<ContactSeries>& DampedProof::series(const ModalPoint& at) {
+const std::vector<motion::ContactSeries>& DampedProof::series(const ModalPoint& at) {
   for (std::size_t c = 0; c < series_.size(); ++c) {
     series_[c].reset(count_ - 1);
     for (std::size_t f = 0; f < 4; ++f) {
       const Part part = part_of(*shown(c)[f], at);
-      std::copy(part.p.begin(), part.p.end(), series_[c].place(TurningPoints::watched[f]));
+      std::copy(part.p.begin(), part.p.end(), series_[c].place(events::TurningPoints::watched[f]));
     }
   }
   return series_;
 }
 
 /// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
-void DampedProof::see_begin(const ModalPoint& at, double time, TurningPoints& turning,
+void DampedProof::see_begin(const ModalPoint& at, double time, events::TurningPoints& turning,
                             LastTurns& turns) const {
   for (std::size_t c = 0; c < series_.size(); ++c)
     for (std::size_t f = 0; f < 4; ++f) {
       const ModalQuantity& quantity = *shown(c)[f];
       const double value = motion_.value(quantity, at);
-      const TurningPoints::Range& range = turning.range(c, TurningPoints::watched[f]);
+      const events::TurningPoints::Range& range = turning.range(c, events::TurningPoints::watched[f]);
       if (value >= range.least && value <= range.greatest) continue;
       const double rate = motion_.value(motion_.derivative(quantity), at);
-      if (const auto turn = turning.begins(c, TurningPoints::watched[f], value, rate, time))
+      if (const auto turn = turning.begins(c, events::TurningPoints::watched[f], value, rate, time))
         turns[turn->kind] = turn->time;
     }
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

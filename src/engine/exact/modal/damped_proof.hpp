@@ -9,7 +9,7 @@
 #include "engine/exact/modal/modal_flow.hpp"
 #include "motion/contact_series.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 class DampedProof {
  public:
@@ -24,10 +24,11 @@ class DampedProof {
 
   // Interface required by modal_flow.hpp.
   [[nodiscard]] double unit() const { return h_; }
-  [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
-  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
-  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
-  [[nodiscard]] const std::vector<ContactSeries>& series(const ModalPoint& at);
+  [[nodiscard]] double within(const ModalPoint& at, const events::TurningPoints& known, double x_end) const;
+  double expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
+                       double remaining);
+  void see_begin(const ModalPoint& at, double time, events::TurningPoints& turning, LastTurns& turns) const;
+  [[nodiscard]] const std::vector<motion::ContactSeries>& series(const ModalPoint& at);
 
  private:
   struct Watched {
@@ -41,10 +42,10 @@ class DampedProof {
     double rest = 0.0, ripple = 0.0, ripple_rate = 0.0;
   };
   [[nodiscard]] const ModalQuantity& watched(const Watched& guard) const {
-    return arming_.leading(guard.slot) > 0 ? guard.lead : guard.guard;
+    return active_guards_.leading(guard.slot) > 0 ? guard.lead : guard.guard;
   }
   [[nodiscard]] bool unknown(const Watched& guard) const {
-    return !arming_.armed(guard.slot) && arming_.leading(guard.slot) == 0;
+    return !active_guards_.armed(guard.slot) && active_guards_.leading(guard.slot) == 0;
   }
   [[nodiscard]] const Watched* find(std::size_t slot) const;
   [[nodiscard]] Eigen::Index slow_for(const ModalQuantity& f, Eigen::Index first, double most) const;
@@ -58,7 +59,7 @@ class DampedProof {
   [[nodiscard]] std::array<const ModalQuantity*, 4> shown(std::size_t contact) const;
 
   const DampedMotion& motion_;
-  Arming arming_;
+  events::ActiveGuards active_guards_;
   std::vector<Watched> guards_;
   Eigen::VectorXd amplitude_, size_;  // |y|, |l|
   Eigen::Index slow_ = 0;             // number of slow modes
@@ -66,7 +67,7 @@ class DampedProof {
   double h_ = 0.0, turn_ = 0.0;       // turn_: angle of slow waves
   bool full_ = false;                 // the next step treats all modes as slow
   Eigen::MatrixXcd terms_;            // y_k (l_k h)^j / j!, slow modes
-  std::vector<ContactSeries> series_;
+  std::vector<motion::ContactSeries> series_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -10,7 +10,7 @@
 #include "engine/exact/modal/unconstrained_modes.hpp"
 #include "linear/redundant_rows.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 using Index = Eigen::Index;
@@ -70,7 +70,8 @@ std::optional<Damping> dampers_of(const Model& model, double alpha, double beta)
   const Eigen::VectorXd inverse = root.cwiseInverse();
   const double rounded =
       rounding::of_many * (inverse.asDiagonal() * rest.terms * inverse.asDiagonal()).norm();
-  const EigenPairs pairs = symmetric_eigen(inverse.asDiagonal() * rest.more * inverse.asDiagonal());
+  const base::EigenPairs pairs =
+      base::symmetric_eigen(inverse.asDiagonal() * rest.more * inverse.asDiagonal());
   for (Index k = 0; k < pairs.values.size(); ++k) {
     if (std::abs(pairs.values[k]) <= rounded) continue;
     if (pairs.values[k] < 0.0) return std::nullopt;
@@ -90,7 +91,7 @@ std::optional<Damping> damping_of(const Model& model) {
   const double mk = product(model.mass, model.stiffness);
   normal << product(model.mass, model.mass), mk, mk, product(model.stiffness, model.stiffness);
   const Eigen::Vector2d right(product(model.mass, model.damping), product(model.stiffness, model.damping));
-  const auto factors = solve_regular(normal, right);
+  const auto factors = base::solve_regular(normal, right);
   if (!factors) return std::nullopt;
   return dampers_of(model, (*factors)[0], (*factors)[1]);
 }
@@ -108,7 +109,7 @@ bool holds_twice(const std::vector<ModalTerm>& terms) {
   Eigen::MatrixXd v(terms.front().v.size(), static_cast<Index>(rigid.size()));
   for (std::size_t i = 0; i < rigid.size(); ++i)
     v.col(static_cast<Index>(i)) = terms[static_cast<std::size_t>(rigid[i])].v;
-  return null_of_columns(v).cols() > 0;
+  return linear::null_of_columns(v).cols() > 0;
 }
 
 }  // namespace
@@ -127,7 +128,7 @@ std::string damped_refusal(const Model& model) {
   for (const Contact& contact : model.contacts) {
     if (!contact.obeys_coulomb()) return "laws of one's own";
     if (contact.sliding_point()) return "shear elements";
-    if (friction_varies(contact)) return named_friction(contact);
+    if (contact::friction_varies(contact)) return contact::named_friction(contact);
   }
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
     return "massless degrees of freedom";
@@ -156,8 +157,8 @@ DampedSystem::DampedSystem(const Model& model, const OpenBasis& basis, double t_
   damped_ = !dampers_.empty() || decay_.cwiseAbs().maxCoeff() > 0.0;
 }
 
-std::shared_ptr<const DampedState> DampedSystem::state(const Mode& mode) {
-  const std::vector<State> states = states_of(mode);
+std::shared_ptr<const DampedState> DampedSystem::state(const contact::ContactStates& mode) {
+  const std::vector<State> states = contact::states_of(mode);
   if (const auto* known = known_.find(states)) return *known;
   ++made_;
   auto made = std::make_shared<const DampedState>(make(mode));
@@ -167,7 +168,7 @@ std::shared_ptr<const DampedState> DampedSystem::state(const Mode& mode) {
 
 void DampedSystem::add_contact(std::size_t c, const ContactState& state, DampedState& out) const {
   const Contact& contact = model_.contacts[c];
-  const Rows r = rows(contact, state);
+  const Rows r = contact::rows(contact, state);
   ContactRows own;
   own.normal = r.normal;
   own.tangent = r.tangent;
@@ -200,11 +201,11 @@ void DampedSystem::find_constraints(DampedState& out) const {
     u.col(i) = term.u;
     v.col(i) = term.v;
   }
-  out.from_forces = solve_dense(v.transpose() * u, v.transpose());
+  out.from_forces = base::solve_dense(v.transpose() * u, v.transpose());
   // Soft motions satisfy the constraints, so that stiff modes have small contributions.
   const Vector soft = (basis_.square().array() + basis_.square()[std::min(n - 1, m + 3)]).inverse().matrix();
   const Eigen::MatrixXd weighted = soft.asDiagonal() * v;
-  out.static_shapes = weighted * solve_dense(v.transpose() * weighted, Eigen::MatrixXd::Identity(m, m));
+  out.static_shapes = weighted * base::solve_dense(v.transpose() * weighted, Eigen::MatrixXd::Identity(m, m));
 }
 
 void DampedSystem::find_losses(DampedState& out) const {
@@ -215,8 +216,8 @@ void DampedSystem::find_losses(DampedState& out) const {
   for (const ModalTerm& damper : dampers_)
     damped += damper.u * (damper.damping * (damper.v.transpose() * rates));
   const Eigen::MatrixXcd left = rates.transpose();
-  out.loss = complex_product(left, damped);
-  out.loss_turned = complex_product(left, damped.conjugate());
+  out.loss = base::complex_product(left, damped);
+  out.loss_turned = base::complex_product(left, damped.conjugate());
   RootSums& sums = out.sums;
   sums.plain.setZero(k, k);
   sums.turned.setZero(k, k);
@@ -234,7 +235,7 @@ void DampedSystem::find_losses(DampedState& out) const {
   out.loss_turned = out.loss_turned.cwiseProduct(sums.turned).eval();
 }
 
-DampedState DampedSystem::make(const Mode& mode) const {
+DampedState DampedSystem::make(const contact::ContactStates& mode) const {
   DampedState out;
   out.terms = dampers_;
   for (std::size_t c = 0; c < mode.size(); ++c) add_contact(c, mode[c], out);
@@ -260,4 +261,4 @@ DampedState DampedSystem::make(const Mode& mode) const {
   return out;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -18,7 +18,7 @@
 #include "engine/exact/modal/damped_modes.hpp"
 #include "engine/exact/modal/unconstrained_modes.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// Reason why a scene cannot be followed in complex modes; empty: it can.
 [[nodiscard]] std::string damped_refusal(const Model& model);
@@ -56,7 +56,7 @@ struct DampedState {
   [[nodiscard]] std::size_t bytes() const;
 };
 
-inline constexpr CacheBounds most_damped_states{1024, std::size_t{1} << 28};
+inline constexpr base::CacheBounds most_damped_states{1024, std::size_t{1} << 28};
 
 class DampedSystem {
  public:
@@ -64,7 +64,7 @@ class DampedSystem {
   DampedSystem(const Model& model, const OpenBasis& basis, double t_end);
 
   /// Data of a state, from the cache or new; its modes may have failed.
-  [[nodiscard]] std::shared_ptr<const DampedState> state(const Mode& mode);
+  [[nodiscard]] std::shared_ptr<const DampedState> state(const contact::ContactStates& mode);
   [[nodiscard]] long made() const { return made_; }
   /// c_j; dampers(): the dampers in addition to them.
   [[nodiscard]] const Vector& decay() const { return decay_; }
@@ -72,7 +72,7 @@ class DampedSystem {
   [[nodiscard]] bool damped() const { return damped_; }
 
  private:
-  [[nodiscard]] DampedState make(const Mode& mode) const;
+  [[nodiscard]] DampedState make(const contact::ContactStates& mode) const;
   void add_contact(std::size_t c, const ContactState& state, DampedState& out) const;
   void find_constraints(DampedState& out) const;
   void find_losses(DampedState& out) const;
@@ -83,8 +83,8 @@ class DampedSystem {
   Vector decay_;
   std::vector<ModalTerm> dampers_;
   bool damped_ = false;
-  BoundedCache<std::vector<State>, std::shared_ptr<const DampedState>> known_{most_damped_states};
+  base::BoundedCache<std::vector<State>, std::shared_ptr<const DampedState>> known_{most_damped_states};
   long made_ = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

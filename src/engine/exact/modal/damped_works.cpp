@@ -7,7 +7,7 @@
 #include "base/eigen_dense.hpp"
 #include "contact/law.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 /// (e^(s h) - 1) / s where |s| h < 1e-3: the next term is 1e-15 of the sum.
@@ -18,7 +18,7 @@ std::complex<double> grown(std::complex<double> s, double h) {
 
 }  // namespace
 
-void DampedWorks::start() {
+void DampedWorkIntegrals::start() {
   const Model& model = motion_.model();
   const double t = motion_.decision().jet.t;
   courses_meet_ = false;
@@ -40,16 +40,16 @@ void DampedWorks::start() {
   pair_loss();
 }
 
-void DampedWorks::pair_contact(std::size_t c) {
+void DampedWorkIntegrals::pair_contact(std::size_t c) {
   const Contact& contact = motion_.model().contacts[c];
   const ContactState& state = motion_.decision().mode[c];
   if (state.is_open()) return;
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   const TimeBasis& time = motion_.time();
   ContactPairings& pairings = contacts_[c];
-  if (!contact.normal_force_given()) pairings.pressing = paired(own.N, alone(time.constant(1.0)));
+  if (!contact.normal_force_given()) pairings.applied_normal_force = paired(own.N, alone(time.constant(1.0)));
   if (const int direction = slip_sign(state.state); direction != 0)
-    pairings.slip = paired(own.T, motion_.of(slip_rate(contact, direction), c));
+    pairings.slip = paired(own.T, motion_.of(contact::slip_rate(contact, direction), c));
   if (const Course moved = time.derivative(own.surface); !moved.isZero(0.0))
     pairings.surface = paired(own.T, alone(moved));
   if (contact.normal_damping != 0.0) {
@@ -59,7 +59,7 @@ void DampedWorks::pair_contact(std::size_t c) {
 }
 
 /// int q'^T C q', as far as it is known per segment.
-void DampedWorks::pair_loss() {
+void DampedWorkIntegrals::pair_loss() {
   loss_answers_.resize(0, 0);
   still_loss_.resize(0, 0);
   const Eigen::MatrixXd& rate = motion_.rate();
@@ -68,7 +68,7 @@ void DampedWorks::pair_loss() {
   for (const ModalTerm& damper : motion_.system().dampers())
     damped += damper.u * (damper.damping * (damper.v.transpose() * rate));
   const Eigen::MatrixXcd rates = (motion_.state().modes.shape * motion_.root().asDiagonal()).transpose();
-  const Eigen::MatrixXcd courses = complex_product(rates, damped.cast<std::complex<double>>());
+  const Eigen::MatrixXcd courses = base::complex_product(rates, damped.cast<std::complex<double>>());
   loss_answers_.resize(courses.rows(), courses.cols());
   for (Eigen::Index k = 0; k < courses.rows(); ++k)
     loss_answers_.row(k) =
@@ -77,12 +77,12 @@ void DampedWorks::pair_loss() {
   courses_meet_ = courses_meet_ || !still_loss_.isZero(0.0);
 }
 
-ModalQuantity DampedWorks::alone(Course course) const {
+ModalQuantity DampedWorkIntegrals::alone(Course course) const {
   return {Eigen::VectorXcd::Zero(motion_.root().size()), std::move(course)};
 }
 
-void DampedWorks::add_answers(const Eigen::VectorXcd& row, const Course& course,
-                              Eigen::MatrixXcd& answers) const {
+void DampedWorkIntegrals::add_answers(const Eigen::VectorXcd& row, const Course& course,
+                                      Eigen::MatrixXcd& answers) const {
   if (course.isZero(0.0) || row.isZero(0.0)) return;
   if (answers.size() == 0) answers.setZero(row.size(), course.size());
   const ComplexCourse complex = course.cast<std::complex<double>>();
@@ -91,7 +91,7 @@ void DampedWorks::add_answers(const Eigen::VectorXcd& row, const Course& course,
       answers.row(k) += row[k] * motion_.time().answer(-motion_.root()[k], complex).transpose();
 }
 
-DampedWorks::Pairing DampedWorks::paired(ModalQuantity f, ModalQuantity g) {
+DampedWorkIntegrals::Pairing DampedWorkIntegrals::paired(ModalQuantity f, ModalQuantity g) {
   Pairing pairing;
   add_answers(f.row, g.course, pairing.answers);
   add_answers(g.row, f.course, pairing.answers);
@@ -104,7 +104,8 @@ DampedWorks::Pairing DampedWorks::paired(ModalQuantity f, ModalQuantity g) {
 }
 
 /// int (Re a . y)(Re b . y)
-double DampedWorks::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, const Stretch& s) const {
+double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
+                                     const Stretch& s) const {
   const RootSums& sums = motion_.state().sums;
   const auto form = [&](const ModalPoint& at) {
     const Eigen::VectorXcd left = a.cwiseProduct(at.y), right = b.cwiseProduct(at.y);
@@ -123,14 +124,14 @@ double DampedWorks::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& 
 }
 
 /// Integral of the modes of a segment with its courses.
-double DampedWorks::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
+double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
   if (answers.size() == 0) return 0.0;
   return (s.to.y.transpose() * (answers * s.b_to) - s.from.y.transpose() * (answers * s.b_from))
       .value()
       .real();
 }
 
-double DampedWorks::integral(const Pairing& pairing, const Stretch& s) const {
+double DampedWorkIntegrals::integral(const Pairing& pairing, const Stretch& s) const {
   double sum = with_courses(pairing.answers, s);
   if (pairing.pairs) sum += of_pairs(pairing.f.row, pairing.g.row, s);
   if (pairing.courses) sum += pairing.f.course.dot(s.products * pairing.g.course);
@@ -138,7 +139,7 @@ double DampedWorks::integral(const Pairing& pairing, const Stretch& s) const {
 }
 
 /// int q'^T C q'
-double DampedWorks::loss(const Stretch& s) const {
+double DampedWorkIntegrals::loss(const Stretch& s) const {
   if (!motion_.system().damped()) return 0.0;
   const DampedState& state = motion_.state();
   const auto form = [&](const ModalPoint& at) {
@@ -157,21 +158,23 @@ double DampedWorks::loss(const Stretch& s) const {
   return sum;
 }
 
-void DampedWorks::add_contact(std::size_t c, const Stretch& s, Works& works) const {
+void DampedWorkIntegrals::add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const {
   const Contact& contact = motion_.model().contacts[c];
   const ContactState& state = motion_.decision().mode[c];
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   if (state.state == State::inside)
-    works.damping +=
-        inside_loss(contact, state.state, motion_.value(own.gap, s.from), motion_.value(own.gap, s.to));
+    works.damping += contact::inside_loss(contact, state.state, motion_.value(own.gap, s.from),
+                                          motion_.value(own.gap, s.to));
   const ContactPairings& pairings = contacts_[c];
-  if (pairings.pressing) works.pressing[c] -= integral(*pairings.pressing, s);
+  if (pairings.applied_normal_force)
+    works.applied_normal_force[c] -= integral(*pairings.applied_normal_force, s);
   if (pairings.slip) works.friction[c] += integral(*pairings.slip, s);
   if (pairings.surface) works.surface[c] -= integral(*pairings.surface, s);
   if (pairings.dashpot) works.damping += contact.normal_damping * integral(*pairings.dashpot, s);
 }
 
-void DampedWorks::add(const ModalPoint& from, const ModalPoint& to, Works& works) const {
+void DampedWorkIntegrals::add(const ModalPoint& from, const ModalPoint& to,
+                              motion::WorkIntegrals& works) const {
   if (!(to.time > from.time)) return;
   const TimeBasis& time = motion_.time();
   const Stretch s{from, to, time.at(from.time), time.at(to.time),
@@ -181,4 +184,4 @@ void DampedWorks::add(const ModalPoint& from, const ModalPoint& to, Works& works
   for (std::size_t c = 0; c < contacts_.size(); ++c) add_contact(c, s, works);
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -13,15 +13,15 @@
 #include "engine/exact/modal/damped_motion.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
-class DampedWorks {
+class DampedWorkIntegrals {
  public:
-  explicit DampedWorks(const DampedMotion& motion) : motion_(motion) {}
+  explicit DampedWorkIntegrals(const DampedMotion& motion) : motion_(motion) {}
 
   /// Called after motion.start.
   void start();
-  void add(const ModalPoint& from, const ModalPoint& to, Works& works) const;
+  void add(const ModalPoint& from, const ModalPoint& to, motion::WorkIntegrals& works) const;
 
  private:
   struct Stretch {
@@ -45,12 +45,12 @@ class DampedWorks {
   [[nodiscard]] static double with_courses(const Eigen::MatrixXcd& answers, const Stretch& s);
   [[nodiscard]] double integral(const Pairing& pairing, const Stretch& s) const;
   [[nodiscard]] double loss(const Stretch& s) const;
-  void add_contact(std::size_t c, const Stretch& s, Works& works) const;
+  void add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const;
 
   const DampedMotion& motion_;
   std::vector<Pairing> loads_;  // rates along active loads, and the courses of the loads
   struct ContactPairings {
-    std::optional<Pairing> pressing, slip, surface, dashpot;
+    std::optional<Pairing> applied_normal_force, slip, surface, dashpot;
   };
   std::vector<ContactPairings> contacts_;
   Eigen::MatrixXd still_loss_;     // b x b: courses only
@@ -58,4 +58,4 @@ class DampedWorks {
   bool courses_meet_ = false;      // at least two courses overlap in the segment
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -12,7 +12,7 @@
 #include "model/machine_units.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr std::size_t most_parts = 256;  // limit for parts of a step: each holds the amplitudes of all modes
@@ -22,8 +22,8 @@ constexpr int most_corrections = 4;      // corrections of an event time; one su
 
 }  // namespace
 
-ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-                         const ModalUse& use)
+ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& structure,
+                         motion::StateSystems& systems, double t_end, const ModalUse& use)
     : model_(model),
       structure_(structure),
       kept_(use.share != nullptr && use.share->memory != nullptr ? use.share->memory->of(model, t_end)
@@ -50,23 +50,23 @@ ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSys
 void ModalEngine::say_fallback(double t, const std::string& why) {
   if (fallbacks_++ > 0) return;
   warnings.push_back(fmt::format("the flow in modes gave way to the Taylor series at t = {:.6g}: {}",
-                                 said_time(model_, t), why));
+                                 model::time_in_scene_units(model_, t), why));
 }
 
 /// The series takes over within a segment: from its beginning, skipping the part already reported.
-Step ModalEngine::give_way() {
+engine::Step ModalEngine::give_way() {
   say_fallback(t_, "a guard stays too near to zero for what modes can prove");
   modal_ = false;
   taylor_.start(segment_);
-  Step step = taylor_.advance();
-  while (step.kind == Step::Kind::accepted && step.end <= t_) step = taylor_.advance();
+  engine::Step step = taylor_.advance();
+  while (step.kind == engine::Step::Kind::accepted && step.end <= t_) step = taylor_.advance();
   step.begin = std::max(step.begin, t_);
   return step;
 }
 
-std::string ModalEngine::follow(const Segment& segment) {
+std::string ModalEngine::follow(const engine::Segment& segment) {
   if (!basis_.failure().empty()) return basis_.failure();
-  const Decision& decision = *segment.decision;
+  const decide::Decision& decision = *segment.decision;
   // The decision leaves most motions unchanged: then q is kept, without rounding by a conversion to u and back.
   if (!modal_ || q_.size() == 0 || decision.u != end_.u || decision.v != end_.v) {
     q_ = basis_.amplitudes(decision.u);
@@ -76,9 +76,9 @@ std::string ModalEngine::follow(const Segment& segment) {
   return flow_->start(segment_, q_, rate_, now_);
 }
 
-void ModalEngine::start(const Segment& segment) {
+void ModalEngine::start(const engine::Segment& segment) {
   const std::string why = follow(segment);
-  const Decision& decision = *segment.decision;
+  const decide::Decision& decision = *segment.decision;
   modal_ = why.empty();
   if (!modal_) {
     say_fallback(decision.jet.t, why);
@@ -95,7 +95,7 @@ void ModalEngine::start(const Segment& segment) {
 /// Responses of slow modes to loads have terms far greater than the motion, which cancel. Computes the ratio of their
 /// rounding to the loss of a round trip through the modes for the motion so far.
 void ModalEngine::see_terms() {
-  const StructureEnergy energy = energy_of(q_, rate_);
+  const motion::StructureEnergy energy = energy_of(q_, rate_);
   swung_ = std::max(swung_, std::sqrt(2.0 * (energy.kinetic + energy.elastic)));
   reached_ = std::max({reached_, q_.norm(), model_.omega1 > 0.0 ? swung_ / model_.omega1 : 0.0});
   const SumTerms terms = flow_->terms(now_);
@@ -112,15 +112,16 @@ void ModalEngine::see_touches(const Passage& passage, double begin) {
       warnings.push_back(fmt::format(
           "contact '{}': its {} touches zero near {:.9g}; whether it falls there is not decidable "
           "at this precision; it counts as not fallen",
-          model_.contacts[contact_of_guard(slot)].name, to_string(segment_.decision->guards[slot].kind),
-          said_time(model_, begin)));
+          model_.contacts[contact::contact_of_guard(slot)].name,
+          contact::to_string(segment_.decision->guards[slot].kind),
+          model::time_in_scene_units(model_, begin)));
 }
 
 /// Time from here to the root of the guard according to u, v and the forces that the decision will use, and its
 /// uncertainty due to the rounding of the modes.
-ModalEngine::Fall ModalEngine::fall_of(std::size_t slot, const Point& point) const {
-  const std::size_t c = contact_of_guard(slot);
-  const ContactMotion now = motion_of(model_.contacts[c], c, *segment_.forcing, t_, point);
+ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motion::Point& point) const {
+  const std::size_t c = contact::contact_of_guard(slot);
+  const ContactMotion now = motion::motion_of(model_.contacts[c], c, *segment_.forcing, t_, point);
   const double slope = flow_->slope(slot, now_, point, t_);
   if (!(slope < 0.0)) return {};
   return {-segment_.decision->form(slot).value(now) / slope,
@@ -135,10 +136,10 @@ double ModalEngine::sharpen(std::size_t slot) {
   for (int i = 0;; ++i) {
     t_ = part.begin + part.length;
     Motion reached = motion(now_, true);
-    Point point;
+    motion::Point point;
     fill_rows(of_contacts_, now_, reached, point);
-    const Fall fall = fall_of(slot, point);
-    const bool sharp = std::abs(fall.off) <= std::max(0.25 * resolution_at(t_, 0.0), fall.blur);
+    const ZeroCrossing fall = crossing_of(slot, point);
+    const bool sharp = std::abs(fall.off) <= std::max(0.25 * motion::resolution_at(t_, 0.0), fall.blur);
     if (i == most_corrections || sharp) {
       fill(now_, std::move(reached), end_);
       return fall.blur;
@@ -148,9 +149,9 @@ double ModalEngine::sharpen(std::size_t slot) {
   }
 }
 
-Step ModalEngine::advance() {
+engine::Step ModalEngine::advance() {
   if (!modal_) return taylor_.advance();
-  Step step;
+  engine::Step step;
   step.begin = t_;
   parts_.clear();
   turns_.clear();
@@ -162,13 +163,14 @@ Step ModalEngine::advance() {
     ++proofs_;
     double end = t_ + passage.length;
     const bool last =
-        !passage.fired && (end >= segment_.end || segment_.end - end <= resolution_at(end, 0.0));
+        !passage.triggered && (end >= segment_.end || segment_.end - end <= motion::resolution_at(end, 0.0));
     if (last) end = segment_.end;
-    const bool stuck = !passage.fired && !last && !(passage.length > 0.01 * resolution_at(t_, 0.0));
+    const bool stuck =
+        !passage.triggered && !last && !(passage.length > 0.01 * motion::resolution_at(t_, 0.0));
     if (stuck && parts_.empty()) return give_way();
     if (stuck) break;
     if (!std::isfinite(passage.length)) {
-      step.kind = Step::Kind::failed;
+      step.kind = engine::Step::Kind::failed;
       step.end = t_;
       step.reason = "the motion overflows";
       return step;
@@ -180,11 +182,11 @@ Step ModalEngine::advance() {
     if (peaks_) flow_->find_turns(now_, t_, passage.length, parts_.size() == 1, turning_, last_turns_);
     now_ = std::move(next);
     t_ = end;
-    if (passage.fired) {
-      step.resolution = sharpen(*passage.fired);
-      step.kind = Step::Kind::event;
-      step.fired = {
-          {contact_of_guard(*passage.fired), segment_.decision->guards[*passage.fired].kind, passage.unseen}};
+    if (passage.triggered) {
+      step.resolution = sharpen(*passage.triggered);
+      step.kind = engine::Step::Kind::event;
+      step.triggered = {{contact::contact_of_guard(*passage.triggered),
+                         segment_.decision->guards[*passage.triggered].kind, passage.unseen}};
       break;
     }
     if (last) break;
@@ -195,8 +197,8 @@ Step ModalEngine::advance() {
     if (time < t_) turns_.push_back(time);  // the event was moved later
   std::sort(turns_.begin(), turns_.end());
   step.end = t_;
-  step.resolution = std::max(step.resolution, resolution_at(t_, parts_.back().length));
-  if (step.kind != Step::Kind::event) fill(now_, motion(now_, true), end_);
+  step.resolution = std::max(step.resolution, motion::resolution_at(t_, parts_.back().length));
+  if (step.kind != engine::Step::Kind::event) fill(now_, motion(now_, true), end_);
   see_terms();
   return step;
 }
@@ -216,11 +218,11 @@ ModalPoint ModalEngine::at(double t) const {
 }
 
 /// 1/2 (q'^2 + omega^2 q^2): no terms cancel.
-StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
+motion::StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
   return {0.5 * rate.squaredNorm(), 0.5 * basis_.square().dot(q.cwiseAbs2())};
 }
 
-void ModalEngine::set_energy(Point& point) const {
+void ModalEngine::set_energy(motion::Point& point) const {
   if (!flow_) return;
   const bool same = modal_ && q_.size() > 0 && point.u == end_.u && point.v == end_.v;
   point.energy =
@@ -234,14 +236,14 @@ ModalEngine::Motion ModalEngine::motion(const ModalPoint& z, bool accelerations)
 }
 
 /// Computes forces and energy from known u and v.
-void ModalEngine::fill_rest(const ModalPoint& z, const Motion& motion, Point& point) const {
+void ModalEngine::fill_rest(const ModalPoint& z, const Motion& motion, motion::Point& point) const {
   point.forces.resize(model_.force_count());
   flow_->forces(z, point);
   point.energy = energy_of(motion.q, motion.rate);
 }
 
 /// Computes u, v, a if present, and forces; keeps q of the end of the step.
-void ModalEngine::fill(const ModalPoint& z, Motion&& motion, Point& point) {
+void ModalEngine::fill(const ModalPoint& z, Motion&& motion, motion::Point& point) {
   if (motion.change.size() > 0) {
     basis_.motions({&motion.q, &motion.rate, &motion.change}, {&point.u, &point.v, &point.a});
   } else {
@@ -267,7 +269,8 @@ ModalEngine::Rows ModalEngine::rows_of(std::vector<int> dofs) const {
 }
 
 /// Same for a few rows, bit by bit; all other entries are NaN.
-void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, Point& point) const {
+void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion,
+                            motion::Point& point) const {
   Vector u, v, a;
   const bool accelerations = motion.change.size() > 0;
   if (accelerations)
@@ -287,7 +290,7 @@ void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion&
   fill_rest(z, motion, point);
 }
 
-void ModalEngine::evaluate(double t, Point& point) {
+void ModalEngine::evaluate(double t, motion::Point& point) {
   if (!modal_) {
     point.energy.reset();
     return taylor_.evaluate(t, point);
@@ -300,23 +303,23 @@ void ModalEngine::evaluate(double t, Point& point) {
   fill(z, motion(z, false), point);
 }
 
-void ModalEngine::evaluate_watched(double t, std::optional<std::size_t> /*contact*/, Point& point) {
+void ModalEngine::evaluate_watched(double t, std::optional<std::size_t> /*contact*/, motion::Point& point) {
   if (!modal_ || t == t_ || watched_.dofs.empty()) return evaluate(t, point);
   const ModalPoint z = at(t);
   fill_rows(watched_, z, motion(z, false), point);
 }
 
-void ModalEngine::accelerate(double t, Point& point) {
+void ModalEngine::accelerate(double t, motion::Point& point) {
   if (point.a.size() == 0) interpolate(t, point);
 }
 
-void ModalEngine::interpolate(double t, Point& point) {
+void ModalEngine::interpolate(double t, motion::Point& point) {
   if (!modal_ || t == t_) return evaluate(t, point);
   const ModalPoint z = at(t);
   fill(z, motion(z, true), point);
 }
 
-void ModalEngine::integrate(double from, double to, Works& works) {
+void ModalEngine::integrate(double from, double to, motion::WorkIntegrals& works) {
   if (!modal_) return taylor_.integrate(from, to, works);
   if (!has_worked_ || worked_to_ != from) worked_ = at(from);
   ModalPoint next = at(to);
@@ -326,11 +329,11 @@ void ModalEngine::integrate(double from, double to, Works& works) {
   has_worked_ = true;
 }
 
-StepFacts ModalEngine::facts() const {
-  StepFacts facts;
+engine::StepFacts ModalEngine::facts() const {
+  engine::StepFacts facts;
   if (modal_) {
     facts.turning_points = turns_;
-    facts.eigenvector_condition = std::max(flow_->dependence(), cancelled_);
+    facts.eigenvector_condition = std::max(flow_->eigenvector_condition(), cancelled_);
     if (!parts_.empty()) facts.fast_modes = this;
     return facts;
   }
@@ -339,36 +342,36 @@ StepFacts ModalEngine::facts() const {
   return facts;
 }
 
-std::optional<Ripple> ModalEngine::fast_mode_bound(double omega) const {
-  return flow_->ripple(parts_.front().at, t_ - parts_.front().begin, omega);
+std::optional<engine::FastModeBound> ModalEngine::fast_mode_bound(double omega) const {
+  return flow_->fast_mode_bound(parts_.front().at, t_ - parts_.front().begin, omega);
 }
 
 /// Each amplitude is a sum over the whole structure, with a rounding error relative to |q| instead of the amplitude:
 /// for velocities and accelerations w and w^2 times that, w the highest frequency. Forces: those of springs and
 /// dashpots.
-Ripple ModalEngine::term_sizes() const {
+engine::FastModeBound ModalEngine::term_sizes() const {
   const Motion m = motion(parts_.front().at, false);
   const auto norm = [](const Vector& of) { return of.norm(); };
   const double w = model_.omega_max, q = norm(m.q), rate = norm(m.rate);
-  Ripple r{q + rate / w, w * q + rate, w * (w * q + rate), Vector::Zero(model_.force_count())};
+  engine::FastModeBound r{q + rate / w, w * q + rate, w * (w * q + rate), Vector::Zero(model_.force_count())};
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const double N = contact.normal_stiffness * r.u + contact.normal_damping * r.v;
     const double T = contact.tangential_stiffness.value_or(0.0) * r.u;
     r.forces[static_cast<Eigen::Index>(model_.layout.normal(c))] = N * norm(basis_.normal(c));
     r.forces[static_cast<Eigen::Index>(model_.layout.tangent(c))] =
-        T * norm(basis_.tangent(c)) + static_friction(contact) * N * norm(basis_.normal(c));
+        T * norm(basis_.tangent(c)) + contact::static_friction(contact) * N * norm(basis_.normal(c));
   }
   return r;
 }
 
 double ModalEngine::residual() {
   if (!modal_) return taylor_.residual();
-  return imbalance(model_, structure_, *segment_.forcing, t_, end_);
+  return motion::imbalance(model_, structure_, *segment_.forcing, t_, end_);
 }
 
-StepperReport ModalEngine::report() {
-  StepperReport report{taylor_.counters, warnings, {}, {}};
+engine::StepperReport ModalEngine::report() {
+  engine::StepperReport report{taylor_.counters, warnings, {}, {}};
   report.counters.steps += steps_;
   report.counters.restarts += restarts_;
   report.counters.contact_states = flow_ ? flow_->states_made() : 0;
@@ -378,4 +381,4 @@ StepperReport ModalEngine::report() {
   return report;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -11,7 +11,7 @@
 #include "engine/exact/exact_engine.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// Intended use of the steps.
 struct ModalUse {
@@ -21,36 +21,36 @@ struct ModalUse {
   std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched; nullopt: all
 };
 
-class ModalEngine final : public Stepper, public DenseOutput, private FastModes {
+class ModalEngine final : public engine::Stepper, public engine::DenseOutput, private engine::FastModes {
  public:
   /// All arguments except t_end must outlive the object. Finds the open modes; without them the series follows the
   /// whole motion.
-  ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-              const ModalUse& use = {});
+  ModalEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
+              double t_end, const ModalUse& use = {});
 
-  void start(const Segment& segment) override;
-  [[nodiscard]] Step advance() override;
-  [[nodiscard]] DenseOutput& dense_output() override { return *this; }
+  void start(const engine::Segment& segment) override;
+  [[nodiscard]] engine::Step advance() override;
+  [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
   /// Without accelerations inside a step: a third of the work.
-  void evaluate(double t, Point& point) override;
-  void evaluate_watched(double t, std::optional<std::size_t> contact, Point& point) override;
-  void accelerate(double t, Point& point) override;
-  void set_energy(Point& point) const override;
-  void interpolate(double t, Point& point) override;
-  void integrate(double from, double to, Works& works) override;
+  void evaluate(double t, motion::Point& point) override;
+  void evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) override;
+  void accelerate(double t, motion::Point& point) override;
+  void set_energy(motion::Point& point) const override;
+  void interpolate(double t, motion::Point& point) override;
+  void integrate(double from, double to, motion::WorkIntegrals& works) override;
   [[nodiscard]] double residual() override;
   [[nodiscard]] double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                    std::size_t contact) const override {
     return modal_ ? 0.0 : taylor_.guard_error(guard, motion, contact);
   }
-  [[nodiscard]] StepFacts facts() const override;
+  [[nodiscard]] engine::StepFacts facts() const override;
   /// The modes in which the engine follows motions; null: none.
   [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
-  [[nodiscard]] StepperReport report() override;
+  [[nodiscard]] engine::StepperReport report() override;
 
  private:
-  [[nodiscard]] std::optional<Ripple> fast_mode_bound(double omega) const override;
-  [[nodiscard]] Ripple term_sizes() const override;
+  [[nodiscard]] std::optional<engine::FastModeBound> fast_mode_bound(double omega) const override;
+  [[nodiscard]] engine::FastModeBound term_sizes() const override;
   [[nodiscard]] double form_norm(const Combination& form) const override {
     return basis_.amplitudes_of(form).norm();
   }
@@ -59,10 +59,10 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
     ModalPoint at;
   };
   void say_fallback(double t, const std::string& why);
-  [[nodiscard]] Step give_way();
-  [[nodiscard]] std::string follow(const Segment& segment);
+  [[nodiscard]] engine::Step give_way();
+  [[nodiscard]] std::string follow(const engine::Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
-  [[nodiscard]] StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
+  [[nodiscard]] motion::StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
   /// Amplitudes of the open modes; change: empty if no accelerations are needed.
   struct Motion {
     Vector q, rate, change;
@@ -74,35 +74,35 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
     RowMatrix shapes;
   };
   [[nodiscard]] Rows rows_of(std::vector<int> dofs) const;
-  void fill(const ModalPoint& z, Motion&& motion, Point& point);
-  void fill_rest(const ModalPoint& z, const Motion& motion, Point& point) const;
-  void fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, Point& point) const;
-  struct Fall {
+  void fill(const ModalPoint& z, Motion&& motion, motion::Point& point);
+  void fill_rest(const ModalPoint& z, const Motion& motion, motion::Point& point) const;
+  void fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, motion::Point& point) const;
+  struct ZeroCrossing {
     double off = 0.0, blur = 0.0;  // times
   };
-  [[nodiscard]] Fall fall_of(std::size_t slot, const Point& point) const;
+  [[nodiscard]] ZeroCrossing crossing_of(std::size_t slot, const motion::Point& point) const;
   [[nodiscard]] double sharpen(std::size_t slot);
   void see_terms();
   void see_touches(const Passage& passage, double begin);
 
   const Model& model_;
-  const Structure& structure_;
+  const linear::SystemMatrices& structure_;
   std::shared_ptr<ModalMemory::Kept> kept_;  // null: no memory is in use
   std::unique_ptr<OpenBasis> own_basis_;
   const OpenBasis& basis_;
   Rows watched_, of_contacts_;
   std::unique_ptr<ModalFlow> flow_;  // null without open modes
-  ExactEngine taylor_;
-  TurningPoints turning_;
+  exact::ExactEngine taylor_;
+  events::TurningPoints turning_;
   bool peaks_;
   bool modal_ = false;
   long fallbacks_ = 0, steps_ = 0, proofs_ = 0, restarts_ = 0;
-  Segment segment_;
+  engine::Segment segment_;
   std::vector<Part> parts_;  // parts of the last step
   ModalPoint now_;           // point at the end of the last step
   double t_ = 0.0;
   Vector q_, rate_;  // at the end of the last step, with the corresponding motion
-  Point end_;
+  motion::Point end_;
   double reached_ = 0.0,
          swung_ = 0.0;      // greatest motion so far, displacements and velocities in the norm of M
   double cancelled_ = 1.0;  // ratio for the last step: see_terms()
@@ -114,4 +114,4 @@ class ModalEngine final : public Stepper, public DenseOutput, private FastModes 
   int touches_ = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -2,7 +2,7 @@
 
 #include "model/build.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 // Chosen: the transient of a search takes about 40 periods; runs to a section are short, and their works are not used.
@@ -12,9 +12,10 @@ constexpr double headroom = 8.0, much_longer = 1e4;
 
 std::shared_ptr<ModalMemory::Kept> ModalMemory::of(const Model& model, double t_end) {
   const bool serves = kept_ && t_end <= kept_->t_end && kept_->t_end <= much_longer * t_end &&
-                      same_contact_states(model, kept_->model) && same_load_directions(model, kept_->model);
+                      model::same_contact_states(model, kept_->model) &&
+                      model::same_load_directions(model, kept_->model);
   if (!serves) kept_ = std::make_shared<Kept>(model, headroom * t_end);
   return kept_;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -18,16 +18,16 @@
 #include "engine/exact/modal/oscillators.hpp"
 #include "engine/stepper.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 class ModalSystem;
 
 /// A stretch without an event, or up to one.
 struct Passage {
   double length = 0.0;
-  std::optional<std::size_t> fired;  ///< slot of the guard that reaches zero at its end
-  bool unseen = false;               ///< Fired::unseen
-  std::vector<std::size_t> touches;  ///< slots whose guards touch zero within rounding
+  std::optional<std::size_t> triggered;  ///< slot of the guard that reaches zero at its end
+  bool unseen = false;                   ///< Fired::unseen
+  std::vector<std::size_t> touches;      ///< slots whose guards touch zero within rounding
 };
 
 /// Last turning point of each kind: see TurningPoints::Turn.
@@ -44,7 +44,7 @@ class ModalFlow {
   virtual ~ModalFlow() = default;
   /// q, rate: amplitudes of the open modes at the beginning; now: the same motion in this flow's modes. The segment
   /// must live until the next start. Returns the reason why the segment cannot be followed; empty: it can.
-  [[nodiscard]] virtual std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+  [[nodiscard]] virtual std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                           ModalPoint& now) = 0;
   [[nodiscard]] virtual Passage pass(const ModalPoint& at, double remaining) = 0;
   /// Called after a passage without an event: updates the armed guards.
@@ -53,24 +53,26 @@ class ModalFlow {
   /// Amplitudes of the open modes, their rates and, if change is not null, their accelerations.
   virtual void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const = 0;
   /// N and T of all contacts, at a point whose u and v are known.
-  virtual void forces(const ModalPoint& at, Point& point) const = 0;
+  virtual void forces(const ModalPoint& at, motion::Point& point) const = 0;
   /// Rate of a guard at time t.
-  [[nodiscard]] virtual double slope(std::size_t slot, const ModalPoint& at, const Point& point,
+  [[nodiscard]] virtual double slope(std::size_t slot, const ModalPoint& at, const motion::Point& point,
                                      double t) const = 0;
   /// Sum of the magnitudes of a guard's terms.
   [[nodiscard]] virtual double magnitude(std::size_t slot, const ModalPoint& at) const = 0;
   /// Finds places in the last passage, which begins at time `begin`, where N, T, g and ut turn beyond their earlier
   /// ranges. observed: the beginning is that of a step and was already examined.
   virtual void find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                          TurningPoints& turning, LastTurns& turns) = 0;
-  virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const = 0;
+                          events::TurningPoints& turning, LastTurns& turns) = 0;
+  virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time,
+                         motion::WorkIntegrals& works) const = 0;
   /// Same meaning as FastModes::fast_mode_bound, from that point on for the given time.
-  [[nodiscard]] virtual std::optional<Ripple> ripple(const ModalPoint& from, double time,
-                                                     double omega) const = 0;
+  [[nodiscard]] virtual std::optional<engine::FastModeBound> fast_mode_bound(const ModalPoint& from,
+                                                                             double time,
+                                                                             double omega) const = 0;
   /// The uncoupled modes of contact states; null: the flow uses complex modes.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
   /// StepFacts::eigenvector_condition of the segment.
-  [[nodiscard]] virtual double dependence() const = 0;
+  [[nodiscard]] virtual double eigenvector_condition() const = 0;
   /// Sums of terms that cancel in the sum over modes.
   [[nodiscard]] virtual SumTerms terms(const ModalPoint& /*at*/) const { return {}; }
   /// Number of contact states whose modes were computed.
@@ -133,7 +135,7 @@ inline constexpr double fine_ripple = rounding::of_elimination, greatest_ripple 
 /// whose beginning was already examined.
 template <class Proof, class Advance>
 void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& from, double begin,
-                        double length, bool observed, TurningPoints& turning, LastTurns& turns) {
+                        double length, bool observed, events::TurningPoints& turning, LastTurns& turns) {
   if (!observed) proof.see_begin(from, begin, turning, turns);
   const double x_end = length / proof.unit(), x = proof.within(from, turning, x_end);
   if (x >= x_end) return;
@@ -165,15 +167,16 @@ void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& 
     if (!(done < length)) return;
     const double step = proof.expand_beside(point, turning, fine_ripple, length - done);
     if (!(step > 0.0)) return;
-    Series clock;
+    motion::Series clock;
     clock.t = begin + done;
     clock.scale = proof.unit();
-    const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
+    const auto ends = observed && !(done > 0.0) ? events::TurningPoints::Ends::first_part
+                                                : events::TurningPoints::Ends::part;
     turning.find(proof.series(point), clock, 0.0, step / proof.unit(), ends);
-    for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
+    for (const events::TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
     go(step);
     moved = true;
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -8,7 +8,7 @@
 #include "contact/law.hpp"
 #include "engine/events/first_root.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 /// True if the guard's rate, including its ripple, is negative from `from` to `to`, places in the step.
@@ -25,7 +25,7 @@ bool decreases(const GuardOnStep& guard, double h, double from, double to) {
     rest = std::max(rest, std::abs(entry));
   }
   q[0] -= guard.ripple_rate * h + rounding::of_elimination * rest;
-  return q[0] > 0.0 && first_fall(q.data(), q.size() - 1, 0.0).kind == FirstFall::Kind::none;
+  return q[0] > 0.0 && events::first_root(q.data(), q.size() - 1, 0.0).kind == events::FirstRoot::Kind::none;
 }
 
 /// The only zero between two places of the step, in closed form: secants, kept inside (Illinois).
@@ -58,7 +58,7 @@ double only_fall(const std::function<double(double)>& g, double from, double to)
 }
 
 /// Treats a guard that starts at zero.
-bool leave_zero(GuardOnStep& guard, std::size_t slot, Arming& arming, double& limit) {
+bool leave_zero(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& arming, double& limit) {
   std::vector<double>& q = guard.p;
   double scale = 0.0;
   for (const double entry : q) scale += std::abs(entry);
@@ -68,8 +68,8 @@ bool leave_zero(GuardOnStep& guard, std::size_t slot, Arming& arming, double& li
     arming.doubt(slot);
     return false;
   }
-  const FirstFall fall = first_fall(q.data(), q.size() - 1, 0.0);
-  if (fall.kind == FirstFall::Kind::fall) limit = std::min(limit, 0.9 * fall.x);
+  const events::FirstRoot fall = events::first_root(q.data(), q.size() - 1, 0.0);
+  if (fall.kind == events::FirstRoot::Kind::crossing) limit = std::min(limit, 0.9 * fall.x);
   return true;
 }
 
@@ -87,36 +87,36 @@ std::vector<double> derivative_of(const std::vector<double>& p, std::size_t m, d
 }
 
 bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
-                  const std::function<double(double)>& value_at, Arming& arming, Passage& passage,
-                  double& limit, double& event) {
+                  const std::function<double(double)>& value_at, events::ActiveGuards& arming,
+                  Passage& passage, double& limit, double& event) {
   std::vector<double>& p = guard.p;
   const std::size_t degree = p.size() - 1;
   const auto fires = [&](double x) {
     if (x >= event) return;
     event = x;
-    passage.fired = slot;
+    passage.triggered = slot;
     passage.unseen = !guard.armed;
   };
   if (guard.leading > 0) return leave_zero(guard, slot, arming, limit);
   if (!guard.armed) {
     p[0] += guard.noise + guard.slack;
-    const FirstFall fall = first_fall(p.data(), degree, 0.0);
-    if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
+    const events::FirstRoot fall = events::first_root(p.data(), degree, 0.0);
+    if (fall.kind == events::FirstRoot::Kind::crossing) fires(fall.x);
     return true;
   }
   if (guard.ripple == 0.0) {
-    const FirstFall fall = first_fall(p.data(), degree, guard.slack);
-    if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
-    if (fall.kind == FirstFall::Kind::touch) passage.touches.push_back(slot);
+    const events::FirstRoot fall = events::first_root(p.data(), degree, guard.slack);
+    if (fall.kind == events::FirstRoot::Kind::crossing) fires(fall.x);
+    if (fall.kind == events::FirstRoot::Kind::touch) passage.touches.push_back(slot);
     return true;
   }
   const double off = guard.slack + guard.ripple, start = p[0];
   p[0] = start - 2.0 * off;
-  const FirstFall doubtful = first_fall(p.data(), degree, 0.0);
-  if (doubtful.kind != FirstFall::Kind::fall || doubtful.x >= event) return true;
+  const events::FirstRoot doubtful = events::first_root(p.data(), degree, 0.0);
+  if (doubtful.kind != events::FirstRoot::Kind::crossing || doubtful.x >= event) return true;
   p[0] = start + off;
-  const FirstFall certain = first_fall(p.data(), degree, 0.0);
-  if (certain.kind == FirstFall::Kind::fall && decreases(guard, h, doubtful.x, certain.x))
+  const events::FirstRoot certain = events::first_root(p.data(), degree, 0.0);
+  if (certain.kind == events::FirstRoot::Kind::crossing && decreases(guard, h, doubtful.x, certain.x))
     fires(only_fall(value_at, doubtful.x, certain.x));
   else
     limit = std::min(limit, doubtful.x);
@@ -129,9 +129,9 @@ std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, 
     full = full || !doubted;
     return std::nullopt;
   }
-  if (limit < event) passage.fired.reset();
+  if (limit < event) passage.triggered.reset();
   const double x = std::min(limit, event > 1.0 ? 1.0 : event);
-  full = !passage.fired && x < 1e-3;
+  full = !passage.triggered && x < 1e-3;
   passage.length = h * x;
   return passage;
 }
@@ -142,8 +142,8 @@ double stays_above(const double* a, std::size_t degree, double x_end, double sig
   for (std::size_t j = 0; j <= degree; ++j, power *= x_end) p[j] = sign * a[j] * power;
   p[0] += above;
   if (!(p[0] > 0.0)) return 0.0;
-  const FirstFall fall = first_fall(p.data(), degree, 0.0);
-  return fall.kind == FirstFall::Kind::none ? 1.0 : fall.x;
+  const events::FirstRoot fall = events::first_root(p.data(), degree, 0.0);
+  return fall.kind == events::FirstRoot::Kind::none ? 1.0 : fall.x;
 }
 
 namespace {
@@ -182,8 +182,8 @@ Shown reduced(const Form& form, const ForceLaw& law, double& constant) {
 ModalProof::ModalProof(const Model& model, double alpha)
     : model_(model), alpha_(alpha), slow_(model.contacts.size()) {}
 
-void ModalProof::start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
-                       const Amplitudes& forces) {
+void ModalProof::start(const engine::Segment& segment, const StateModes& state,
+                       const Oscillators& oscillators, const Amplitudes& forces) {
   state_ = &state;
   oscillators_ = &oscillators;
   forces_ = &forces;
@@ -193,8 +193,8 @@ void ModalProof::start(const Segment& segment, const StateModes& state, const Os
   laws_.clear();
   surface_.clear();
   for (std::size_t c = 0; c < contacts; ++c) {
-    laws_.push_back(
-        force_law(model_.contacts[c], decision_->mode[c], segment.forcing->pressing(c, decision_->jet.t, 0)));
+    laws_.push_back(force_law(model_.contacts[c], decision_->mode[c],
+                              segment.forcing->applied_normal_force(c, decision_->jet.t, 0)));
     surface_.push_back(segment.forcing->surface(c, decision_->jet.t, 0));
   }
   const std::vector<double>& l = oscillators.real();
@@ -210,19 +210,20 @@ void ModalProof::start(const Segment& segment, const StateModes& state, const Os
   watch(segment, state);
 }
 
-void ModalProof::watch(const Segment& segment, const StateModes& state) {
+void ModalProof::watch(const engine::Segment& segment, const StateModes& state) {
   guards_.clear();
-  arming_.start(decision_->guards);
+  active_guards_.start(decision_->guards);
   const std::vector<double>& l = oscillators_->real();
   for (std::size_t slot = 0; slot < decision_->guards.size(); ++slot) {
-    if (arming_.idle(slot)) continue;
+    if (active_guards_.idle(slot)) continue;
     const Form& form = decision_->form(slot);
-    const std::size_t c = contact_of_guard(slot);
+    const std::size_t c = contact::contact_of_guard(slot);
     Watched guard;
     guard.slot = slot;
     guard.noise = decision_->guards[slot].noise;
     guard.form = reduced(form, laws_[c], guard.constant);
-    guard.constant += form.pressing * segment.forcing->pressing(c, decision_->jet.t, 0);
+    guard.constant +=
+        form.applied_normal_force * segment.forcing->applied_normal_force(c, decision_->jet.t, 0);
     guard.constant += guard.form.gap * model_.contacts[c].gap - guard.form.ut * surface_[c];
     const Amplitudes &n = state.normal[c], &t = state.tangent[c];
     const auto mix = [&](double a, double b, Amplitudes& out) {
@@ -253,7 +254,7 @@ double ModalProof::magnitude(std::size_t slot, const ModalPoint& at) const {
 
 /// Value of the guard's leading derivative.
 double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
-  const std::size_t order = arming_.leading(guard.slot);
+  const std::size_t order = active_guards_.leading(guard.slot);
   double sum = 0.0;
   const auto add = [&](auto z, auto rate, auto p, auto l, auto place, auto slope) {
     for (std::size_t j = 0; j < order; ++j) {
@@ -274,7 +275,8 @@ double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const 
 
 void ModalProof::rearm(const ModalPoint& at) {
   for (const Watched& guard : guards_)
-    if (!arming_.armed(guard.slot)) arming_.see(guard.slot, value(guard, at), 4.0 * guard.noise);
+    if (!active_guards_.armed(guard.slot))
+      active_guards_.see(guard.slot, value(guard, at), 4.0 * guard.noise);
 }
 
 Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
@@ -370,7 +372,7 @@ void ModalProof::bound_ripples() {
 
 /// Computes the guard's slow part, and its error bound without the ripple.
 void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
-  const std::size_t c = contact_of_guard(guard.slot);
+  const std::size_t c = contact::contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);
   slow_[c].combine(decision_->form(guard.slot), p.data());
   const Shown& form = guard.form;
@@ -390,21 +392,21 @@ bool ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& pas
   on_step.ripple = guard.ripple;
   on_step.ripple_rate = guard.ripple_rate;
   on_step.noise = guard.noise;
-  on_step.leading = arming_.leading(guard.slot);
-  on_step.armed = arming_.armed(guard.slot);
+  on_step.leading = active_guards_.leading(guard.slot);
+  on_step.armed = active_guards_.armed(guard.slot);
   if (on_step.leading > 0) on_step.p = derivative_of(on_step.p, on_step.leading, h_);
   ModalPoint point;
   const auto value_at = [&](double x) {
     oscillators_->advance(at, *forces_, h_ * x, point);
     return value(guard, point);
   };
-  return settle_guard(on_step, guard.slot, h_, value_at, arming_, passage, limit, event);
+  return settle_guard(on_step, guard.slot, h_, value_at, active_guards_, passage, limit, event);
 }
 
 Passage ModalProof::pass(const ModalPoint& at, double remaining) {
   measure(at);
   for (const Watched& guard : guards_)
-    if (leaves(guard) && !(guard.now > 0.0)) arming_.doubt(guard.slot);
+    if (leaves(guard) && !(guard.now > 0.0)) active_guards_.doubt(guard.slot);
   choose_step(remaining);
   bound_ripples();
   expand(at);
@@ -416,4 +418,4 @@ Passage ModalProof::pass(const ModalPoint& at, double remaining) {
   return done ? *done : pass(at, remaining);
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

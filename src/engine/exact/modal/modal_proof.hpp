@@ -21,7 +21,7 @@
 #include "engine/exact/modal/modal_system.hpp"
 #include "motion/contact_series.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 // Possible and certain zeros on a step of a guard that is a polynomial plus a ripple.
 //
@@ -47,7 +47,7 @@ struct GuardOnStep {
 /// event: place of the first zero so far; limit: place up to which no guard reaches zero. value_at(x): the guard in
 /// closed form. False: the prediction by the guard's derivatives at the start is refuted and no longer used.
 [[nodiscard]] bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
-                                const std::function<double(double)>& value_at, Arming& arming,
+                                const std::function<double(double)>& value_at, events::ActiveGuards& arming,
                                 Passage& passage, double& limit, double& event);
 
 /// Passage of the step once its guards are settled, limited by `limit` and `event`; nullopt: the step has to be
@@ -70,7 +70,7 @@ class ModalProof {
   ModalProof(const Model& model, double alpha);
 
   /// forces: constant, in modes. The state must live until the next start.
-  void start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
+  void start(const engine::Segment& segment, const StateModes& state, const Oscillators& oscillators,
              const Amplitudes& forces);
   [[nodiscard]] Passage pass(const ModalPoint& at, double remaining);
   /// Called after a passage without an event: updates the armed guards.
@@ -82,10 +82,13 @@ class ModalProof {
 
   // Interface required by modal_flow.hpp.
   [[nodiscard]] double unit() const { return h_; }
-  [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
-  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
-  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
-  [[nodiscard]] const std::vector<ContactSeries>& series(const ModalPoint& /*at*/) const { return slow_; }
+  [[nodiscard]] double within(const ModalPoint& at, const events::TurningPoints& known, double x_end) const;
+  double expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
+                       double remaining);
+  void see_begin(const ModalPoint& at, double time, events::TurningPoints& turning, LastTurns& turns) const;
+  [[nodiscard]] const std::vector<motion::ContactSeries>& series(const ModalPoint& /*at*/) const {
+    return slow_;
+  }
 
  private:
   static constexpr double turn = 4.0;           // rad of the fastest slow mode in a step
@@ -107,7 +110,7 @@ class ModalProof {
   using Watch4 = std::array<double, 4>;  // N, T, g and ut, as in TurningPoints::watched
   [[nodiscard]] Watch4 ripples(std::size_t contact, bool of_rate) const;
   [[nodiscard]] Watch4 one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
-  void watch(const Segment& segment, const StateModes& state);
+  void watch(const engine::Segment& segment, const StateModes& state);
   [[nodiscard]] double value(const Watched& guard, const ModalPoint& at) const;
   [[nodiscard]] double derivative(const Watched& guard, const ModalPoint& at) const;
   void measure(const ModalPoint& at);
@@ -123,12 +126,12 @@ class ModalProof {
   [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
                             double& event);
   /// The guard starts at zero, and its leading derivative is watched.
-  [[nodiscard]] bool leaves(const Watched& guard) const { return arming_.leading(guard.slot) > 0; }
+  [[nodiscard]] bool leaves(const Watched& guard) const { return active_guards_.leading(guard.slot) > 0; }
   [[nodiscard]] bool unknown(const Watched& guard) const {
-    return !arming_.armed(guard.slot) && !leaves(guard);
+    return !active_guards_.armed(guard.slot) && !leaves(guard);
   }
   [[nodiscard]] double order_of(const Watched& guard) const {
-    return static_cast<double>(arming_.leading(guard.slot));
+    return static_cast<double>(active_guards_.leading(guard.slot));
   }
   [[nodiscard]] double weight_of(const Watched& guard, std::size_t k) const;
 
@@ -137,21 +140,21 @@ class ModalProof {
   const StateModes* state_ = nullptr;
   const Oscillators* oscillators_ = nullptr;
   const Amplitudes* forces_ = nullptr;
-  const Decision* decision_ = nullptr;
+  const decide::Decision* decision_ = nullptr;
   std::vector<ForceLaw> laws_;
   std::vector<double> surface_;
-  Arming arming_;
+  events::ActiveGuards active_guards_;
   std::vector<Watched> guards_;
   std::vector<std::vector<double>> still_normal_, still_tangent_;  // sums of a_k p_k / l_k from k on
   std::vector<double> amplitude_, pair_amplitude_, coefficients_;
   std::vector<Complex> pair_coefficients_;
   std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes, for rounding bounds
   std::vector<Size> normal_rest_, tangent_rest_;
-  std::vector<ContactSeries> slow_;
+  std::vector<motion::ContactSeries> slow_;
   std::vector<bool> pair_slow_;
   std::size_t fast_ = 0, degree_ = 0, count_ = 0;  // number of slow modes; degree and length of their series
   double h_ = 0.0;
   bool full_ = false;  // the next step treats all modes as slow
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -11,13 +11,13 @@
 #include "contact/law.hpp"
 #include "engine/exact/modal/modal_proof.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
-ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing) {
-  const Rows r = rows(contact, state);
+ForceLaw force_law(const Contact& contact, const ContactState& state, double applied) {
+  const Rows r = contact::rows(contact, state);
   ForceLaw law;
   law.N_gap = -r.normal.gap;
-  law.N_constant = -(r.normal.pressing * pressing + r.normal.constant);
+  law.N_constant = -(r.normal.applied_normal_force * applied + r.normal.constant);
   law.T_gap = -r.tangent.N * law.N_gap;
   law.T_ut = -r.tangent.ut;
   law.T_constant = -(r.tangent.N * law.N_constant + r.tangent.constant);
@@ -36,7 +36,7 @@ std::string coupling_refusal(const Model& model) {
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.sliding_point()) return "shear elements";
     if (contact.normal_damping != 0.0) return "dashpots of contacts";
-    if (friction_varies(contact)) return named_friction(contact);
+    if (contact::friction_varies(contact)) return contact::named_friction(contact);
   }
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
     return "massless degrees of freedom";
@@ -66,8 +66,8 @@ std::size_t most_state_springs(const Model& model) {
   return count;
 }
 
-Amplitudes constant_forces(const Model& model, const StateModes& state, const Mode& mode,
-                           const Forcing& forcing, double t) {
+Amplitudes constant_forces(const Model& model, const StateModes& state, const contact::ContactStates& mode,
+                           const motion::Forcing& forcing, double t) {
   Amplitudes forces = state.spectrum.zero();
   const auto add = [&](const Amplitudes& from, double factor) {
     if (factor == 0.0) return;
@@ -78,7 +78,7 @@ Amplitudes constant_forces(const Model& model, const StateModes& state, const Mo
     add(state.from_load[i], model.loads[i].history.piece(t).value(t));
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    const ForceLaw law = force_law(contact, mode[c], forcing.pressing(c, t, 0));
+    const ForceLaw law = force_law(contact, mode[c], forcing.applied_normal_force(c, t, 0));
     const double gap = contact.gap, surface = forcing.surface(c, t, 0);
     if (!contact.normal_force_given()) add(state.from_normal[c], -(law.N_constant + law.N_gap * gap));
     add(state.from_tangent[c], -(law.T_constant + law.T_gap * gap - law.T_ut * surface));
@@ -92,8 +92,8 @@ ModalSystem::ModalSystem(const Model& model, const OpenBasis& basis)
       poles_(basis.square()),
       alpha_(model.damping.coeff(0, 0) / model.mass.coeff(0, 0)) {}
 
-std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
-  const std::vector<State> states = states_of(mode);
+std::shared_ptr<const StateModes> ModalSystem::state(const contact::ContactStates& mode) {
+  const std::vector<State> states = contact::states_of(mode);
   if (const auto* known = known_.find(states)) return *known;
   ++made_;
   auto made = std::make_shared<const StateModes>(make(mode));
@@ -105,7 +105,7 @@ std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
 }
 
 /// The matrix is a diagonal plus at most two columns for each contact.
-StateModes ModalSystem::make(const Mode& mode) const {
+StateModes ModalSystem::make(const contact::ContactStates& mode) const {
   std::vector<Vector> u, v;
   bool symmetric = true;
   const auto add = [&](const Vector& force, const Vector& form, double stiffness) {
@@ -191,17 +191,18 @@ ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
 ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
   const Watch4 ripple = ripples(c, true);
-  const auto goes = [&](ContactSeries::Field rate, double off) {
+  const auto goes = [&](motion::ContactSeries::Field rate, double off) {
     const double* a = slow_[c].of(rate);
     return stays_above(a, degree_, x_end, a[0] < 0.0 ? -1.0 : 1.0, -off, p);
   };
-  const double gap = goes(ContactSeries::vn, ripple[2]), ut = goes(ContactSeries::vt, ripple[3]);
+  const double gap = goes(motion::ContactSeries::vn, ripple[2]),
+               ut = goes(motion::ContactSeries::vt, ripple[3]);
   const double N = law.N_gap != 0.0 ? gap : 1.0;
   const double T = std::min(law.T_gap != 0.0 ? gap : 1.0, law.T_ut != 0.0 ? ut : 1.0);
   return {N, T, gap, ut};
 }
 
-double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, double x_end) const {
+double ModalProof::within(const ModalPoint& /*at*/, const events::TurningPoints& known, double x_end) const {
   if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
   std::vector<double> p(degree_ + 1);
   double safe = 1.0;  // part of x_end
@@ -210,8 +211,8 @@ double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, 
     const Watch4 unsure = of_law(laws_[c], rounding::of_elimination * normal_size_[c].place,
                                  rounding::of_elimination * tangent_size_[c].place);
     for (std::size_t f = 0; f < ripple.size(); ++f) {
-      const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
-      const double* a = slow_[c].of(TurningPoints::watched[f]);
+      const events::TurningPoints::Range& range = known.range(c, events::TurningPoints::watched[f]);
+      const double* a = slow_[c].of(events::TurningPoints::watched[f]);
       // see_begin sums the slope in another order: if the slope is only rounding, its sign may differ.
       if (range.is_left(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
       if (forth[f] >= safe) continue;
@@ -225,7 +226,7 @@ double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, 
 }
 
 /// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
-void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& turning,
+void ModalProof::see_begin(const ModalPoint& at, double time, events::TurningPoints& turning,
                            LastTurns& turns) const {
   for (std::size_t c = 0; c < laws_.size(); ++c) {
     const Shown now = shown(c, at);
@@ -233,12 +234,12 @@ void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& tur
     const Watch4 value{law.N(now.gap), law.T(now.gap, now.ut), now.gap, now.ut};
     const Watch4 rate{law.N_rate(now.vn), law.T_rate(now.vn, now.vt), now.vn, now.vt};
     for (std::size_t f = 0; f < value.size(); ++f)
-      if (const auto peak = turning.begins(c, TurningPoints::watched[f], value[f], rate[f], time))
+      if (const auto peak = turning.begins(c, events::TurningPoints::watched[f], value[f], rate[f], time))
         turns[peak->kind] = peak->time;
   }
 }
 
-double ModalProof::expand_beside(const ModalPoint& at, const TurningPoints& known, double share,
+double ModalProof::expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
                                  double remaining) {
   oscillators_->amplitudes(at, *forces_, amplitude_, pair_amplitude_);
   const std::size_t n = amplitude_.size();
@@ -247,15 +248,15 @@ double ModalProof::expand_beside(const ModalPoint& at, const TurningPoints& know
     const ForceLaw& law = laws_[c];
     const Shown now = shown(c, at);
     const double N = law.N(now.gap), T = law.T(now.gap, now.ut);
-    const auto allowed = [&](ContactSeries::Field field, double value, double factor) {
+    const auto allowed = [&](motion::ContactSeries::Field field, double value, double factor) {
       return factor == 0.0 ? Oscillators::never
                            : share * known.range(c, field).width(value) / std::abs(factor);
     };
-    const double normal =
-        std::min({allowed(ContactSeries::gap, now.gap, 1.0), allowed(ContactSeries::N, N, law.N_gap),
-                  allowed(ContactSeries::T, T, law.T_gap)});
-    const double tangent =
-        std::min(allowed(ContactSeries::slide, now.ut, 1.0), allowed(ContactSeries::T, T, law.T_ut));
+    const double normal = std::min({allowed(motion::ContactSeries::gap, now.gap, 1.0),
+                                    allowed(motion::ContactSeries::N, N, law.N_gap),
+                                    allowed(motion::ContactSeries::T, T, law.T_gap)});
+    const double tangent = std::min(allowed(motion::ContactSeries::slide, now.ut, 1.0),
+                                    allowed(motion::ContactSeries::T, T, law.T_ut));
     double normal_sum = 0.0, tangent_sum = 0.0;
     std::size_t k = n;
     for (; k > first; --k) {
@@ -354,20 +355,21 @@ void ModalProof::expand(const ModalPoint& at) {
     tangent_rest_[c] = sum(state_->tangent[c], still_tangent_[c][fast_], t);
     n[0] += model_.contacts[c].gap;
     t[0] -= surface_[c];
-    ContactSeries& slow = slow_[c];
+    motion::ContactSeries& slow = slow_[c];
     slow.reset(degree_);
     const ForceLaw& law = laws_[c];
     for (std::size_t j = 0; j <= degree_; ++j) {
       const double rate = static_cast<double>(j + 1) / h_;
-      slow.place(ContactSeries::gap)[j] = n[j];
-      slow.place(ContactSeries::ut)[j] = slow.place(ContactSeries::slide)[j] = t[j];
-      slow.place(ContactSeries::vn)[j] = rate * n[j + 1];
-      slow.place(ContactSeries::vt)[j] = rate * t[j + 1];
-      slow.place(ContactSeries::an)[j] = rate * n[j + 2] * static_cast<double>(j + 2) / h_;
-      slow.place(ContactSeries::N)[j] = law.N_gap * n[j] + (j == 0 ? law.N_constant : 0.0);
-      slow.place(ContactSeries::T)[j] = law.T_gap * n[j] + law.T_ut * t[j] + (j == 0 ? law.T_constant : 0.0);
+      slow.place(motion::ContactSeries::gap)[j] = n[j];
+      slow.place(motion::ContactSeries::ut)[j] = slow.place(motion::ContactSeries::slide)[j] = t[j];
+      slow.place(motion::ContactSeries::vn)[j] = rate * n[j + 1];
+      slow.place(motion::ContactSeries::vt)[j] = rate * t[j + 1];
+      slow.place(motion::ContactSeries::an)[j] = rate * n[j + 2] * static_cast<double>(j + 2) / h_;
+      slow.place(motion::ContactSeries::N)[j] = law.N_gap * n[j] + (j == 0 ? law.N_constant : 0.0);
+      slow.place(motion::ContactSeries::T)[j] =
+          law.T_gap * n[j] + law.T_ut * t[j] + (j == 0 ? law.T_constant : 0.0);
     }
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

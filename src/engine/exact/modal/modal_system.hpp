@@ -15,7 +15,7 @@
 #include "engine/exact/modal/unconstrained_modes.hpp"
 #include "motion/forcing.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// Forces of one contact as functions of its gap and its slide; coefficients are zero if a state has no force.
 struct ForceLaw {
@@ -28,7 +28,7 @@ struct ForceLaw {
   [[nodiscard]] double T_rate(double vn, double vt) const { return T_gap * vn + T_ut * vt; }
 };
 /// pressing: constant applied normal force of a slider.
-[[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing);
+[[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double applied);
 
 /// Reason why damping or contacts couple the modes of contact states; empty: they do not.
 [[nodiscard]] std::string coupling_refusal(const Model& model);
@@ -47,11 +47,12 @@ struct StateModes {
 };
 
 /// Y p: modal forces by loads and the constant parts of contact forces in the state, from t on.
-[[nodiscard]] Amplitudes constant_forces(const Model& model, const StateModes& state, const Mode& mode,
-                                         const Forcing& forcing, double t);
+[[nodiscard]] Amplitudes constant_forces(const Model& model, const StateModes& state,
+                                         const contact::ContactStates& mode, const motion::Forcing& forcing,
+                                         double t);
 
 /// Limit of states in memory: those of a motion that returns to its states.
-inline constexpr CacheBounds most_state_modes{1024, std::size_t{1} << 28};
+inline constexpr base::CacheBounds most_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {
  public:
@@ -61,7 +62,7 @@ class ModalSystem {
   [[nodiscard]] double alpha() const { return alpha_; }
   [[nodiscard]] const OpenBasis& basis() const { return basis_; }
   /// The modes of a state, from the cache or new. Its spectrum may have failed.
-  [[nodiscard]] std::shared_ptr<const StateModes> state(const Mode& mode);
+  [[nodiscard]] std::shared_ptr<const StateModes> state(const contact::ContactStates& mode);
   /// Number of states computed.
   [[nodiscard]] long made() const { return made_; }
 
@@ -70,10 +71,10 @@ class ModalSystem {
   const OpenBasis& basis_;
   Poles poles_;
   double alpha_ = 0.0;
-  [[nodiscard]] StateModes make(const Mode& mode) const;
+  [[nodiscard]] StateModes make(const contact::ContactStates& mode) const;
 
-  BoundedCache<std::vector<State>, std::shared_ptr<const StateModes>> known_{most_state_modes};
+  base::BoundedCache<std::vector<State>, std::shared_ptr<const StateModes>> known_{most_state_modes};
   long made_ = 0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -6,7 +6,7 @@
 #include "contact/law.hpp"
 #include "engine/exact/modal/mode_pairs.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr double least_velocity =
@@ -14,7 +14,7 @@ constexpr double least_velocity =
 constexpr double no_frequency = 1e-12, least_frequency = 1e-3;  // relative to omega^2 t_end^2
 
 template <class S>
-using Ends = ModalWorks::Ends<S>;
+using Ends = ModalWorkIntegrals::Ends<S>;
 
 template <class S>
 struct Integrals {
@@ -58,7 +58,7 @@ double sum_over(const Amplitudes& row, const Real& real, const Pair& pair) {
 
 }  // namespace
 
-bool ModalWorks::suits(const Spectrum& spectrum, double t_end) {
+bool ModalWorkIntegrals::suits(const Spectrum& spectrum, double t_end) {
   const double square = t_end * t_end;
   const auto bad = [&](double l) {
     return std::abs(l) * square > no_frequency && l * square < least_frequency;
@@ -68,8 +68,8 @@ bool ModalWorks::suits(const Spectrum& spectrum, double t_end) {
                       [&](Complex l) { return size_of(l) * square < least_frequency; });
 }
 
-void ModalWorks::start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
-                       const Amplitudes& forces, double t_end) {
+void ModalWorkIntegrals::start(const engine::Segment& segment, const StateModes& state,
+                               const Oscillators& oscillators, const Amplitudes& forces, double t_end) {
   decision_ = segment.decision;
   state_ = &state;
   oscillators_ = &oscillators;
@@ -85,7 +85,8 @@ void ModalWorks::start(const Segment& segment, const StateModes& state, const Os
     if (slip_sign(decision_->mode[c].state) != 0) slipping_.push_back(c);
 }
 
-ModalWorks::Stretch ModalWorks::stretch(const ModalPoint& from, const ModalPoint& to, double time) const {
+ModalWorkIntegrals::Stretch ModalWorkIntegrals::stretch(const ModalPoint& from, const ModalPoint& to,
+                                                        double time) const {
   Stretch s{from, to, time, {}, {}, {}, {}};
   const std::vector<double>& l = oscillators_->real();
   for (std::size_t k = 0; k < l.size(); ++k) {
@@ -112,12 +113,12 @@ ModalWorks::Stretch ModalWorks::stretch(const ModalPoint& from, const ModalPoint
 }
 
 /// Contribution of drifts to int z_k' z_l'.
-double ModalWorks::with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const {
+double ModalWorkIntegrals::with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const {
   const auto change = [&](std::size_t i) { return s.real[i].y1 - s.real[i].y0; };
   return product * (s.drift[k] * s.drift[l] * s.time + s.drift[k] * change(l) + s.drift[l] * change(k));
 }
 
-std::vector<std::size_t> ModalWorks::moving(const Stretch& s) const {
+std::vector<std::size_t> ModalWorkIntegrals::moving(const Stretch& s) const {
   std::vector<double> velocity;
   for (std::size_t k = 0; k < s.real.size(); ++k) {
     const Ends<double>& y = s.real[k];
@@ -133,7 +134,7 @@ std::vector<std::size_t> ModalWorks::moving(const Stretch& s) const {
 }
 
 /// Adds two modes, at least one of which has no frequency.
-void ModalWorks::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const {
+void ModalWorkIntegrals::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const {
   const Integrals<double> both = integrals(s.real[k], s.real[l], alpha_);
   const double x = state_->spectrum.product(k, l);
   sums.rates += 2.0 * x * both.rates + 2.0 * with_drifts(s, k, l, x);
@@ -143,7 +144,8 @@ void ModalWorks::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& s
 }
 
 /// Lanes of all modes up to the last moving one; zero for modes that do not move or have no frequency.
-ModalWorks::Lanes ModalWorks::lanes(const Stretch& s, const std::vector<std::size_t>& oscillating) const {
+ModalWorkIntegrals::Lanes ModalWorkIntegrals::lanes(const Stretch& s,
+                                                    const std::vector<std::size_t>& oscillating) const {
   const Eigen::Index n = oscillating.empty() ? 0 : static_cast<Eigen::Index>(oscillating.back()) + 1;
   Lanes lanes;
   lanes.l = Eigen::Map<const Eigen::ArrayXd>(oscillators_->real().data(), n);
@@ -160,7 +162,7 @@ ModalWorks::Lanes ModalWorks::lanes(const Stretch& s, const std::vector<std::siz
 }
 
 /// Adds all oscillating modes, each with all those before it.
-void ModalWorks::add_oscillating(const Lanes& lanes, Sums& sums) const {
+void ModalWorkIntegrals::add_oscillating(const Lanes& lanes, Sums& sums) const {
   const ModePairs& pairs = state_->pairs;
   const Eigen::Index n = lanes.l.size();
   const ModeEnds ends{lanes.l.data(), lanes.y0.data(), lanes.r0.data(), lanes.y1.data(), lanes.r1.data()};
@@ -176,7 +178,8 @@ void ModalWorks::add_oscillating(const Lanes& lanes, Sums& sums) const {
   }
 }
 
-void ModalWorks::add_real(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const {
+void ModalWorkIntegrals::add_real(const Stretch& s, const std::vector<std::size_t>& moving,
+                                  Sums& sums) const {
   const Spectrum& spectrum = state_->spectrum;
   std::vector<std::size_t> oscillating, resting;
   for (const std::size_t k : moving) {
@@ -196,7 +199,8 @@ void ModalWorks::add_real(const Stretch& s, const std::vector<std::size_t>& movi
 }
 
 /// Adds pairs with real modes, with each other and with each other's conjugates.
-void ModalWorks::add_pairs(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const {
+void ModalWorkIntegrals::add_pairs(const Stretch& s, const std::vector<std::size_t>& moving,
+                                   Sums& sums) const {
   const Spectrum& spectrum = state_->spectrum;
   const std::size_t rank = spectrum.rank();
   const VectorProducts& own = spectrum.products();
@@ -239,7 +243,7 @@ void ModalWorks::add_pairs(const Stretch& s, const std::vector<std::size_t>& mov
   }
 }
 
-double ModalWorks::gap_area(const Stretch& s, std::size_t c) const {
+double ModalWorkIntegrals::gap_area(const Stretch& s, std::size_t c) const {
   return model_.contacts[c].gap * s.time + sum_over(
                                                state_->normal[c],
                                                [&](std::size_t k) { return s.area.real[k]; },
@@ -247,7 +251,8 @@ double ModalWorks::gap_area(const Stretch& s, std::size_t c) const {
 }
 
 /// int g ut', with g = g_a + g_d t + sum a y, ut' = v_d + sum b y'; gap: at the beginning.
-double ModalWorks::gap_times_slide(const Stretch& s, std::size_t c, double gap, double crossed) const {
+double ModalWorkIntegrals::gap_times_slide(const Stretch& s, std::size_t c, double gap,
+                                           double crossed) const {
   const Amplitudes &a = state_->normal[c], &b = state_->tangent[c];
   const auto drift = [&](std::size_t k) { return s.drift[k]; };
   const auto none = [](std::size_t) { return Complex(); };
@@ -273,8 +278,8 @@ double ModalWorks::gap_times_slide(const Stretch& s, std::size_t c, double gap, 
          g_drift * (s.time * end - area) + crossed;
 }
 
-void ModalWorks::add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to, double time,
-                     Works& works) const {
+void ModalWorkIntegrals::add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to,
+                             double time, motion::WorkIntegrals& works) const {
   if (!(time > 0.0)) return;
   const Stretch s = stretch(from, to, time);
   for (const auto& [load, factor] : loads_)
@@ -299,11 +304,11 @@ void ModalWorks::add(const ModalProof& proof, const ModalPoint& from, const Moda
     const Contact& contact = model_.contacts[c];
     const ForceLaw law = proof.law(c);
     if (!contact.normal_force_given())
-      works.pressing[c] -= law.N_gap * gap_area(s, c) + law.N_constant * time;
+      works.applied_normal_force[c] -= law.N_gap * gap_area(s, c) + law.N_constant * time;
     const int direction = slip_sign(state.state);
     if (direction == 0) continue;
     const Shown begin = proof.shown(c, from), end = proof.shown(c, to);
-    const Form rate = slip_rate(contact, direction);
+    const Form rate = contact::slip_rate(contact, direction);
     const double slide = end.ut - begin.ut, rise = end.gap - begin.gap;
     works.friction[c] += law.T_constant * (rate.vt * slide + rate.vn * rise) +
                          law.T_gap * (rate.vt * gap_times_slide(s, c, begin.gap, sums.crossed[c]) +
@@ -311,4 +316,4 @@ void ModalWorks::add(const ModalProof& proof, const ModalPoint& from, const Moda
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

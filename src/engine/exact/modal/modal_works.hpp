@@ -12,21 +12,21 @@
 #include "engine/exact/modal/modal_proof.hpp"
 #include "motion/point.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
-class ModalWorks {
+class ModalWorkIntegrals {
  public:
-  ModalWorks(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
+  ModalWorkIntegrals(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
 
   /// False: a frequency is too low for the closed form of works and too high to count as zero.
   [[nodiscard]] static bool suits(const Spectrum& spectrum, double t_end);
 
   /// All arguments except t_end must live until the next start.
-  void start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
+  void start(const engine::Segment& segment, const StateModes& state, const Oscillators& oscillators,
              const Amplitudes& forces, double t_end);
   /// Adds the integrals over the time between two points of the segment.
   void add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to, double time,
-           Works& works) const;
+           motion::WorkIntegrals& works) const;
 
   /// Square of a mode's frequency, and the mode's homogeneous part with its rate at both ends.
   template <class S>
@@ -66,7 +66,7 @@ class ModalWorks {
 
   const Model& model_;
   double alpha_, free_below_ = 0.0;
-  const Decision* decision_ = nullptr;
+  const decide::Decision* decision_ = nullptr;
   const StateModes* state_ = nullptr;
   const Oscillators* oscillators_ = nullptr;
   const Amplitudes* forces_ = nullptr;
@@ -74,4 +74,4 @@ class ModalWorks {
   std::vector<std::size_t> slipping_;                  // indices of slipping contacts
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

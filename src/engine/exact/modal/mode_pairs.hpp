@@ -10,7 +10,7 @@
 
 #include "engine/exact/modal/spectrum.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// Empty if the state's X is not written out.
 class ModePairs {
@@ -52,4 +52,4 @@ struct ModeEnds {
 [[nodiscard]] double crossed_before(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
                                     const double* mixed);
 
-}  // namespace signorini
+}  // namespace signorini::modal

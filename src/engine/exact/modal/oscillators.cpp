@@ -6,7 +6,7 @@
 
 #include "base/rounding.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr double small_turn = 1.0;      // l time^2 up to which the series is used
@@ -167,4 +167,4 @@ void Oscillators::integrate(const ModalPoint& from, const ModalPoint& to, const 
     one(from.z.pair[k], from.rate.pair[k], to.z.pair[k], to.rate.pair[k], p.pair[k], pairs_[k], out.pair[k]);
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

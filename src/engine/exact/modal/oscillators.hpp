@@ -10,7 +10,7 @@
 
 #include "engine/exact/modal/spectrum.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// Amplitudes and their rates; for complex modes (damped_motion.hpp) the complex amplitudes and the time since the
 /// segment's beginning.
@@ -84,4 +84,4 @@ void taylor_of_mode(S z, S rate, S p, S l, double alpha, double time, std::size_
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -3,7 +3,7 @@
 #include "contact/motion.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 ProportionalFlow::ProportionalFlow(const Model& model, const OpenBasis& basis, double t_end)
     : model_(model),
@@ -13,16 +13,16 @@ ProportionalFlow::ProportionalFlow(const Model& model, const OpenBasis& basis, d
       works_(model, system_.alpha()) {}
 
 /// Reason why the series has to follow a segment; empty: none.
-std::string ProportionalFlow::obstacle(const Segment& segment) {
+std::string ProportionalFlow::obstacle(const engine::Segment& segment) {
   if (segment.forcing->varies()) return "forces or surfaces that change";
   state_ = system_.state(segment.decision->mode);
   if (!state_->spectrum.failure().empty()) return state_->spectrum.failure();
-  if (!ModalWorks::suits(state_->spectrum, t_end_))
+  if (!ModalWorkIntegrals::suits(state_->spectrum, t_end_))
     return "frequencies that are neither zero nor fast beside the run";
   return {};
 }
 
-std::string ProportionalFlow::start(const Segment& segment, const Vector& q, const Vector& rate,
+std::string ProportionalFlow::start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                     ModalPoint& now) {
   if (std::string why = obstacle(segment); !why.empty()) return why;
   segment_ = &segment;
@@ -36,19 +36,20 @@ std::string ProportionalFlow::start(const Segment& segment, const Vector& q, con
 }
 
 void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                                  TurningPoints& turning, LastTurns& turns) {
+                                  events::TurningPoints& turning, LastTurns& turns) {
   const auto advance = [&](const ModalPoint& at, double step, ModalPoint& to) {
     oscillators_.advance(at, forces_, step, to);
   };
   find_passage_turns(proof_, advance, from, begin, length, observed, turning, turns);
 }
 
-std::optional<Ripple> ProportionalFlow::ripple(const ModalPoint& from, double time, double omega) const {
+std::optional<engine::FastModeBound> ProportionalFlow::fast_mode_bound(const ModalPoint& from, double time,
+                                                                       double omega) const {
   std::vector<double> real, pair;
   oscillators_.amplitudes(from, forces_, real, pair);
   const std::size_t contacts = model_.contacts.size();
   std::vector<double> normal(contacts, 0.0), tangent(contacts, 0.0);
-  SumOfModes u(dependence()), v(dependence()), a(dependence());
+  SumOfModes u(eigenvector_condition()), v(eigenvector_condition()), a(eigenvector_condition());
   const auto add = [&](double rate, double most, const auto& shown) {
     u.add(most);
     v.add(most * rate);
@@ -70,7 +71,7 @@ std::optional<Ripple> ProportionalFlow::ripple(const ModalPoint& from, double ti
     const double grown = std::exp(std::abs(oscillators_.pair_turning()[k].im) * time);
     add(rate, 2.0 * pair[k] * grown, [&](const Amplitudes& of) { return size_of(of.pair[k]); });
   }
-  Ripple r{u.value(), v.value(), a.value(), Eigen::VectorXd::Zero(model_.force_count())};
+  engine::FastModeBound r{u.value(), v.value(), a.value(), Eigen::VectorXd::Zero(model_.force_count())};
   for (std::size_t c = 0; c < contacts; ++c) {
     const ForceLaw law = proof_.law(c);
     r.forces[static_cast<Eigen::Index>(model_.layout.normal(c))] = std::abs(law.N_gap) * normal[c];
@@ -86,23 +87,23 @@ void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vect
   state_->spectrum.from_modes({&z.z, &z.rate, &second}, {&q, &rate, change});
 }
 
-void ProportionalFlow::forces(const ModalPoint& /*at*/, Point& point) const {
+void ProportionalFlow::forces(const ModalPoint& /*at*/, motion::Point& point) const {
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const ForceLaw law = proof_.law(c);
     const Contact& contact = model_.contacts[c];
     const double gap = contact.gap_at(point.u);
     const double ut =
-        along_surface(contact, point.u, segment_->forcing->surface(c, segment_->decision->jet.t, 0));
+        contact::along_surface(contact, point.u, segment_->forcing->surface(c, segment_->decision->jet.t, 0));
     point.forces.data()[model_.layout.normal(c)] = law.N(gap);
     point.forces.data()[model_.layout.tangent(c)] = law.T(gap, ut);
   }
 }
 
-double ProportionalFlow::slope(std::size_t slot, const ModalPoint& /*at*/, const Point& point,
+double ProportionalFlow::slope(std::size_t slot, const ModalPoint& /*at*/, const motion::Point& point,
                                double /*t*/) const {
-  const std::size_t c = contact_of_guard(slot);
+  const std::size_t c = contact::contact_of_guard(slot);
   const ContactMotion now =
-      motion_of(model_.contacts[c], c, *segment_->forcing, segment_->decision->jet.t, point);
+      motion::motion_of(model_.contacts[c], c, *segment_->forcing, segment_->decision->jet.t, point);
   const ForceLaw law = proof_.law(c);
   ContactMotion rate;
   rate.N = law.N_rate(now.vn);
@@ -114,4 +115,4 @@ double ProportionalFlow::slope(std::size_t slot, const ModalPoint& /*at*/, const
   return segment_->decision->form(slot).rate(rate);
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -6,14 +6,14 @@
 #include "engine/exact/modal/modal_flow.hpp"
 #include "engine/exact/modal/modal_works.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 class ProportionalFlow final : public ModalFlow {
  public:
   /// All arguments except t_end must outlive the object.
   ProportionalFlow(const Model& model, const OpenBasis& basis, double t_end);
 
-  [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+  [[nodiscard]] std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now) override;
   [[nodiscard]] Passage pass(const ModalPoint& at, double remaining) override {
     return proof_.pass(at, remaining);
@@ -23,35 +23,38 @@ class ProportionalFlow final : public ModalFlow {
     oscillators_.advance(from, forces_, time, to);
   }
   void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const override;
-  void forces(const ModalPoint& at, Point& point) const override;
-  [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at, const Point& point,
+  void forces(const ModalPoint& at, motion::Point& point) const override;
+  [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at, const motion::Point& point,
                              double t) const override;
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const override {
     return proof_.magnitude(slot, at);
   }
-  void find_turns(const ModalPoint& from, double begin, double length, bool observed, TurningPoints& turning,
-                  LastTurns& turns) override;
-  void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const override {
+  void find_turns(const ModalPoint& from, double begin, double length, bool observed,
+                  events::TurningPoints& turning, LastTurns& turns) override;
+  void add_works(const ModalPoint& from, const ModalPoint& to, double time,
+                 motion::WorkIntegrals& works) const override {
     works_.add(proof_, from, to, time, works);
   }
-  [[nodiscard]] std::optional<Ripple> ripple(const ModalPoint& from, double time,
-                                             double omega) const override;
+  [[nodiscard]] std::optional<engine::FastModeBound> fast_mode_bound(const ModalPoint& from, double time,
+                                                                     double omega) const override;
   [[nodiscard]] ModalSystem* modes() override { return &system_; }
-  [[nodiscard]] double dependence() const override { return state_ ? state_->spectrum.condition() : 1.0; }
+  [[nodiscard]] double eigenvector_condition() const override {
+    return state_ ? state_->spectrum.condition() : 1.0;
+  }
   [[nodiscard]] long states_made() const override { return system_.made(); }
 
  private:
-  [[nodiscard]] std::string obstacle(const Segment& segment);
+  [[nodiscard]] std::string obstacle(const engine::Segment& segment);
 
   const Model& model_;
   const double t_end_;
   ModalSystem system_;
   ModalProof proof_;
-  ModalWorks works_;
-  const Segment* segment_ = nullptr;
+  ModalWorkIntegrals works_;
+  const engine::Segment* segment_ = nullptr;
   std::shared_ptr<const StateModes> state_;  // kept while proof and works refer to it
   Oscillators oscillators_;
   Amplitudes forces_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -5,7 +5,7 @@
 
 #include "base/wide_lanes.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr std::size_t most_at_once = 3;
@@ -15,18 +15,19 @@ template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void rows_times(const double* row, std::ptrdiff_t columns,
                                               const double* const* x, double* const* y,
                                               std::ptrdiff_t first) {
-  Four sum[Rows][Vectors] = {};
+  base::Four sum[Rows][Vectors] = {};
   std::ptrdiff_t k = 0;
   for (; k + 4 <= columns; k += 4)
     for (std::size_t r = 0; r < Rows; ++r) {
-      const Four entry = lanes_at<Four>(row + static_cast<std::ptrdiff_t>(r) * columns + k).v;
-      for (std::size_t s = 0; s < Vectors; ++s) sum[r][s] += entry * lanes_at<Four>(x[s] + k).v;
+      const base::Four entry =
+          base::lanes_at<base::Four>(row + static_cast<std::ptrdiff_t>(r) * columns + k).v;
+      for (std::size_t s = 0; s < Vectors; ++s) sum[r][s] += entry * base::lanes_at<base::Four>(x[s] + k).v;
     }
   for (std::size_t r = 0; r < Rows; ++r)
     for (std::size_t s = 0; s < Vectors; ++s) {
       for (std::ptrdiff_t rest = k; rest < columns; ++rest)
         sum[r][s][rest - k] += row[static_cast<std::ptrdiff_t>(r) * columns + rest] * x[s][rest];
-      y[s][first + static_cast<std::ptrdiff_t>(r)] = sum_of_lanes(sum[r][s]);
+      y[s][first + static_cast<std::ptrdiff_t>(r)] = base::sum_of_lanes(sum[r][s]);
     }
 }
 
@@ -71,4 +72,4 @@ void thin_product(const RowMatrix& a, const std::vector<const Eigen::VectorXd*>&
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -10,7 +10,7 @@
 
 #include "engine/exact/modal/complex_lanes.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// Limit for the springs of closed contacts in a state of the modal flow.
 inline constexpr std::size_t most_rank = 12;
@@ -143,4 +143,4 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 void thin_product(const RowMatrix& a, const std::vector<const Eigen::VectorXd*>& x,
                   const std::vector<Eigen::VectorXd*>& y);
 
-}  // namespace signorini
+}  // namespace signorini::modal

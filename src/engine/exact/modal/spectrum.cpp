@@ -6,7 +6,7 @@
 
 #include "base/eigen_dense.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr double filling = 1e-30;       // of the greatest entry, in zero rows
@@ -89,7 +89,7 @@ void Spectrum::turn_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
                rows = static_cast<Eigen::Index>(group_end_[first] - first);
     if (rows == 1) continue;
     const Eigen::MatrixXd seen = v.middleRows(row, rows);
-    const EigenPairs pairs = symmetric_eigen(seen * seen.transpose());
+    const base::EigenPairs pairs = base::symmetric_eigen(seen * seen.transpose());
     turns_.emplace_back(row, pairs.vectors);
     for (Eigen::MatrixXd* matrix : {&u, &v})
       matrix->middleRows(row, rows) = (pairs.vectors.transpose() * matrix->middleRows(row, rows)).eval();
@@ -300,4 +300,4 @@ void Spectrum::from_modes(const std::vector<const Amplitudes*>& z,
 template double Spectrum::moved(const Roots<double>&, std::size_t, std::size_t, double) const;
 template Complex Spectrum::moved(const Roots<Complex>&, std::size_t, std::size_t, double) const;
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -21,7 +21,7 @@
 
 #include "engine/exact/modal/small_matrices.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// Separation of equal poles, relative to a pole: below all rounding.
 inline constexpr double parting = 1e-22;
@@ -214,4 +214,4 @@ class Spectrum {
   double condition_ = 1.0, round_trip_ = 0.0;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -13,7 +13,7 @@
 #include "engine/exact/modal/complex_lanes.hpp"
 #include "engine/exact/modal/spectrum.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr int most_sweeps = 200;
@@ -71,7 +71,7 @@ void Spectrum::start(std::vector<S>& offset) const {
     }
     std::vector<std::complex<double>> value(count, small(0, 0));
     if (count > 1) {
-      const Eigen::VectorXcd found = general_eigenvalues(small);
+      const Eigen::VectorXcd found = base::general_eigenvalues(small);
       std::copy_n(found.data(), count, value.begin());
       std::sort(value.begin(), value.end(), [](auto a, auto b) { return a.real() < b.real(); });
     }
@@ -439,9 +439,9 @@ std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatri
   }
   const double middle = apart.trace() / static_cast<double>(m);
   apart.diagonal().array() -= middle;
-  EigenPairs pairs{Eigen::VectorXd::Zero(at(m)), Eigen::MatrixXd::Identity(at(m), at(m))};
+  base::EigenPairs pairs{Eigen::VectorXd::Zero(at(m)), Eigen::MatrixXd::Identity(at(m), at(m))};
   if (!(apart.cwiseAbs().maxCoeff() <= rounding)) {
-    std::optional<EigenPairs> found = real_eigen(apart);
+    std::optional<base::EigenPairs> found = base::real_eigen(apart);
     if (!found) return std::nullopt;
     pairs = std::move(*found);
   }
@@ -499,4 +499,4 @@ bool Spectrum::part_together(const std::vector<std::size_t>& members, Roots<doub
   return true;
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

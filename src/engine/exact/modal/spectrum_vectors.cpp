@@ -9,7 +9,7 @@
 #include "engine/exact/modal/complex_lanes.hpp"
 #include "engine/exact/modal/spectrum.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr double close_roots = 1e-3;  // relative distance of eigenvalues whose vectors mix by rounding
@@ -349,4 +349,4 @@ void Spectrum::from_modes_written(const std::vector<const Amplitudes*>& z,
   thin_product(x_, lists, q);
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -5,7 +5,7 @@
 
 #include "engine/exact/series_works.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 namespace {
 
 constexpr double turn_of_panel = 2.0;  // rad of the fastest wave in a panel of quadrature: exact to rounding
@@ -184,7 +184,7 @@ Eigen::MatrixXd TimeBasis::products(double x0, double x1) const {
   const double fastest = omega_.empty() ? 0.0 : *std::max_element(omega_.begin(), omega_.end());
   const double h = x1 - x0;
   const auto panels = static_cast<int>(std::ceil(std::max(1.0, fastest * h / turn_of_panel)));
-  const GaussRule& rule = gauss_rule();
+  const exact::GaussRule& rule = exact::gauss_rule();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size(), size());
   for (int panel = 0; panel < panels; ++panel)
     for (std::size_t i = 0; i < rule.x.size(); ++i) {
@@ -194,4 +194,4 @@ Eigen::MatrixXd TimeBasis::products(double x0, double x1) const {
   return sum * (h / panels);
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -19,7 +19,7 @@
 
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 /// One row of coefficients.
 using Course = Eigen::VectorXd;
@@ -78,4 +78,4 @@ class TimeBasis {
   std::vector<double> omega_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -9,7 +9,7 @@
 #include "base/rounding.hpp"
 #include "engine/exact/modal/damped_pencil.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
 std::vector<int> narrow_order(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   const auto n = static_cast<std::size_t>(mass.rows());
@@ -195,7 +195,7 @@ class Shapes {
       for (std::size_t j = 0; j < count; ++j)
         differences(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) =
             static_cast<double>(energy[k * count + j] - (j == k ? middle : 0));
-    const EigenPairs pairs = symmetric_eigen(0.5 * (differences + differences.transpose()));
+    const base::EigenPairs pairs = base::symmetric_eigen(0.5 * (differences + differences.transpose()));
     std::vector<LongVector> turned(count, LongVector(pencil_.size(), 0));
     square.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
@@ -230,8 +230,8 @@ bool orthonormal_from_low_to_high(const SparseMatrix& mass, Eigen::MatrixXd& sha
   return true;
 }
 
-OpenModes failed(const char* why) {
-  OpenModes none;
+UnconstrainedModes failed(const char* why) {
+  UnconstrainedModes none;
   none.failure = why;
   return none;
 }
@@ -249,7 +249,7 @@ bool has_narrow_band(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   return static_cast<std::size_t>(width) <= widest_band;
 }
 
-OpenModes open_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
+UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   const std::vector<int> place = narrow_order(mass, stiffness);
   BandPencil<double> quick(mass, stiffness, place);
   const std::size_t n = quick.size();
@@ -269,7 +269,7 @@ OpenModes open_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   if (sharp.factor(doubtful * free_below) != free)
     return failed("the lowest frequencies cannot be told from free motions");
 
-  OpenModes modes;
+  UnconstrainedModes modes;
   modes.free = static_cast<int>(free);
   modes.square.setZero(static_cast<Eigen::Index>(n));
   modes.shapes.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
@@ -335,7 +335,7 @@ bool stands_still(const Model& model) {
 }
 
 OpenBasis::OpenBasis(const Model& model) {
-  OpenModes modes = open_modes(model.mass, model.stiffness);
+  UnconstrainedModes modes = unconstrained_modes(model.mass, model.stiffness);
   failure_ = std::move(modes.failure);
   if (!failure_.empty()) return;
   square_ = std::move(modes.square);
@@ -353,4 +353,4 @@ OpenBasis::OpenBasis(const Model& model) {
   for (const Load& load : model.loads) load_.push_back(amplitudes_of(load.direction));
 }
 
-}  // namespace signorini
+}  // namespace signorini::modal

@@ -14,9 +14,9 @@
 #include "engine/exact/modal/small_matrices.hpp"
 #include "signorini/model.hpp"
 
-namespace signorini {
+namespace signorini::modal {
 
-struct OpenModes {
+struct UnconstrainedModes {
   Vector square;           ///< omega^2, ascending; 0 for free motions
   Eigen::MatrixXd shapes;  ///< n x n, columns M-orthonormal
   int free = 0;            ///< number of motions without stiffness
@@ -30,7 +30,7 @@ struct OpenModes {
 
 /// mass, stiffness: symmetric, mass positive definite. Costs about n^2 (10 + band^2) operations and 3 n^3 of matrix
 /// products. On failure `failure` gives the reason, and the rest is empty.
-[[nodiscard]] OpenModes open_modes(const SparseMatrix& mass, const SparseMatrix& stiffness);
+[[nodiscard]] UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
 // A structure, its contacts and its loads in its open modes.
 //
@@ -81,4 +81,4 @@ class OpenBasis {
   std::vector<Vector> normal_, tangent_, load_;
 };
 
-}  // namespace signorini
+}  // namespace signorini::modal

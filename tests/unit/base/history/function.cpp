@@ -54,22 +54,22 @@ TEST_CASE("a function in a history is as good as its closed form") {
   check_same(own.with_rates(0.3, -1.1, 0.7), closed.with_rates(0.3, -1.1, 0.7));
   check_same(own.with_rates(0.0, 1.0, 0.0).with_rates(0.0, 1.0, 0.0), closed.with_rates(0.0, 0.0, 1.0));
   const Factors factors{8.0, 0.5, 4.0};
-  check_same(rescaled(own, unit::velocity, factors), rescaled(closed, unit::velocity, factors));
-  check_same(rescaled(own.with_rates(0.2, 1.0, 3.0), unit::force, factors),
-             rescaled(closed.with_rates(0.2, 1.0, 3.0), unit::force, factors));
+  check_same(model::rescaled(own, unit::velocity, factors), model::rescaled(closed, unit::velocity, factors));
+  check_same(model::rescaled(own.with_rates(0.2, 1.0, 3.0), unit::force, factors),
+             model::rescaled(closed.with_rates(0.2, 1.0, 3.0), unit::force, factors));
   double a[5], b[5];
   own.piece(0.3).taylor(0.3, 0.25, 5, a);
   closed.piece(0.3).taylor(0.3, 0.25, 5, b);
   for (int k = 0; k < 5; ++k) CHECK(a[k] == doctest::Approx(b[k]).epsilon(1e-14));
-  CHECK(magnitude(own, 3.0) == doctest::Approx(4.0));
+  CHECK(history::magnitude(own, 3.0) == doctest::Approx(4.0));
   CHECK(own.breakpoints().size() == 1);
   CHECK(own.breakpoints()[0].jump);
   CHECK_FALSE(own.is_constant());
   CHECK_FALSE(own.has_closed_form());
   CHECK(closed.has_closed_form());
   CHECK_THROWS_AS(static_cast<void>(own.integrated()), std::invalid_argument);
-  CHECK(negative_at(own.scaled(1.0, -5.0), 0.5) >= 0.0);
-  CHECK(negative_at(own, 0.9) < 0.0);
+  CHECK(history::negative_at(own.scaled(1.0, -5.0), 0.5) >= 0.0);
+  CHECK(history::negative_at(own, 0.9) < 0.0);
 }
 
 TEST_CASE("one history, then another") {

@@ -54,7 +54,7 @@ std::vector<HistorySpec> every_type() {
   return all;
 }
 
-double at(HistorySpec s, double t) { return make_history(s, "h").value(t); }
+double at(HistorySpec s, double t) { return scene::make_history(s, "h").value(t); }
 
 }  // namespace
 
@@ -77,7 +77,7 @@ TEST_SUITE("unit/base/history/history") {
   TEST_CASE("the integral's derivative is the history, for every type") {
     for (const HistorySpec& s : every_type()) {
       CAPTURE(static_cast<int>(s.type));
-      const History f = make_history(s, "h"), integral = f.integrated();
+      const History f = scene::make_history(s, "h"), integral = f.integrated();
       CHECK(integral.value(0.0) == doctest::Approx(0.0));
       for (double t : {-0.45, 0.05, 0.15, 0.3, 0.45, 0.55, 0.7, 0.95, 1.05, 1.35, 2.0})
         CHECK(integral.piece(t).value(t, 1) == doctest::Approx(f.value(t)).epsilon(1e-13));
@@ -110,7 +110,7 @@ TEST_SUITE("unit/base/history/history") {
   }
 
   TEST_CASE("tables: linear, zero outside, a repeated time is a jump") {
-    const History f = make_history(table_spec({1.0, 2.0, 2.0, 4.0}, {0.0, 3.0, -1.0, 1.0}), "h");
+    const History f = scene::make_history(table_spec({1.0, 2.0, 2.0, 4.0}, {0.0, 3.0, -1.0, 1.0}), "h");
     CHECK(f.value(0.99) == 0.0);
     CHECK(f.value(1.5) == doctest::Approx(1.5));
     CHECK(f.value(2.0) == -1.0);
@@ -127,7 +127,7 @@ TEST_SUITE("unit/base/history/history") {
 
   TEST_CASE("Steffen tables meet the points, have a continuous slope and never overshoot") {
     const std::vector<double> t{0.0, 1.0, 1.5, 3.0, 4.0, 4.2}, y{0.0, 1.0, 1.0, -2.0, 0.0, 5.0};
-    const History f = make_history(table_spec(t, y, true), "h");
+    const History f = scene::make_history(table_spec(t, y, true), "h");
     for (std::size_t i = 0; i + 1 < t.size(); ++i) {
       CHECK(f.value(t[i]) == doctest::Approx(y[i]));
       CHECK(f.piece_before(t[i + 1]).value(t[i + 1]) == doctest::Approx(y[i + 1]));
@@ -145,32 +145,33 @@ TEST_SUITE("unit/base/history/history") {
     s.omega = 31.41592653589793;
     for (double amplitude : {1e-8, 1.0, 1e9}) {
       s.amplitude = amplitude;
-      const auto b = make_history(s, "h").breakpoints();
+      const auto b = scene::make_history(s, "h").breakpoints();
       REQUIRE(b.size() == 2);
       CHECK_FALSE(b[0].jump);
       CHECK_FALSE(b[1].jump);
     }
     s.end = 0.1 * (1.0 + 1e-10);
-    CHECK(make_history(s, "h").breakpoints()[1].jump);
-    for (const Breakpoint& b : make_history(spec(HistoryType::half_sine, 1e3, 1e3 + 0.1), "h").breakpoints())
+    CHECK(scene::make_history(s, "h").breakpoints()[1].jump);
+    for (const Breakpoint& b :
+         scene::make_history(spec(HistoryType::half_sine, 1e3, 1e3 + 0.1), "h").breakpoints())
       CHECK_FALSE(b.jump);
-    CHECK(make_history(spec(HistoryType::step, 0.5, HUGE_VAL), "h").breakpoints()[0].jump);
+    CHECK(scene::make_history(spec(HistoryType::step, 0.5, HUGE_VAL), "h").breakpoints()[0].jump);
   }
 
   TEST_CASE("a load of amplitude zero has no breakpoints and is constant") {
-    const History f = make_history(spec(HistoryType::step, 0.5, HUGE_VAL), "h").scaled(0.0);
+    const History f = scene::make_history(spec(HistoryType::step, 0.5, HUGE_VAL), "h").scaled(0.0);
     CHECK(f.breakpoints().empty());
     CHECK(f.is_constant());
-    CHECK(make_history(HistorySpec{}, "h").is_constant());
-    CHECK_FALSE(make_history(spec(HistoryType::rectangle, 0.0, 1.0), "h").is_constant());
+    CHECK(scene::make_history(HistorySpec{}, "h").is_constant());
+    CHECK_FALSE(scene::make_history(spec(HistoryType::rectangle, 0.0, 1.0), "h").is_constant());
   }
 
   TEST_CASE("histories refuse what has no meaning") {
     CHECK_THROWS_AS((void)History({1.0, 1.0}, {Piece{}, Piece{}, Piece{}}), std::invalid_argument);
     CHECK_THROWS_AS((void)History({1.0}, {Piece{}}), std::invalid_argument);
-    CHECK_THROWS_AS((void)make_history(spec(HistoryType::rectangle, 1.0, 0.5), "h"), SceneError);
-    CHECK_THROWS_AS((void)make_history(table_spec({0.0, 2.0, 1.0}, {0.0, 0.0, 0.0}), "h"), SceneError);
-    CHECK_THROWS_AS((void)make_history(table_spec({0.0, 1.0}, {0.0}), "h"), SceneError);
+    CHECK_THROWS_AS((void)scene::make_history(spec(HistoryType::rectangle, 1.0, 0.5), "h"), SceneError);
+    CHECK_THROWS_AS((void)scene::make_history(table_spec({0.0, 2.0, 1.0}, {0.0, 0.0, 0.0}), "h"), SceneError);
+    CHECK_THROWS_AS((void)scene::make_history(table_spec({0.0, 1.0}, {0.0}), "h"), SceneError);
   }
 
   TEST_CASE("size and sign of a history within the run") {
@@ -178,62 +179,66 @@ TEST_SUITE("unit/base/history/history") {
     s.omega = 3.0;
     s.offset = 1.0;
     s.amplitude = 0.5;
-    CHECK(magnitude(make_history(s, "h"), 100.0) == doctest::Approx(1.5));
-    CHECK(negative_at(make_history(s, "h"), 100.0) < 0.0);
+    CHECK(history::magnitude(scene::make_history(s, "h"), 100.0) == doctest::Approx(1.5));
+    CHECK(history::negative_at(scene::make_history(s, "h"), 100.0) < 0.0);
     s.amplitude = 1.5;
-    CHECK(negative_at(make_history(s, "h"), 100.0) == doctest::Approx(pi / 2.0));
+    CHECK(history::negative_at(scene::make_history(s, "h"), 100.0) == doctest::Approx(pi / 2.0));
     s.amplitude = -1.5;
-    CHECK(negative_at(make_history(s, "h"), 100.0) == doctest::Approx(pi / 6.0));
-    CHECK(negative_at(make_history(spec(HistoryType::half_sine, 0.0, 0.3), "h"), 1.0) < 0.0);
-    CHECK(magnitude(make_history(spec(HistoryType::triangle, 0.5, 0.6), "h"), 1.0) == doctest::Approx(1.0));
+    CHECK(history::negative_at(scene::make_history(s, "h"), 100.0) == doctest::Approx(pi / 6.0));
+    CHECK(history::negative_at(scene::make_history(spec(HistoryType::half_sine, 0.0, 0.3), "h"), 1.0) < 0.0);
+    CHECK(history::magnitude(scene::make_history(spec(HistoryType::triangle, 0.5, 0.6), "h"), 1.0) ==
+          doctest::Approx(1.0));
   }
 
   TEST_CASE("the greatest impulse within a time") {
-    const auto impulse = [](const History& f, double width) { return greatest_impulse(f, 10.0, width); };
-    const History pulse = make_history(spec(HistoryType::rectangle, 0.5, 0.75), "h").scaled(-8.0);
+    const auto impulse = [](const History& f, double width) {
+      return history::greatest_impulse(f, 10.0, width);
+    };
+    const History pulse = scene::make_history(spec(HistoryType::rectangle, 0.5, 0.75), "h").scaled(-8.0);
     CHECK(impulse(pulse, 0.1) == doctest::Approx(0.8));
     CHECK(impulse(pulse, 3.0) == doctest::Approx(2.0));
     // 2 for 1, then 1 for 4: the best time of 3 has all of the first; the best time within one piece has no end of it
-    const History table = make_history(table_spec({0.0, 1.0, 1.0, 5.0}, {2.0, 2.0, 1.0, 1.0}), "h");
+    const History table = scene::make_history(table_spec({0.0, 1.0, 1.0, 5.0}, {2.0, 2.0, 1.0, 1.0}), "h");
     CHECK(impulse(table, 3.0) == doctest::Approx(4.0));
     HistorySpec s = spec(HistoryType::harmonic, 1.0, HUGE_VAL);
     s.omega = 1e-3;
-    CHECK(impulse(make_history(s, "h"), 1.0) == doctest::Approx(std::sin(1e-3 * 10.0)).epsilon(1e-3));
+    CHECK(impulse(scene::make_history(s, "h"), 1.0) == doctest::Approx(std::sin(1e-3 * 10.0)).epsilon(1e-3));
     s.omega = 3.0;
-    CHECK(impulse(make_history(s, "h"), 1.0) == doctest::Approx(1.0));
+    CHECK(impulse(scene::make_history(s, "h"), 1.0) == doctest::Approx(1.0));
     // A load that has just begun when the run ends is no pulse.
-    CHECK(greatest_impulse(make_history(spec(HistoryType::step, 9.999, HUGE_VAL), "h"), 10.0, 2.0) ==
-          doctest::Approx(2.0));
+    CHECK(history::greatest_impulse(scene::make_history(spec(HistoryType::step, 9.999, HUGE_VAL), "h"), 10.0,
+                                    2.0) == doctest::Approx(2.0));
     // Pulses that follow each other count together, as many as are in that time.
     HistorySpec again = spec(HistoryType::rectangle, 0.0, 0.01);
     again.period = 1.0;
     again.rounds = 10;
-    CHECK(impulse(make_history(again, "h"), 2.5) == doctest::Approx(0.03));
+    CHECK(impulse(scene::make_history(again, "h"), 2.5) == doctest::Approx(0.03));
   }
 
   TEST_CASE("what the clock of a run cannot tell apart is one") {
     const double t_end = 0.5;  // 1.1e-14
-    CHECK(resolved(make_history(spec(HistoryType::rectangle, 1e-200, 1e-20), "h"), t_end)
+    CHECK(history::resolved(scene::make_history(spec(HistoryType::rectangle, 1e-200, 1e-20), "h"), t_end)
               .breakpoints()
               .empty());
-    const History late = resolved(make_history(spec(HistoryType::rectangle, 1e-20, 0.25), "h"), t_end);
+    const History late =
+        history::resolved(scene::make_history(spec(HistoryType::rectangle, 1e-20, 0.25), "h"), t_end);
     CHECK(late.value(0.0) == 1.0);
     CHECK(late.piece_before(0.0).value(0.0) == 0.0);
     CHECK(late.starts() == std::vector<double>{0.0, 0.25});
-    const History early =
-        resolved(make_history(table_spec({-1.0, 0.0, 1e-16, 2.0}, {1.0, 1.0, 3.0, 3.0}), "h"), t_end);
+    const History early = history::resolved(
+        scene::make_history(table_spec({-1.0, 0.0, 1e-16, 2.0}, {1.0, 1.0, 3.0, 3.0}), "h"), t_end);
     CHECK(early.starts() == std::vector<double>{-1.0, 0.0, 2.0});
     CHECK(early.value(0.0) == doctest::Approx(3.0));
     CHECK(early.piece_before(0.0).value(0.0) == 1.0);
-    const History risen =
-        resolved(make_history(table_spec({0.25, 0.3, 0.3 + 1e-14, 0.4}, {1.0, 1.0, 3.0, 3.0}), "h"), t_end);
+    const History risen = history::resolved(
+        scene::make_history(table_spec({0.25, 0.3, 0.3 + 1e-14, 0.4}, {1.0, 1.0, 3.0, 3.0}), "h"), t_end);
     CHECK(risen.starts() == std::vector<double>{0.25, 0.3 + 1e-14, 0.4});
     CHECK(risen.value(0.3 + 1e-14) == 3.0);
-    CHECK(resolved(make_history(spec(HistoryType::half_sine, 0.25, 0.25 + 1e-14), "h"), t_end).value(0.3) ==
-          0.0);
+    CHECK(history::resolved(scene::make_history(spec(HistoryType::half_sine, 0.25, 0.25 + 1e-14), "h"), t_end)
+              .value(0.3) == 0.0);
     for (const HistorySpec& s : every_type()) {
-      const History f = make_history(s, "h");
-      CHECK(resolved(f, t_end).starts() == f.starts());
+      const History f = scene::make_history(s, "h");
+      CHECK(history::resolved(f, t_end).starts() == f.starts());
     }
   }
 }

@@ -38,12 +38,12 @@ std::vector<std::pair<Contact, std::vector<State>>> all() {
   contacts.emplace_back(contact_of(compliance_split_law()), built_in);
   for (const DataLaw* data : data_laws()) {
     const std::vector<double> constants(data->constants.size(), 20.0);
-    Contact c = contact_of(std::make_shared<const OwnLaw>(data->make(1000.0, constants)));
+    Contact c = contact_of(std::make_shared<const UserContactLaw>(data->make(1000.0, constants)));
     const std::vector<State> own = c.law->own_states();
     contacts.emplace_back(std::move(c), own);
   }
   // R^2 + c N - N^2 - T^2 and a memory: the linear part of a guard has the unit of its products.
-  OwnLaw round;
+  UserContactLaw round;
   round.states = {{"on",
                    State::stick,
                    {{.N = 1.0, .gap = -50.0}},
@@ -52,18 +52,19 @@ std::vector<std::pair<Contact, std::vector<State>>> all() {
                      0,
                      {},
                      {{{.N = -1.0}, {.N = 1.0}}, {{.T = -1.0}, {.T = 1.0}}}}}}};
-  Contact c = contact_of(std::make_shared<const OwnLaw>(std::move(round)));
+  Contact c = contact_of(std::make_shared<const UserContactLaw>(std::move(round)));
   const std::vector<State> own = c.law->own_states();
   contacts.emplace_back(std::move(c), own);
   return contacts;
 }
 
 ContactMotion in_other_units(ContactMotion m, const Factors& factors) {
-  for (double* x : {&m.N, &m.T, &m.pressing, &m.limit}) *x *= factor_of(unit::force, factors);
-  for (double* x : {&m.gap, &m.ut}) *x *= factor_of(unit::length, factors);
-  for (double* x : {&m.vn, &m.vt}) *x *= factor_of(unit::velocity, factors);
-  for (double* x : {&m.an, &m.at}) *x *= factor_of(unit::acceleration, factors);
-  for (double* x : {&m.pressing_rate, &m.limit_rate}) *x *= factor_of({1, 0, -1}, factors);
+  for (double* x : {&m.N, &m.T, &m.applied_normal_force, &m.limit})
+    *x *= scene::factor_of(unit::force, factors);
+  for (double* x : {&m.gap, &m.ut}) *x *= scene::factor_of(unit::length, factors);
+  for (double* x : {&m.vn, &m.vt}) *x *= scene::factor_of(unit::velocity, factors);
+  for (double* x : {&m.an, &m.at}) *x *= scene::factor_of(unit::acceleration, factors);
+  for (double* x : {&m.applied_normal_force_rate, &m.limit_rate}) *x *= scene::factor_of({1, 0, -1}, factors);
   return m;
 }
 
@@ -75,26 +76,30 @@ TEST_CASE("rows, guards and energies of every law follow its constants into othe
   const Factors factors{8.0, 0.25, 2.0};  // powers of two: no rounding
   ContactMotion m;
   m.N = -3.0, m.T = 1.5, m.gap = -0.003, m.ut = 0.01, m.vn = -0.2, m.vt = 0.4, m.an = 7.0, m.at = -5.0;
-  m.pressing = 2.5, m.pressing_rate = 0.75;
+  m.applied_normal_force = 2.5, m.applied_normal_force_rate = 0.75;
   const ContactMotion moved = in_other_units(m, factors);
   for (const auto& [contact, states] : all()) {
     CAPTURE(contact.law->name());
     Contact other = contact;
-    visit_constants(other, [&](double& x, const Unit& of) { x *= factor_of(of, factors); });
+    contact::visit_constants(other, [&](double& x, const Unit& of) { x *= scene::factor_of(of, factors); });
     for (const State state : states) {
       const ContactState here{state, -0.125}, there{state, -0.125 * factors.length};
-      const Rows a = rows(contact, here), b = rows(other, there);
-      CHECK(b.normal.value(moved) == factor_of(unit_of(a.normal), factors) * a.normal.value(m));
-      CHECK(b.tangent.value(moved) == factor_of(unit_of(a.tangent), factors) * a.tangent.value(m));
-      const auto before = guards(contact, here), after = guards(other, there);
+      const Rows a = contact::rows(contact, here), b = contact::rows(other, there);
+      CHECK(b.normal.value(moved) ==
+            scene::factor_of(contact::unit_of(a.normal), factors) * a.normal.value(m));
+      CHECK(b.tangent.value(moved) ==
+            scene::factor_of(contact::unit_of(a.tangent), factors) * a.tangent.value(m));
+      const auto before = contact::guards(contact, here), after = contact::guards(other, there);
       for (std::size_t i = 0; i < before.size(); ++i) {
         CHECK(after[i].kind == before[i].kind);
-        const double factor = factor_of(unit_of(before[i]), factors);
+        const double factor = scene::factor_of(contact::unit_of(before[i]), factors);
         CHECK(after[i].value(moved) == doctest::Approx(factor * before[i].value(m)).epsilon(1e-14));
       }
-      const double energy = factor_of(unit::energy, factors);
-      CHECK(stored_energy(other, state, moved) == energy * stored_energy(contact, state, m));
-      CHECK(violations(other, state, moved).product == energy * violations(contact, state, m).product);
+      const double energy = scene::factor_of(unit::energy, factors);
+      CHECK(contact::stored_energy(other, state, moved) ==
+            energy * contact::stored_energy(contact, state, m));
+      CHECK(contact::violations(other, state, moved).product ==
+            energy * contact::violations(contact, state, m).product);
     }
   }
 }
@@ -118,7 +123,7 @@ TEST_CASE("what a law can do") {
 TEST_CASE("a law made of data has states and a memory of its own, and no other conditions than its guards") {
   for (const DataLaw* data : data_laws()) {
     const std::vector<double> constants(data->constants.size(), 20.0);
-    const auto law = std::make_shared<const OwnLaw>(data->make(1000.0, constants));
+    const auto law = std::make_shared<const UserContactLaw>(data->make(1000.0, constants));
     CHECK(refusal_of(*law).empty());
     const Contact c = contact_of(law), twin = contact_of(law);
     CHECK(c.law == twin.law);
@@ -126,6 +131,7 @@ TEST_CASE("a law made of data has states and a memory of its own, and no other c
     CHECK_FALSE(c.obeys_coulomb());
     CHECK_FALSE(c.anchor_spring());
     CHECK(c.law->candidates(c, {c.law->own_states()[0], -0.5}, {}).size() == law->states.size());
-    for (const DataLawConstant& constant : data->constants) CHECK(find_key("contacts[]", constant.key));
+    for (const DataLawConstant& constant : data->constants)
+      CHECK(scene::find_key("contacts[]", constant.key));
   }
 }

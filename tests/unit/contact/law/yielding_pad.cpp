@@ -14,7 +14,7 @@ Contact pad() {
   c.name = "pad";
   c.law = Law::compliant;
   c.normal_stiffness = 1000.0;
-  c.law = std::make_shared<const OwnLaw>(yielding_pad(1000.0, 20.0));
+  c.law = std::make_shared<const UserContactLaw>(yielding_pad(1000.0, 20.0));
   return c;
 }
 
@@ -36,25 +36,25 @@ TEST_SUITE_BEGIN("unit/contact/law/yielding_pad");
 
 TEST_CASE("yielding pad: rows are N = 0, N = kn (g - p), N = -Y, and T = 0") {
   const Contact c = pad();
-  CHECK(rows(c, off(-0.1)).normal.value(at(0.3, 0.0)) == 0.0);
-  CHECK(rows(c, off(-0.1)).normal.value(at(0.3, -2.0)) == -2.0);
-  CHECK(rows(c, elastic(-0.1)).normal.value(at(-0.11, -10.0)) == doctest::Approx(0.0));
-  CHECK(rows(c, elastic(-0.1)).normal.value(at(-0.11, -11.0)) == doctest::Approx(-1.0));
-  CHECK(rows(c, crushed(-0.1)).normal.value(at(-0.4, -20.0)) == 0.0);
+  CHECK(contact::rows(c, off(-0.1)).normal.value(at(0.3, 0.0)) == 0.0);
+  CHECK(contact::rows(c, off(-0.1)).normal.value(at(0.3, -2.0)) == -2.0);
+  CHECK(contact::rows(c, elastic(-0.1)).normal.value(at(-0.11, -10.0)) == doctest::Approx(0.0));
+  CHECK(contact::rows(c, elastic(-0.1)).normal.value(at(-0.11, -11.0)) == doctest::Approx(-1.0));
+  CHECK(contact::rows(c, crushed(-0.1)).normal.value(at(-0.4, -20.0)) == 0.0);
   for (const ContactState& state : {off(0.0), elastic(0.0), crushed(0.0)}) {
     ContactMotion m = at(-0.01, -10.0, -3.0);
     m.ut = 0.5;
     m.vt = 2.0;
-    CHECK(rows(c, state).tangent.value(m) == 0.0);
+    CHECK(contact::rows(c, state).tangent.value(m) == 0.0);
     m.T = 4.0;
-    CHECK(rows(c, state).tangent.value(m) == 4.0);
+    CHECK(contact::rows(c, state).tangent.value(m) == 4.0);
   }
 }
 
 TEST_CASE("yielding pad: guards are positive inside their state and vanish at its edge") {
   const Contact c = pad();
   const auto value = [&](const ContactState& state, std::size_t i, const ContactMotion& m) {
-    return guards(c, state)[i].form.value(m);
+    return contact::guards(c, state)[i].form.value(m);
   };
   CHECK(value(off(-0.1), 0, at(-0.09, 0.0)) == doctest::Approx(0.01));
   CHECK(value(off(-0.1), 0, at(-0.1, 0.0)) == 0.0);
@@ -71,7 +71,7 @@ TEST_CASE("yielding pad: the dent is what unloading leaves, and only crushing mo
   const auto next = [&](const ContactState& state, Guard guard, const ContactMotion& m) {
     MotionJet jet;
     jet.motion[0] = m;
-    return next_state(c, state, guard, jet);
+    return contact::next_state(c, state, guard, jet);
   };
   CHECK(next(off(-0.1), Guard::own_1, at(-0.1, 0.0, -1.0)) == elastic(-0.1));
   CHECK(next(elastic(-0.1), Guard::own_1, at(-0.1, 0.0, 1.0)) == off(-0.1));
@@ -79,13 +79,13 @@ TEST_CASE("yielding pad: the dent is what unloading leaves, and only crushing mo
   const ContactState unloads = next(crushed(-0.1), Guard::own_1, at(-0.35, -20.0));
   CHECK(unloads.state == own_state(1, State::closed));
   CHECK(unloads.anchor == doctest::Approx(-0.33));
-  CHECK(rows(c, unloads).normal.value(at(-0.35, -20.0)) == doctest::Approx(0.0));  // N stays
+  CHECK(contact::rows(c, unloads).normal.value(at(-0.35, -20.0)) == doctest::Approx(0.0));  // N stays
 }
 
 TEST_CASE("a law is named as in a scene file; laws without a name are compliant, as before") {
   Contact c = pad();
   CHECK(c.law->name() == "yielding");
-  c.law = std::make_shared<const OwnLaw>();
+  c.law = std::make_shared<const UserContactLaw>();
   CHECK(c.law->name() == "compliant");
   c.law = Law::compliant;
   CHECK(c.law->name() == "compliant");

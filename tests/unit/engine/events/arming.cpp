@@ -7,8 +7,8 @@ using namespace signorini;
 TEST_SUITE_BEGIN("unit/engine/events/arming");
 
 TEST_CASE("guards that start clear of zero are armed; the others wait until they have clearly risen") {
-  Arming arming;
-  GuardStart idle, clear{Guard::closing}, rising{Guard::closing, true, 2, 0.0},
+  events::ActiveGuards arming;
+  decide::GuardStart idle, clear{Guard::closing}, rising{Guard::closing, true, 2, 0.0},
       hidden{Guard::sliding, true, -1, 0.0};
   arming.start({idle, clear, rising, hidden});
   REQUIRE(arming.size() == 4);

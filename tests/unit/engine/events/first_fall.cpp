@@ -35,7 +35,9 @@ double slack_of(const std::vector<double>& a) {
   return 1e-15 * sum;
 }
 
-FirstFall fall(const std::vector<double>& a) { return first_fall(a.data(), a.size() - 1, slack_of(a)); }
+events::FirstRoot fall(const std::vector<double>& a) {
+  return events::first_root(a.data(), a.size() - 1, slack_of(a));
+}
 
 }  // namespace
 
@@ -43,37 +45,37 @@ TEST_SUITE_BEGIN("unit/engine/events/first_fall");
 
 TEST_CASE("what is not a number is said to be so, not halved for ever") {
   const double nan = std::nan(""), inf = HUGE_VAL;
-  CHECK(fall({nan, 1.0, -3.0}).kind == FirstFall::Kind::lost);
-  CHECK(fall({1.0, nan, -3.0}).kind == FirstFall::Kind::lost);
-  CHECK(fall({1.0, -inf, inf}).kind == FirstFall::Kind::lost);
+  CHECK(fall({nan, 1.0, -3.0}).kind == events::FirstRoot::Kind::lost);
+  CHECK(fall({1.0, nan, -3.0}).kind == events::FirstRoot::Kind::lost);
+  CHECK(fall({1.0, -inf, inf}).kind == events::FirstRoot::Kind::lost);
   const double a[] = {1.0, -3.0};
-  CHECK(first_fall(a, 1, inf).kind == FirstFall::Kind::lost);
+  CHECK(events::first_root(a, 1, inf).kind == events::FirstRoot::Kind::lost);
 }
 
 TEST_CASE("simple falls, rises and none") {
-  CHECK(fall({1.0, -2.0}).kind == FirstFall::Kind::fall);
+  CHECK(fall({1.0, -2.0}).kind == events::FirstRoot::Kind::crossing);
   CHECK(fall({1.0, -2.0}).x == doctest::Approx(0.5).epsilon(1e-15));
-  CHECK(fall({1.0, -0.5}).kind == FirstFall::Kind::none);
-  CHECK(fall({0.0, 1.0}).kind == FirstFall::Kind::none);   // starts at zero and rises
-  CHECK(fall({0.0, -1.0}).kind == FirstFall::Kind::fall);  // starts at zero and falls
+  CHECK(fall({1.0, -0.5}).kind == events::FirstRoot::Kind::none);
+  CHECK(fall({0.0, 1.0}).kind == events::FirstRoot::Kind::none);       // starts at zero and rises
+  CHECK(fall({0.0, -1.0}).kind == events::FirstRoot::Kind::crossing);  // starts at zero and falls
   CHECK(fall({0.0, -1.0}).x == 0.0);
 }
 
 TEST_CASE("two crossings as close as 1e-7 of the interval are seen; a double root is a touch") {
   for (double gap : {1e-1, 1e-3, 1e-5, 1e-7}) {
     CAPTURE(gap);
-    const FirstFall f = fall(from_roots({0.37, 0.37 + gap}, 1.0));
-    CHECK(f.kind == FirstFall::Kind::fall);
+    const events::FirstRoot f = fall(from_roots({0.37, 0.37 + gap}, 1.0));
+    CHECK(f.kind == events::FirstRoot::Kind::crossing);
     CHECK(std::abs(f.x - 0.37) < 1e-14 / gap);  // conditioning: rounding of the coefficients over the slope
   }
-  CHECK(fall(from_roots({0.5, 0.5}, 1.0)).kind == FirstFall::Kind::touch);
+  CHECK(fall(from_roots({0.5, 0.5}, 1.0)).kind == events::FirstRoot::Kind::touch);
   CHECK(std::abs(fall(from_roots({0.5, 0.5}, 1.0)).x - 0.5) < 1e-6);
   // Clear of zero by more than the slack: not even a touch.
   std::vector<double> above = from_roots({0.5, 0.5}, 1.0);
   above[0] += 1e-13;
-  CHECK(fall(above).kind == FirstFall::Kind::none);
+  CHECK(fall(above).kind == events::FirstRoot::Kind::none);
   above[0] -= 2e-13;
-  CHECK(fall(above).kind == FirstFall::Kind::fall);
+  CHECK(fall(above).kind == events::FirstRoot::Kind::crossing);
 }
 
 TEST_CASE("oscillations over a step: 1 + depth - cos-like wiggles touch or cross at their troughs") {
@@ -89,8 +91,8 @@ TEST_CASE("oscillations over a step: 1 + depth - cos-like wiggles touch or cross
         c *= 3.4 / static_cast<double>(k + 1);
       }
       a[0] += 1.0 + sign * e;
-      const FirstFall f = fall(a);
-      CHECK(f.kind == (sign > 0.0 ? FirstFall::Kind::none : FirstFall::Kind::fall));
+      const events::FirstRoot f = fall(a);
+      CHECK(f.kind == (sign > 0.0 ? events::FirstRoot::Kind::none : events::FirstRoot::Kind::crossing));
       if (sign < 0.0)
         CHECK(f.x == doctest::Approx((std::acos(-1.0) - std::sqrt(2.0 * e)) / 3.4).epsilon(1e-3));
     }
@@ -110,8 +112,8 @@ TEST_CASE("what stays above everywhere is passed as it is, not halved until it i
     now = std::exchange(next, after);
   }
   next[0] += 2.0;
-  const FirstFall none = fall(next);
-  CHECK(none.kind == FirstFall::Kind::none);
+  const events::FirstRoot none = fall(next);
+  CHECK(none.kind == events::FirstRoot::Kind::none);
   CHECK(none.intervals > 1);
   CHECK(none.intervals <= 15);  // halves, quarters, eighths: in an eighth all its coefficients are above zero
 }
@@ -132,12 +134,12 @@ TEST_CASE("random polynomials: no sample before the reported fall is negative, a
     if (a[0] < 0.0)
       for (double& c : a) c = -c;
     const double slack = slack_of(a);
-    const FirstFall f = first_fall(a.data(), a.size() - 1, slack);
-    const double until = f.kind == FirstFall::Kind::fall ? f.x : 1.0;
+    const events::FirstRoot f = events::first_root(a.data(), a.size() - 1, slack);
+    const double until = f.kind == events::FirstRoot::Kind::crossing ? f.x : 1.0;
     double least = a[0];
     for (int i = 0; i <= 400; ++i) least = std::min(least, value(a, until * i / 400.0));
     REQUIRE(least >= -2.0 * slack);
-    if (f.kind == FirstFall::Kind::fall) {
+    if (f.kind == events::FirstRoot::Kind::crossing) {
       ++falls;
       double after = value(a, f.x);
       for (int i = 1; i <= 200; ++i) after = std::min(after, value(a, std::min(1.0, f.x + 1e-3 * i)));

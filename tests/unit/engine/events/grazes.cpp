@@ -16,7 +16,7 @@ constexpr double level_of_all = 1e-6;
 class Followed {
  public:
   explicit Followed(std::function<double(double)> g) : g_(std::move(g)) {
-    GuardStart idle, watched;
+    decide::GuardStart idle, watched;
     watched.kind = Guard::sliding;
     grazes.start({idle, watched}, {0.0, level_of_all});
     fill(history_.restart(0.0), 0.0);
@@ -29,7 +29,7 @@ class Followed {
     }
     return *this;
   }
-  Grazes grazes;
+  events::Grazes grazes;
 
  private:
   void fill(double* out, double t) const {
@@ -37,7 +37,7 @@ class Followed {
     out[1] = g_(t);
   }
   std::function<double(double)> g_;
-  StepHistory history_ = StepHistory(2);
+  events::StepHistory history_ = events::StepHistory(2);
   double t_ = 0.0;
   int steps_ = 0;
 };

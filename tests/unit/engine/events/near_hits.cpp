@@ -14,16 +14,17 @@ namespace {
 constexpr double level_of_gap = 1e-6;
 
 /// What is seen of a gap in steps of 0.1 of a method of order three; slot 3: of the second contact.
-std::vector<NearHit> near_hits_of(const std::function<double(double)>& gap, double end, double limit = 1.0) {
-  std::vector<GuardStart> guards(guard_slot(2, 0));
+std::vector<events::NearHit> near_hits_of(const std::function<double(double)>& gap, double end,
+                                          double limit = 1.0) {
+  std::vector<decide::GuardStart> guards(contact::guard_slot(2, 0));
   std::vector<double> levels(guards.size(), level_of_gap);
-  guards[guard_slot(1, 0)].kind = Guard::closing;
-  StepHistory history(guards.size());
+  guards[contact::guard_slot(1, 0)].kind = Guard::closing;
+  events::StepHistory history(guards.size());
   const auto fill = [&](double* out, double t) {
     std::fill_n(out, guards.size(), 1.0);
-    out[guard_slot(1, 0)] = gap(t);
+    out[contact::guard_slot(1, 0)] = gap(t);
   };
-  NearHits hits;
+  events::NearHits hits;
   hits.start(guards, levels);
   fill(history.restart(0.0), 0.0);
   int steps = 0;
@@ -44,7 +45,7 @@ TEST_CASE("each least gap below ten thousand levels, with its time and its value
   const auto swings = [](double least) {
     return [least](double t) { return least + 0.1 * (1.0 + std::cos(2.0 * t - 1.0)); };
   };
-  const std::vector<NearHit> hits = near_hits_of(swings(5e-3), 6.0);
+  const std::vector<events::NearHit> hits = near_hits_of(swings(5e-3), 6.0);
   REQUIRE(hits.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(hits[i].contact == 1);
@@ -61,7 +62,7 @@ TEST_CASE("each least gap below ten thousand levels, with its time and its value
 TEST_CASE("a least gap where two steps meet is one, looked at once") {
   for (const double meeting : {1.0, 1.1, 1.7}) {
     CAPTURE(meeting);
-    const std::vector<NearHit> hits = near_hits_of(
+    const std::vector<events::NearHit> hits = near_hits_of(
         [&](double t) { return 5e-3 + 0.1 * (1.0 - std::cos(2.0 * (t - meeting))); }, meeting + 1.0);
     REQUIRE(hits.size() == 1);
     CHECK(std::abs(hits[0].t - meeting) < 1e-3);  // h^3 g''''/(4 g''): of the history

@@ -11,9 +11,9 @@ namespace {
 
 /// A step from t = 1 of length 2 on which N has the given coefficients and all else stands still.
 struct OneForce {
-  Series series;
-  std::vector<ContactSeries> contacts{1};
-  TurningPoints turns{1};
+  motion::Series series;
+  std::vector<motion::ContactSeries> contacts{1};
+  events::TurningPoints turns{1};
 
   explicit OneForce(const std::vector<double>& N) {
     const std::size_t degree = N.size() - 1;
@@ -24,9 +24,9 @@ struct OneForce {
     for (std::size_t k = 0; k <= degree; ++k) series.forces(0, static_cast<Eigen::Index>(k)) = N[k];
     series.forcing.count = degree + 3;
     series.forcing.surface.assign(degree + 3, 0.0);
-    series.forcing.pressing = series.forcing.surface;
+    series.forcing.applied_normal_force = series.forcing.surface;
     contacts[0].fill(Contact{}, 0, series, degree);
-    Decision decision;
+    decide::Decision decision;
     ContactMotion m;
     m.N = N[0];
     decision.after = decision.before = {m};
@@ -91,14 +91,14 @@ TEST_CASE(
 
 TEST_CASE("a part of a step that begins at a peak has it, for nobody looks there") {
   OneForce rising({0.0, 1.0});
-  rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, TurningPoints::Ends::part);
+  rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, events::TurningPoints::Ends::part);
   CHECK(rising.turns.times().empty());
   for (const double slope : {-1e-3, 0.0, 1e-3}) {  // the peak was a little before, or is a little after
     CAPTURE(slope);
     OneForce peak({0.0, slope, -1.0});
     peak.series.forces(0, 0) = 1.0;
     peak.contacts[0].fill(Contact{}, 0, peak.series, 2);
-    peak.turns.find(peak.contacts, peak.series, 0.0, 1.0, TurningPoints::Ends::part);
+    peak.turns.find(peak.contacts, peak.series, 0.0, 1.0, events::TurningPoints::Ends::part);
     REQUIRE(peak.turns.times().size() == 1);
     CHECK(peak.turns.times()[0] == doctest::Approx(1.0 + std::max(0.0, slope)).epsilon(1e-12));
   }
@@ -118,7 +118,7 @@ TEST_CASE("what only seems to exceed all before is no turn: it would stand for t
       for (int k = 0; k < 3; ++k)
         lower.series.forces(0, k) = std::vector<double>{level - sharp * at * at, 2.0 * sharp * at,
                                                         -sharp}[static_cast<std::size_t>(k)];
-      lower.turns.begins(0, ContactSeries::N, -1e9, 0.0, 0.0);  // lower than all that comes
+      lower.turns.begins(0, motion::ContactSeries::N, -1e9, 0.0, 0.0);  // lower than all that comes
       lower.contacts[0].fill(Contact{}, 0, lower.series, 2);
       CHECK(lower.times().empty());
     }
@@ -128,15 +128,15 @@ TEST_CASE("a peak between two parts of a step is the beginning of the second, an
   for (const double sign : {1.0, -1.0}) {
     CAPTURE(sign);
     OneForce rising({0.0, sign});
-    rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, TurningPoints::Ends::first_part);
+    rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, events::TurningPoints::Ends::first_part);
     CHECK(rising.turns.times().empty());
-    TurningPoints& turns = rising.turns;
-    CHECK_FALSE(turns.begins(0, ContactSeries::N, sign, 0.5 * sign, 3.0));  // it rises on
-    const auto peak = turns.begins(0, ContactSeries::N, sign, -0.5 * sign, 3.0);
+    events::TurningPoints& turns = rising.turns;
+    CHECK_FALSE(turns.begins(0, motion::ContactSeries::N, sign, 0.5 * sign, 3.0));  // it rises on
+    const auto peak = turns.begins(0, motion::ContactSeries::N, sign, -0.5 * sign, 3.0);
     REQUIRE(peak);
     CHECK(peak->time == 3.0);
-    CHECK_FALSE(turns.begins(0, ContactSeries::N, sign, -0.5 * sign, 5.0));        // as high as before
-    CHECK_FALSE(turns.begins(0, ContactSeries::N, 0.5 * sign, -0.5 * sign, 5.0));  // lower
+    CHECK_FALSE(turns.begins(0, motion::ContactSeries::N, sign, -0.5 * sign, 5.0));  // as high as before
+    CHECK_FALSE(turns.begins(0, motion::ContactSeries::N, 0.5 * sign, -0.5 * sign, 5.0));  // lower
   }
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("what its rate keeps within all that was before is not looked at, and 
     CAPTURE(rise);
     OneForce path({0.0, 2.0, 0.0});
     CHECK(path.times().empty());
-    Decision decision;
+    decide::Decision decision;
     ContactMotion m;
     m.N = 1.0;
     decision.after = decision.before = {m};
@@ -184,7 +184,7 @@ TEST_CASE("what its rate keeps within all that was before is not looked at, and 
 }
 
 TEST_CASE("a value beyond all before has turned where it goes back, unless it is beyond by its rounding") {
-  const TurningPoints::Range range{-2.0, 3.0};
+  const events::TurningPoints::Range range{-2.0, 3.0};
   CHECK(range.is_left(3.5, -1e-20, 0.0));
   CHECK(range.is_left(-2.5, 1e-20, 0.4));
   CHECK_FALSE(range.is_left(3.5, 1.0, 0.0));  // it goes on

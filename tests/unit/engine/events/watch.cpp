@@ -13,18 +13,19 @@ namespace {
 /// Steps of size h on one guard g(t), degree of the method as IDA raises it; the falls found.
 std::vector<double> falls(const std::function<double(double)>& g, bool at_zero, double level, double h,
                           int steps) {
-  GuardStart start;
+  decide::GuardStart start;
   start.kind = Guard::separation;
   start.at_zero = at_zero;
-  Watch watch;
-  watch.start({start}, GuardForms(1), {level});
-  StepHistory history(1);
+  events::Watch watch;
+  watch.start({start}, decide::GuardForms(1), {level});
+  events::StepHistory history(1);
   *history.restart(0.0) = g(0.0);
   std::vector<double> found;
   for (int i = 1; i <= steps; ++i) {
     *history.push(i * h) = g(i * h);
     history.prepare(std::min(i, 5));
-    for (const Fall& fall : watch.check(history, 1.0)) found.push_back(history.begin() + fall.x * h);
+    for (const events::ZeroCrossing& fall : watch.check(history, 1.0))
+      found.push_back(history.begin() + fall.x * h);
   }
   return found;
 }
@@ -41,27 +42,27 @@ TEST_CASE("a fall and rise inside one step is found, though both ends are positi
 }
 
 TEST_CASE("an event is late by the level of a guard that has not risen, and of no other") {
-  GuardStart at_zero, clear, idle;
+  decide::GuardStart at_zero, clear, idle;
   at_zero.kind = clear.kind = Guard::separation;
   at_zero.at_zero = true;
-  std::vector<GuardStart> guards(2 * guards_per_contact, idle);
-  guards[guards_per_contact] = at_zero;
-  guards[guards_per_contact + 1] = clear;
-  GuardsOfState of_second;
+  std::vector<decide::GuardStart> guards(2 * contact::guards_per_contact, idle);
+  guards[contact::guards_per_contact] = at_zero;
+  guards[contact::guards_per_contact + 1] = clear;
+  decide::GuardsOfState of_second;
   of_second[0].form.N = -1.0;
   of_second[1].form.T = 1.0;
-  GuardForms forms(2);
+  decide::GuardForms forms(2);
   forms.set(1, of_second);
-  Watch watch;
+  events::Watch watch;
   CHECK(watch.leeway(1, of_second[0]) == 0.0);  // before any segment
   watch.start(guards, forms, std::vector<double>(guards.size(), 1e-6));
   CHECK(watch.leeway(1, of_second[0]) == 1e-6);
   CHECK(watch.leeway(0, of_second[0]) == 0.0);
   CHECK(watch.leeway(1, of_second[1]) == 0.0);
-  StepHistory history(guards.size());
+  events::StepHistory history(guards.size());
   double* start = history.restart(0.0);
   std::fill_n(start, guards.size(), 1.0);
-  start[guards_per_contact] = 0.0;
+  start[contact::guards_per_contact] = 0.0;
   std::fill_n(history.push(1.0), guards.size(), 1.0);  // rises above its level
   history.prepare(1);
   CHECK(watch.check(history, 1.0).empty());
@@ -93,9 +94,9 @@ TEST_CASE("a guard that starts at zero and rises fires only after it has clearly
 }
 
 TEST_CASE("idle guards never fall") {
-  Watch watch;
-  watch.start({GuardStart{}}, GuardForms(1), {1.0});
-  StepHistory history(1);
+  events::Watch watch;
+  watch.start({decide::GuardStart{}}, decide::GuardForms(1), {1.0});
+  events::StepHistory history(1);
   *history.restart(0.0) = 1.0;
   *history.push(1.0) = -1.0;
   history.prepare(1);
@@ -104,17 +105,17 @@ TEST_CASE("idle guards never fall") {
 
 TEST_CASE("what was taken not to fall waits: deeper it falls, and once it has risen it counts as before") {
   const auto found = [](const std::function<double(double)>& g) {
-    GuardStart clear;
+    decide::GuardStart clear;
     clear.kind = Guard::sliding;
-    Watch watch;
-    watch.start({clear}, GuardForms(1), {1e-9});
-    StepHistory history(1);
+    events::Watch watch;
+    watch.start({clear}, decide::GuardForms(1), {1e-9});
+    events::StepHistory history(1);
     *history.restart(0.0) = g(0.0);
     std::vector<double> result;
     for (int i = 1; i <= 40; ++i) {
       *history.push(0.05 * i, 0.05) = g(0.05 * i);
       history.prepare(std::min(i, 5));
-      for (const Fall& fall : watch.check(history, 1.0)) {
+      for (const events::ZeroCrossing& fall : watch.check(history, 1.0)) {
         result.push_back(history.begin() + fall.x * 0.05);
         if (result.size() == 1) watch.wait(0, 1e-3);
       }

@@ -8,7 +8,7 @@ using namespace signorini;
 
 namespace {
 
-double mean(const GaussRule& rule, double turn, double phase) {
+double mean(const exact::GaussRule& rule, double turn, double phase) {
   double sum = 0.0;
   for (std::size_t i = 0; i < rule.count; ++i) {
     const double v = std::cos(turn * rule.x[i] + phase);
@@ -25,16 +25,17 @@ TEST_CASE("the power of a motion: the short rule to rounding up to its turn, the
   const auto exact = [](double turn, double phase) {
     return 0.5 + (std::sin(2.0 * (turn + phase)) - std::sin(2.0 * phase)) / (4.0 * turn);
   };
-  CHECK(short_gauss_rule().count == 6);
+  CHECK(exact::short_gauss_rule().count == 6);
   for (const double phase : {0.0, 0.4, 1.3, 2.9}) {
-    CHECK(std::abs(mean(short_gauss_rule(), short_turn, phase) - exact(short_turn, phase)) < 1e-15);
-    CHECK(std::abs(mean(gauss_rule(), 2.5, phase) - exact(2.5, phase)) < 1e-15);
+    CHECK(std::abs(mean(exact::short_gauss_rule(), exact::short_turn, phase) -
+                   exact(exact::short_turn, phase)) < 1e-15);
+    CHECK(std::abs(mean(exact::gauss_rule(), 2.5, phase) - exact(2.5, phase)) < 1e-15);
   }
-  CHECK(std::abs(mean(short_gauss_rule(), 2.5, 0.4) - exact(2.5, 0.4)) > 1e-10);
+  CHECK(std::abs(mean(exact::short_gauss_rule(), 2.5, 0.4) - exact(2.5, 0.4)) > 1e-10);
 }
 
 TEST_CASE("both are exact for polynomials of degree 2 count - 1") {
-  for (const GaussRule* rule : {&gauss_rule(), &short_gauss_rule()})
+  for (const exact::GaussRule* rule : {&exact::gauss_rule(), &exact::short_gauss_rule()})
     for (std::size_t degree = 0; degree < 2 * rule->count; ++degree) {
       double sum = 0.0;
       for (std::size_t i = 0; i < rule->count; ++i)

@@ -23,7 +23,7 @@ struct Vectors {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (N_Vector& vector : v) {
-      vector = all.empty() ? make_vector(n, context) : N_VClone(v[0]);
+      vector = all.empty() ? ida::make_vector(n, context) : N_VClone(v[0]);
       all.emplace_back();
       for (sunindextype j = 0; j < n; ++j)
         all.back().push_back(NV_DATA_S(vector)[static_cast<std::size_t>(j)] = uniform(random));

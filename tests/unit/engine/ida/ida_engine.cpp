@@ -49,8 +49,8 @@ TEST_CASE(
       const double height = part * low;
       Stretch stretch(hop(height, extent));
       long steps = 0;
-      const Step last = stretch.go([&](const Step&) { ++steps; });
-      REQUIRE(last.kind == Step::Kind::event);
+      const engine::Step last = stretch.go([&](const engine::Step&) { ++steps; });
+      REQUIRE(last.kind == engine::Step::Kind::event);
       const double flight = 2.0 * std::sqrt(2.0 * height / (10.0 * extent));
       if (part < 1.0) {
         CHECK(steps == 1);
@@ -67,10 +67,10 @@ TEST_CASE(
 TEST_CASE(
     "a free oscillator between ends of steps, its acceleration and its residual, within the tolerance") {
   Stretch stretch(hop(1.0, 1.0), {{"run.t_end", "0.8"}});
-  const Step last = stretch.go([&](const Step& step) {
+  const engine::Step last = stretch.go([&](const engine::Step& step) {
     for (const double x : {0.0, 0.3, 0.8, 1.0}) {
       const double t = step.begin + x * (step.end - step.begin);
-      const Point p = stretch.at(t);
+      const motion::Point p = stretch.at(t);
       CHECK(std::abs(p.u[1] - std::cos(10.0 * t)) < 2e-6);
       CHECK(std::abs(p.v[1] + 10.0 * std::sin(10.0 * t)) < 2e-5);
       CHECK(std::abs(p.a[1] + 100.0 * p.u[1]) < 1e-12 * 100.0);
@@ -78,7 +78,7 @@ TEST_CASE(
     }
     CHECK(stretch.engine->dense_output().residual() < 1e-3);
   });
-  CHECK(last.kind == Step::Kind::accepted);
+  CHECK(last.kind == engine::Step::Kind::accepted);
   CHECK(last.end == 0.8);
   // One tolerance of the guard's value.
   ContactMotion m;

@@ -29,15 +29,15 @@ TEST_CASE("no tolerance of a force lies below the rounding of the difference tha
   const Model model = coupled(
       "law = \"compliant\"\nnormal = { d0 = 1.0 }\ntangent = { d1 = 1.0 }\nnormal_stiffness = 1e12\n"
       "tangential_stiffness = 1e11\nfriction = 0.3\ngap = 2.0");
-  Tolerance tolerance;
+  engine::Tolerance tolerance;
   tolerance.rtol = 1e-12;
   tolerance.displacement = tolerance.velocity = tolerance.force = 1e-12;
-  const Structure structure(model);
-  const Forcing forcing(model, 0.0, Side::after);
-  IdaProblem problem(model, structure, tolerance);
-  Decision decision;
+  const linear::SystemMatrices structure(model);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  ida::IdaProblem problem(model, structure, tolerance);
+  decide::Decision decision;
   decision.mode = {{State::stick, 0.0}};
-  const Watch watch;
+  const events::Watch watch;
   problem.start({1.0, &decision, &forcing}, watch);
   std::vector<double> y(8, 0.0), w(8);
   y[0] = -3.0;
@@ -53,14 +53,14 @@ TEST_CASE(
     "no tolerance of a force that stops a mass lies below what a rounding of its velocity takes in a step") {
   const Model model =
       coupled("law = \"rigid\"\nnormal = { d0 = 3.0 }\ntangent = { d1 = 7.0 }\nfriction = 0.3");
-  Tolerance tolerance;
+  engine::Tolerance tolerance;
   tolerance.rtol = tolerance.displacement = tolerance.velocity = tolerance.force = 1e-14;
-  const Structure structure(model);
-  const Forcing forcing(model, 0.0, Side::after);
-  IdaProblem problem(model, structure, tolerance);
-  Decision decision;
+  const linear::SystemMatrices structure(model);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  ida::IdaProblem problem(model, structure, tolerance);
+  decide::Decision decision;
   decision.mode = {{State::stick, 0.0}};
-  const Watch watch;
+  const events::Watch watch;
   problem.start({1.0, &decision, &forcing}, watch);
   std::vector<double> y(8, 0.0), w(8);
   y[3] = -0.5;
@@ -76,9 +76,9 @@ TEST_CASE(
 TEST_CASE("the acceleration of a held degree of freedom is exactly what its contact says") {
   const Model model =
       coupled("law = \"rigid\"\nnormal = { d0 = 3.0 }\ntangent = { d1 = 7.0 }\nfriction = 0.3");
-  const Structure structure(model);
-  const Layout layout(model);
-  IdaLinearSolver solver(model, structure, layout);
+  const linear::SystemMatrices structure(model);
+  const ida::Layout layout(model);
+  ida::IdaLinearSolver solver(model, structure, layout);
   solver.set_mode({{State::stick, 0.0}});
   for (int i = 1; i <= 20; ++i) {
     CAPTURE(i);

@@ -46,31 +46,31 @@ TEST_CASE("a polynomial of derivatives, and its own derivatives") {
     return total;
   };
   for (const Eigen::Index p : {0, 1, 2, 4})
-    CHECK(on_polynomial(d, 4, p, x) == doctest::Approx(sum(static_cast<std::size_t>(p))).epsilon(1e-15));
-  CHECK(on_polynomial(d, 1, 0, x) == doctest::Approx(0.7 + 1.2 * 0.37).epsilon(1e-15));
+    CHECK(ida::on_polynomial(d, 4, p, x) == doctest::Approx(sum(static_cast<std::size_t>(p))).epsilon(1e-15));
+  CHECK(ida::on_polynomial(d, 1, 0, x) == doctest::Approx(0.7 + 1.2 * 0.37).epsilon(1e-15));
 }
 
 TEST_CASE(
     "on a jet's polynomials u, v and a are derivatives of each other; without mass fewer derivatives are "
     "known") {
-  Jet jet;
+  motion::Jet jet;
   jet.u.resize(2, 7);
   jet.forces.resize(2, 5);
   for (Eigen::Index k = 0; k < 7; ++k) {
     jet.u(0, k) = std::pow(-1.3, static_cast<double>(k));  // of exp(-1.3 x)
-    jet.u(1, k) = k <= Jet::orders ? jet.u(0, k) : 1e9;
+    jet.u(1, k) = k <= motion::Jet::orders ? jet.u(0, k) : 1e9;
     if (k < 5) jet.forces(0, k) = jet.forces(1, k) = jet.u(0, k);
   }
   const double x = -0.04;
   const auto along = [&](Eigen::Index p) {
     Vector places(2);
-    places_along(
+    ida::places_along(
         jet, p, x, true, [](Eigen::Index dof) { return dof == 1; }, places);
     return places;
   };
   const Vector u = along(0), v = along(1), a = along(2);
   Vector forces(2);
-  on_polynomials(jet.forces, Jet::orders, 0, x, forces);
+  ida::on_polynomials(jet.forces, motion::Jet::orders, 0, x, forces);
   CHECK(std::abs(u[0] - std::exp(-1.3 * x)) < std::pow(1.3 * 0.04, 7) / 5040.0 * 1.1);
   CHECK(std::abs(u[1] - std::exp(-1.3 * x)) < std::pow(1.3 * 0.04, 5) / 120.0 * 1.1);
   CHECK(std::abs(v[0] + 1.3 * std::exp(-1.3 * x)) < 1.3 * std::pow(1.3 * 0.04, 6) / 720.0 * 1.1);

@@ -23,10 +23,10 @@ TEST_CASE(
   Stretch s(block(), {{"run.engine", "friction-iteration"}, {"run.dt", "0.3"}});
   REQUIRE(s.decision.mode[0].state == State::slip_plus);
   std::vector<double> ends, u, v;
-  Works works(1);
-  const Step last = s.go([&](const Step& step) {
+  motion::WorkIntegrals works(1);
+  const engine::Step last = s.go([&](const engine::Step& step) {
     ends.push_back(step.end);
-    const Point p = s.at(step.end);
+    const motion::Point p = s.at(step.end);
     u.push_back(p.u[0]);
     v.push_back(p.v[0]);
     CHECK(std::abs(p.T({}, 0)) <= 2.0 * (1.0 + 1e-12));
@@ -42,22 +42,22 @@ TEST_CASE(
     CHECK(v[i] == doctest::Approx(1.0 - t).epsilon(1e-14));
   }
   // Held from 0.9 on: v = 0 at 1.2, and the mean velocity moves it by 0.3 (0.1 + 0) / 2.
-  REQUIRE(last.kind == Step::Kind::event);
+  REQUIRE(last.kind == engine::Step::Kind::event);
   REQUIRE(last.adopted);
   CHECK((*last.adopted)[0].state == State::stick);
-  CHECK(last.fired.empty());
+  CHECK(last.triggered.empty());
   CHECK(ends[3] == doctest::Approx(1.2).epsilon(1e-15));
   CHECK(u[3] == doctest::Approx(0.51).epsilon(1e-14));
   CHECK(std::abs(v[3]) < 1e-15);
-  CHECK(works.pressing[0] == doctest::Approx(4.0 * 1.2).epsilon(1e-14));
+  CHECK(works.applied_normal_force[0] == doctest::Approx(4.0 * 1.2).epsilon(1e-14));
   // On a straight line inside of the step, with the forces of the state that ends there.
-  const Point inside = s.at(1.05);
+  const motion::Point inside = s.at(1.05);
   CHECK(inside.u[0] == doctest::Approx(0.5 * (0.495 + 0.51)).epsilon(1e-14));
   CHECK(inside.v[0] == doctest::Approx(0.05).epsilon(1e-13));
   CHECK(inside.T({}, 0) == doctest::Approx(2.0).epsilon(1e-13));
   REQUIRE(s.pass(last));
   CHECK(s.decision.mode[0].state == State::stick);
-  const Step rest = s.go();
+  const engine::Step rest = s.go();
   CHECK(rest.end == 3.0);
   CHECK(s.at(3.0).u[0] == doctest::Approx(0.51).epsilon(1e-14));
 }
@@ -65,8 +65,8 @@ TEST_CASE(
 TEST_CASE("steps end at multiples of dt, and the last one at the end") {
   Stretch s(block(), {{"run.engine", "friction-iteration"}, {"run.dt", "0.3"}, {"run.t_end", "0.7"}});
   std::vector<double> ends;
-  const Step last = s.go([&](const Step& step) { ends.push_back(step.end); });
-  CHECK(last.kind == Step::Kind::accepted);
+  const engine::Step last = s.go([&](const engine::Step& step) { ends.push_back(step.end); });
+  CHECK(last.kind == engine::Step::Kind::accepted);
   REQUIRE(ends.size() == 3);
   CHECK(ends[1] == doctest::Approx(0.6).epsilon(1e-15));
   CHECK(ends[2] == 0.7);

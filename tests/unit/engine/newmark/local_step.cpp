@@ -13,9 +13,9 @@ namespace {
 
 struct Ends {
   const Model& model;
-  Structure structure{model};
-  Forcing forcing{model, 0.0, Side::after};
-  Point from;
+  linear::SystemMatrices structure{model};
+  motion::Forcing forcing{model, 0.0, motion::Side::after};
+  motion::Point from;
   explicit Ends(const Model& m) : model(m) {
     const Eigen::Index n = m.size();
     from = {m.u0, m.v0, Vector::Zero(2 * static_cast<Eigen::Index>(m.contacts.size())),
@@ -30,12 +30,12 @@ TEST_SUITE_BEGIN("unit/engine/newmark/local_step");
 TEST_CASE("at every contact, turned as it may be, the end of a step is that of the whole step") {
   const Model m = lively_row(313);
   for (const int number : {0, 11, 500}) {
-    const std::vector<Rows> rows = rows_of(m, rubbing_mode(m, number));
+    const std::vector<Rows> rows = linear::rows_of(m, rubbing_mode(m, number));
     Ends at(m);
-    NewmarkStep step(m, at.structure);
+    newmark::NewmarkStep step(m, at.structure);
     step.set({number}, rows);
     const double longer = 0.05;
-    Point whole, end;
+    motion::Point whole, end;
     REQUIRE(step.take(at.forcing, at.from, longer, longer, true, whole));
     for (const double part : {1e-9, 0.02, 0.4, 0.97}) {
       const double h = part * longer;
@@ -45,10 +45,10 @@ TEST_CASE("at every contact, turned as it may be, the end of a step is that of t
         CAPTURE(number);
         CAPTURE(h);
         CAPTURE(k);
-        const Point* near = step.near(k, at.forcing, at.from, h, h, whole, longer);
+        const motion::Point* near = step.near(k, at.forcing, at.from, h, h, whole, longer);
         REQUIRE(near != nullptr);
-        const ContactMotion a = motion_of(m.contacts[k], k, at.forcing, h, *near),
-                            b = motion_of(m.contacts[k], k, at.forcing, h, end);
+        const ContactMotion a = motion::motion_of(m.contacts[k], k, at.forcing, h, *near),
+                            b = motion::motion_of(m.contacts[k], k, at.forcing, h, end);
         CHECK(std::abs(a.gap - b.gap) < 1e-15);
         CHECK(std::abs(a.ut - b.ut) < 1e-15);
         CHECK(std::abs(a.vn - b.vn) < 1e-14);
@@ -70,17 +70,17 @@ TEST_CASE(
   m.stiffness *= 1e4;
   for (Contact& contact : m.contacts) contact.normal_stiffness = contact.normal_damping = 1e-3;
   for (Contact& contact : m.contacts) contact.tangential_stiffness = 1e-3;
-  const std::vector<Rows> rows = rows_of(m, rubbing_mode(m, 0));
+  const std::vector<Rows> rows = linear::rows_of(m, rubbing_mode(m, 0));
   Ends at(m);
-  NewmarkStep step(m, at.structure);
+  newmark::NewmarkStep step(m, at.structure);
   step.set({0}, rows);
   const double longer = 1.0, h = 0.5;
-  Point whole, end;
+  motion::Point whole, end;
   REQUIRE(step.take(at.forcing, at.from, longer, longer, true, whole));
   REQUIRE(step.take(at.forcing, at.from, h, h, false, end));
   const std::size_t k = 750;
   const auto off = [&]() -> double {
-    const Point* near = step.near(k, at.forcing, at.from, h, h, whole, longer);
+    const motion::Point* near = step.near(k, at.forcing, at.from, h, h, whole, longer);
     if (near == nullptr) return -1.0;
     const auto dof = m.contacts[k].normal.terms[0].first;
     return std::abs(near->a[dof] - end.a[dof]) / end.a.cwiseAbs().maxCoeff();

@@ -31,17 +31,17 @@ TEST_SUITE_BEGIN("unit/engine/newmark/newmark_engine");
 
 TEST_CASE("a block that friction stops: the steps are exact, the slip rate falls at t = 1, works are f N u") {
   Stretch s(block, steps);
-  Works works(1);
+  motion::WorkIntegrals works(1);
   long taken = 0;
-  const Step last = s.go([&](const Step& step) {
+  const engine::Step last = s.go([&](const engine::Step& step) {
     ++taken;
     for (const double x : {0.2, 0.5, 1.0}) {
       const double t = step.begin + x * (step.end - step.begin);
-      const Point p = s.at(t);
+      const motion::Point p = s.at(t);
       CHECK(p.u[0] == doctest::Approx(t - 0.5 * t * t).epsilon(1e-13));
       CHECK(p.v[0] == doctest::Approx(1.0 - t).epsilon(1e-12));
       CHECK(p.T({}, 0) == doctest::Approx(2.0).epsilon(1e-14));
-      Point curve;
+      motion::Point curve;
       s.engine->dense_output().interpolate(t, curve);
       CHECK(curve.u[0] == doctest::Approx(p.u[0]).epsilon(1e-13));
     }
@@ -50,12 +50,12 @@ TEST_CASE("a block that friction stops: the steps are exact, the slip rate falls
     s.engine->dense_output().integrate(middle, step.end, works);
   });
   CHECK(taken == 4);
-  REQUIRE(last.kind == Step::Kind::event);
-  REQUIRE(last.fired.size() == 1);
-  CHECK(last.fired[0].guard == Guard::sliding);
+  REQUIRE(last.kind == engine::Step::Kind::event);
+  REQUIRE(last.triggered.size() == 1);
+  CHECK(last.triggered[0].guard == Guard::sliding);
   CHECK(last.end == doctest::Approx(1.0).epsilon(1e-14));
   CHECK(works.friction[0] == doctest::Approx(2.0 * 0.5).epsilon(1e-13));
-  CHECK(works.pressing[0] == doctest::Approx(4.0).epsilon(1e-13));
+  CHECK(works.applied_normal_force[0] == doctest::Approx(4.0).epsilon(1e-13));
   // Constant acceleration: what a step leaves out is nothing.
   Form rate;
   rate.vt = 1.0;
@@ -74,9 +74,9 @@ TEST_CASE("a fall between steps is found where the motion has it, the rebound ha
     double t = (-0.2 + std::sqrt(0.04 + 10.0)) / 10.0, speed = 0.2 + 10.0 * t, begin = 0.0;
     for (int hit = 0; hit < 4; ++hit) {
       CAPTURE(hit);
-      const Step last = s.go();
-      REQUIRE(last.kind == Step::Kind::event);
-      CHECK(last.fired[0].guard == Guard::closing);
+      const engine::Step last = s.go();
+      REQUIRE(last.kind == engine::Step::Kind::event);
+      CHECK(last.triggered[0].guard == Guard::closing);
       CHECK(last.end == doctest::Approx(begin + t).epsilon(1e-13));
       CHECK(s.at(last.end).v[0] == doctest::Approx(-speed).epsilon(1e-12));
       REQUIRE(s.pass(last));
@@ -182,18 +182,19 @@ TEST_CASE(
     for (; events < 60; ++events) {
       CAPTURE(turn);
       CAPTURE(events);
-      const Step last = s.go();
-      if (last.kind != Step::Kind::event) break;
-      const auto& [contact, kind, unseen] = last.fired.at(0);
-      std::size_t slot = guard_slot(contact, 0);
+      const engine::Step last = s.go();
+      if (last.kind != engine::Step::Kind::event) break;
+      const auto& [contact, kind, unseen] = last.triggered.at(0);
+      std::size_t slot = contact::guard_slot(contact, 0);
       while (s.decision.guards[slot].kind != kind) ++slot;
-      NewmarkStep whole(s.model, s.structure, 0);
+      newmark::NewmarkStep whole(s.model, s.structure, 0);
       whole.set({0}, s.decision.system->rows());
-      const Point from = s.at(last.begin);
+      const motion::Point from = s.at(last.begin);
       const auto value = [&](double h, double& rounding) {
-        Point to;
+        motion::Point to;
         REQUIRE(whole.take(s.forcing, from, last.begin + h, h, false, to));
-        const ContactMotion m = motion_of(s.model.contacts[contact], contact, s.forcing, last.begin + h, to);
+        const ContactMotion m =
+            motion::motion_of(s.model.contacts[contact], contact, s.forcing, last.begin + h, to);
         rounding = rounding::of_many * s.decision.form(slot).magnitude(m);
         return s.decision.form(slot).value(m);
       };

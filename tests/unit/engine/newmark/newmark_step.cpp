@@ -32,15 +32,15 @@ Model model() {
 TEST_SUITE("unit/engine/newmark/newmark_step") {
   TEST_CASE("the formulas of average acceleration, equilibrium and the limit hold at the end of a step") {
     const Model m = model();
-    const Structure structure(m);
-    ModeSystems systems(m, structure);
-    const Mode mode{{State::slip_plus, 0.0}};
-    const ModeSystemPtr system = systems.of(mode);
+    const linear::SystemMatrices structure(m);
+    motion::StateSystems systems(m, structure);
+    const contact::ContactStates mode{{State::slip_plus, 0.0}};
+    const motion::StateSystemPtr system = systems.of(mode);
     REQUIRE(system);
-    const Forcing forcing(m, 0.0, Side::after);
-    Point from{m.u0, m.v0, Vector::Zero(2)}, to;
-    ConsistentMotion(systems).make(system, forcing, 0.0, from);
-    NewmarkStep step(m, structure);
+    const motion::Forcing forcing(m, 0.0, motion::Side::after);
+    motion::Point from{m.u0, m.v0, Vector::Zero(2)}, to;
+    motion::ConsistentMotion(systems).make(system, forcing, 0.0, from);
+    newmark::NewmarkStep step(m, structure);
     step.set({1}, system->rows());
     // From a thousandth of a period of the contact's spring to far above it, and to the clock's resolution.
     for (double h : {1e-16, 1e-9, 1e-4, 1e-2, 10.0}) {
@@ -53,7 +53,8 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
         CHECK(to.v[i] == doctest::Approx(v).epsilon(1e-13));
       }
       CHECK(to.forces[1] == -0.4 * to.forces[0]);  // to the last bit
-      CHECK(imbalance(m, structure, forcing, h, to) < 1e-12 * (1.0 + 1e3 * to.u.cwiseAbs().maxCoeff()));
+      CHECK(motion::imbalance(m, structure, forcing, h, to) <
+            1e-12 * (1.0 + 1e3 * to.u.cwiseAbs().maxCoeff()));
     }
   }
 
@@ -65,15 +66,15 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
         "stiffness = [[30.0, -5.0], [-5.0, 20.0]]\n[[loads]]\ndirection = { d0 = 1.0, d1 = 2.0 }\n"
         "amplitude = 3.0\nhistory = { type = \"harmonic\", omega = 2.0 }\n",
         "test.toml"));
-    const Structure structure(m);
-    ModeSystems systems(m, structure);
-    const ModeSystemPtr system = systems.of({});
+    const linear::SystemMatrices structure(m);
+    motion::StateSystems systems(m, structure);
+    const motion::StateSystemPtr system = systems.of({});
     REQUIRE(system);
-    const Forcing forcing(m, 0.0, Side::after);
-    Point from{m.u0, m.v0, Vector::Zero(0)}, to;
+    const motion::Forcing forcing(m, 0.0, motion::Side::after);
+    motion::Point from{m.u0, m.v0, Vector::Zero(0)}, to;
     from.u[1] = 5.0 * from.u[0] / 20.0;  // K u = P of the second row, P(0) = 0
-    ConsistentMotion(systems).make(system, forcing, 0.0, from);
-    NewmarkStep step(m, structure);
+    motion::ConsistentMotion(systems).make(system, forcing, 0.0, from);
+    newmark::NewmarkStep step(m, structure);
     step.set({}, system->rows());
     for (double h : {1e-6, 1e-2, 0.5}) {
       CAPTURE(h);
@@ -88,15 +89,15 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
 
   TEST_CASE("a factorisation is kept for a length that comes again in the same states") {
     const Model m = model();
-    const Structure structure(m);
-    ModeSystems systems(m, structure);
-    NewmarkStep step(m, structure);
-    const Mode stick{{State::stick, 0.0}}, slip{{State::slip_plus, 0.0}};
-    const Forcing forcing(m, 0.0, Side::after);
-    Point from{m.u0, m.v0, Vector::Zero(2), Vector::Zero(2)}, to;
+    const linear::SystemMatrices structure(m);
+    motion::StateSystems systems(m, structure);
+    newmark::NewmarkStep step(m, structure);
+    const contact::ContactStates stick{{State::stick, 0.0}}, slip{{State::slip_plus, 0.0}};
+    const motion::Forcing forcing(m, 0.0, motion::Side::after);
+    motion::Point from{m.u0, m.v0, Vector::Zero(2), Vector::Zero(2)}, to;
     for (int i = 0; i < 5; ++i)
-      for (const Mode& mode : {stick, slip}) {
-        const ModeSystemPtr system = systems.of(mode);
+      for (const contact::ContactStates& mode : {stick, slip}) {
+        const motion::StateSystemPtr system = systems.of(mode);
         REQUIRE(system);
         step.set({static_cast<int>(mode[0].state)}, system->rows());
         REQUIRE(step.take(forcing, from, 0.01, 0.01, true, to));
@@ -115,14 +116,15 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
       std::size_t widest;
     };
     // Every step factorised; avoided; as a band, once for each odd length.
-    for (const auto& [masses, widest] : {Kind{9, 0}, Kind{77, 0}, Kind{77, CondensedMatrix::widest}}) {
+    for (const auto& [masses, widest] :
+         {Kind{9, 0}, Kind{77, 0}, Kind{77, linear::CondensedMatrix::widest}}) {
       const Model m = rubbing_row(masses);
-      const Structure structure(m);
-      const Forcing forcing(m, 0.0, Side::after);
-      NewmarkStep step(m, structure, widest);
+      const linear::SystemMatrices structure(m);
+      const motion::Forcing forcing(m, 0.0, motion::Side::after);
+      newmark::NewmarkStep step(m, structure, widest);
       const Eigen::Index n = m.size(), forces = 2 * static_cast<Eigen::Index>(m.contacts.size());
-      Point from{m.u0, m.v0, Vector::Zero(forces), Vector::LinSpaced(n, -1.0, 1.0)}, to;
-      Mode mode = rubbing_mode(m, 11);
+      motion::Point from{m.u0, m.v0, Vector::Zero(forces), Vector::LinSpaced(n, -1.0, 1.0)}, to;
+      contact::ContactStates mode = rubbing_mode(m, 11);
       const double dt = 0.01;
       int states = 0;
       for (int i = 0; i < 24; ++i) {
@@ -130,20 +132,20 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
         changed = changed == State::stick  ? State::slip_minus
                   : changed == State::open ? State::stick
                                            : State::open;
-        NewmarkStep::Key key;
-        for (const State s : states_of(mode)) key.push_back(static_cast<int>(s));
-        step.set(key, rows_of(m, mode));
+        newmark::NewmarkStep::Key key;
+        for (const State s : contact::states_of(mode)) key.push_back(static_cast<int>(s));
+        step.set(key, linear::rows_of(m, mode));
         ++states;
         const auto check = [&](double h, bool kept) {
           CAPTURE(h);
           CAPTURE(i);
           REQUIRE(step.take(forcing, from, h, h, kept, to));
           const double force = 1.0 + 1e3 * to.u.cwiseAbs().maxCoeff();
-          CHECK(imbalance(m, structure, forcing, h, to) < 1e-12 * force);
+          CHECK(motion::imbalance(m, structure, forcing, h, to) < 1e-12 * force);
           const Vector u = from.u + h * from.v + 0.25 * h * h * (from.a + to.a);
           CHECK((to.u - u).cwiseAbs().maxCoeff() < 1e-14);
           for (std::size_t k = 0; k < m.contacts.size(); ++k) {
-            const ContactMotion motion = motion_of(m.contacts[k], k, forcing, h, to);
+            const ContactMotion motion = motion::motion_of(m.contacts[k], k, forcing, h, to);
             CHECK(std::abs(step.rows()[k].normal.value(motion)) < 1e-12 * force);
             CHECK(std::abs(step.rows()[k].tangent.value(motion)) < 1e-12 * force);
           }

@@ -17,9 +17,9 @@ TEST_CASE("works of a step are those of mean forces on the way between its ends"
                           "normal_stiffness = 100.0\nnormal_damping = 2.0\ntangential_stiffness = 50.0\n"
                           "friction = 0.4\nsurface_velocity = 1.5"),
       "test.toml"));
-  const Structure structure(model);
-  const Forcing forcing(model, 0.0, Side::after);
-  Point a{Vector(2), Vector(2), Vector(2)}, b = a;
+  const linear::SystemMatrices structure(model);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  motion::Point a{Vector(2), Vector(2), Vector(2)}, b = a;
   a.u << 0.1, -0.03;
   a.v << 2.0, -1.0;
   a.forces << -2.0, 1.0;
@@ -27,14 +27,14 @@ TEST_CASE("works of a step are those of mean forces on the way between its ends"
   b.v << 4.0, 0.5;
   b.forces << -4.0, 3.0;
   const double h = 0.2, ds = 1.5 * h, T = 2.0;
-  NewmarkWorks steps(model, structure);
+  newmark::NewmarkWorkIntegrals steps(model, structure);
   const auto works_in = [&](State state) {
-    Works works(1);
+    motion::WorkIntegrals works(1);
     steps.add(forcing, {{state, 0.0}}, a, 0.0, b, h, 1.0, works);
     return works;
   };
-  const Works slip = works_in(State::slip_minus);
-  CHECK(slip.pressing[0] == doctest::Approx(3.0 * h));
+  const motion::WorkIntegrals slip = works_in(State::slip_minus);
+  CHECK(slip.applied_normal_force[0] == doctest::Approx(3.0 * h));
   CHECK(slip.surface[0] == doctest::Approx(-T * ds));
   CHECK(slip.friction[0] == doctest::Approx(T * (0.5 - ds - 2.0 / 50.0)));
   CHECK(slip.damping == doctest::Approx(h * 0.6 * 9.0 + 2.0 * -0.25 * -0.02));

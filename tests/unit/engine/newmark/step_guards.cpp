@@ -13,23 +13,24 @@ using namespace signorini;
 namespace {
 
 /// A decision as far as guards ask for it.
-Decision decided(const Model& model, ModeSystems& systems, const Mode& mode, std::size_t waiting) {
-  Decision decision;
+decide::Decision decided(const Model& model, motion::StateSystems& systems,
+                         const contact::ContactStates& mode, std::size_t waiting) {
+  decide::Decision decision;
   decision.mode = mode;
   decision.system = systems.of(mode);
-  decision.forms = GuardForms(mode.size());
+  decision.forms = decide::GuardForms(mode.size());
   for (std::size_t k = 0; k < mode.size(); ++k) {
-    decision.forms.set(k, guards(model.contacts[k], mode[k]));
+    decision.forms.set(k, contact::guards(model.contacts[k], mode[k]));
     for (const GuardForm& guard : decision.forms[k])
       decision.guards.push_back({guard.kind, false, 0, 1e-9 * static_cast<double>(k)});
   }
-  GuardStart& first = decision.guards[guard_slot(waiting, 0)];
+  decide::GuardStart& first = decision.guards[contact::guard_slot(waiting, 0)];
   first.at_zero = first.kind != Guard::none;
   return decision;
 }
 
 /// Motions that let some guards fall and others not.
-Point moving(const Model& model, double t) {
+motion::Point moving(const Model& model, double t) {
   const Eigen::Index n = model.size();
   const auto wave = [&](double amplitude, double omega) -> Vector {
     return amplitude * (omega * t + Vector::LinSpaced(n, 0.0, 40.0).array()).sin();
@@ -51,11 +52,11 @@ TEST_CASE(
   drift.coefficients = {0.01, 0.3};
   model.contacts[20].surface_motion = History(drift);
   model.contacts[21].surface_motion = History::constant(0.004);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  const Forcing forcing(model, 0.0, Side::after);
-  StepGuards seen(model);
-  Mode mode = rubbing_mode(model, 1234567);
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  newmark::StepGuards seen(model);
+  contact::ContactStates mode = rubbing_mode(model, 1234567);
   const double h = 0.03;
   double t = 0.0;
   int dips = 0, falls = 0, at_rest = 0;
@@ -66,35 +67,35 @@ TEST_CASE(
                                                                                  : k == 1 ? State::open
                                                                                           : State::slip_plus;
     const auto waiting = static_cast<std::size_t>(5 * round) % mode.size();
-    const Decision decision = decided(model, systems, mode, waiting);
+    const decide::Decision decision = decided(model, systems, mode, waiting);
     seen.start({10.0, &decision, &forcing, round > 0});
     seen.weigh(moving(model, t), t);
     for (int step = 0; step < 3; ++step, t += h) {
       seen.turn();
-      const Point points[] = {moving(model, t - h), moving(model, t), moving(model, t + h)};
+      const motion::Point points[] = {moving(model, t - h), moving(model, t), moving(model, t + h)};
       seen.weigh(points[2], t + h);
       const double h_before = step == 0 ? 0.0 : h;
       const std::vector<std::size_t> noticed = seen.noticed(h, h_before);
       for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
         CAPTURE(slot);
-        const GuardStart& guard = decision.guards[slot];
+        const decide::GuardStart& guard = decision.guards[slot];
         const bool listed = std::find(noticed.begin(), noticed.end(), slot) != noticed.end();
         if (guard.kind == Guard::none) {
           CHECK_FALSE(listed);
           continue;
         }
-        const std::size_t k = contact_of_guard(slot);
+        const std::size_t k = contact::contact_of_guard(slot);
         double value[3];
         for (int i = 0; i < 3; ++i)
-          value[i] =
-              decision.form(slot).value(motion_of(model.contacts[k], k, forcing, t + (i - 1) * h, points[i]));
-        const GuardPath path = seen.path(slot, h);
+          value[i] = decision.form(slot).value(
+              motion::motion_of(model.contacts[k], k, forcing, t + (i - 1) * h, points[i]));
+        const events::GuardPath path = seen.path(slot, h);
         CHECK(path.g0 == doctest::Approx(value[1]).epsilon(1e-13).scale(10.0));
         CHECK(path.g1 == doctest::Approx(value[2]).epsilon(1e-13).scale(10.0));
         if (seen.has_rate(slot)) {
           // The law of a closed contact, by hand: N' = kn g' (+ cn g''), T' = kt ut' or -s f N'.
-          const ContactMotion m = motion_of(model.contacts[k], k, forcing, t + h, points[2]);
-          const Rows rows = signorini::rows(model.contacts[k], mode[k]);
+          const ContactMotion m = motion::motion_of(model.contacts[k], k, forcing, t + h, points[2]);
+          const Rows rows = signorini::contact::rows(model.contacts[k], mode[k]);
           ContactMotion d;
           d.gap = m.vn;
           d.ut = m.vt;
@@ -104,7 +105,7 @@ TEST_CASE(
           d.T = -rows.tangent.N * d.N - rows.tangent.ut * m.vt;
           CHECK(path.r1 == doctest::Approx(h * decision.form(slot).rate(d)).epsilon(1e-12).scale(10.0));
         }
-        const bool waits = slot == guard_slot(waiting, 0) && !seen.arming().armed(slot);
+        const bool waits = slot == contact::guard_slot(waiting, 0) && !seen.active_guards().armed(slot);
         const auto dip = seen.dip(slot, h, h_before);
         if (waits) CHECK(listed);
         if (path.g1 <= 0.0 || dip) CHECK(listed);
@@ -113,9 +114,9 @@ TEST_CASE(
         at_rest += listed ? 0 : 1;
       }
       seen.see(t + h, points[2]);
-      const std::size_t slot = guard_slot(waiting, 0);
+      const std::size_t slot = contact::guard_slot(waiting, 0);
       if (decision.guards[slot].at_zero && seen.path(slot, h).g1 > seen.level(slot, t + h, points[2]))
-        CHECK(seen.arming().armed(slot));
+        CHECK(seen.active_guards().armed(slot));
     }
   }
   CHECK(dips > 20);
@@ -125,14 +126,14 @@ TEST_CASE(
 
 TEST_CASE("what was dismissed dips no more, until the next step") {
   const Model model = rubbing_row(2);
-  const Structure structure(model);
-  ModeSystems systems(model, structure);
-  const Forcing forcing(model, 0.0, Side::after);
-  const Mode mode(2, ContactState{State::open, 0.0});
-  const Decision decision = decided(model, systems, mode, 0);
-  StepGuards seen(model);
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  const contact::ContactStates mode(2, ContactState{State::open, 0.0});
+  const decide::Decision decision = decided(model, systems, mode, 0);
+  newmark::StepGuards seen(model);
   seen.start({10.0, &decision, &forcing, false});
-  Point point{Vector::Zero(4), Vector::Zero(4), Vector::Zero(4), Vector::Zero(4)};
+  motion::Point point{Vector::Zero(4), Vector::Zero(4), Vector::Zero(4), Vector::Zero(4)};
   const Combination& normal = model.contacts[1].normal;
   for (const auto& [dof, factor] : normal.terms) {
     point.u[dof] = 0.02 * factor;  // the gap is 0.01
@@ -142,7 +143,7 @@ TEST_CASE("what was dismissed dips no more, until the next step") {
   seen.turn();
   point.v = -point.v;
   seen.weigh(point, 0.1);
-  const std::size_t slot = guard_slot(1, 0);
+  const std::size_t slot = contact::guard_slot(1, 0);
   REQUIRE(seen.dip(slot, 0.1, 0.0));
   CHECK(*seen.dip(slot, 0.1, 0.0) == doctest::Approx(0.5));
   seen.dismiss(slot);

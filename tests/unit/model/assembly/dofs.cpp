@@ -11,10 +11,10 @@ using namespace signorini::test;
 namespace {
 
 /// u = x - theta (y - cy), v = y + theta (x - cx) of every node, turned by theta.
-Vector moved(const DofMap& map, double x, double y, double theta, double cx, double cy) {
+Vector moved(const assembly::DofMap& map, double x, double y, double theta, double cx, double cy) {
   Vector motion = Vector::Zero(static_cast<Eigen::Index>(map.dofs.size()));
   for (std::size_t i = 0; i < map.number.size(); ++i) {
-    const MeshNode& node = map.mesh.nodes[i];
+    const element::MeshNode& node = map.mesh.nodes[i];
     const double values[] = {x - theta * (node.y - cy), y + theta * (node.x - cx), theta};
     for (std::size_t d = 0; d < 3; ++d)
       if (map.number[i][d] >= 0) motion[map.number[i][d]] = values[d];
@@ -28,23 +28,24 @@ TEST_SUITE_BEGIN("unit/model/assembly/dofs");
 
 TEST_CASE(
     "translations and rotations of a frame have their names, however small they are, and whichever way") {
-  const DofMap map = number_nodes(pipeline());
+  const assembly::DofMap map = assembly::number_nodes(pipeline());
   for (const double size : {-3.0, 1e-2, 1e5}) {
     CAPTURE(size);
-    CHECK(describe_motion(moved(map, size, 0.0, 0.0, 0.0, 0.0), map) == "horizontal motion");
-    CHECK(describe_motion(moved(map, 0.0, size, 0.0, 0.0, 0.0), map) == "vertical motion");
-    CHECK(describe_motion(moved(map, 3.0 * size, -4.0 * size, 0.0, 0.0, 0.0), map) ==
+    CHECK(assembly::describe_motion(moved(map, size, 0.0, 0.0, 0.0, 0.0), map) == "horizontal motion");
+    CHECK(assembly::describe_motion(moved(map, 0.0, size, 0.0, 0.0, 0.0), map) == "vertical motion");
+    CHECK(assembly::describe_motion(moved(map, 3.0 * size, -4.0 * size, 0.0, 0.0, 0.0), map) ==
           "motion along (0.6, -0.8)");
-    CHECK(describe_motion(moved(map, 0.0, 0.0, size, 5.25, -2.5), map) == "rotation about (5.25, -2.5)");
-    CHECK(is_rigid(moved(map, 2.0 * size, size, 0.1 * size, 3.0, 4.0), map));
+    CHECK(assembly::describe_motion(moved(map, 0.0, 0.0, size, 5.25, -2.5), map) ==
+          "rotation about (5.25, -2.5)");
+    CHECK(assembly::is_rigid(moved(map, 2.0 * size, size, 0.1 * size, 3.0, 4.0), map));
   }
-  CHECK(greatest_translation(moved(map, 0.0, 0.0, 0.5, 0.0, 0.0), map) ==
+  CHECK(assembly::greatest_translation(moved(map, 0.0, 0.0, 0.5, 0.0, 0.0), map) ==
         doctest::Approx(0.5 * std::hypot(18.0, 6.0)).epsilon(1e-14));
 }
 
 TEST_CASE(
     "a frame one of whose nodes turns by two hundredths less, or moves by that, does not move as one body") {
-  const DofMap map = number_nodes(pipeline());
+  const assembly::DofMap map = assembly::number_nodes(pipeline());
   for (const double theta : {-1e-2, 1.0, 50.0}) {
     CAPTURE(theta);
     const Vector whole = moved(map, 0.0, 0.0, theta, 5.25, -2.5);
@@ -53,8 +54,8 @@ TEST_CASE(
         CAPTURE(d);
         Vector bent = whole;
         bent[map.number[node][d]] -= 0.02 * (d == 2 ? 1.0 : 15.0) * theta;
-        CHECK_FALSE(is_rigid(bent, map));
-        CHECK(describe_motion(bent, map).find("rotation") == std::string::npos);
+        CHECK_FALSE(assembly::is_rigid(bent, map));
+        CHECK(assembly::describe_motion(bent, map).find("rotation") == std::string::npos);
       }
   }
 }

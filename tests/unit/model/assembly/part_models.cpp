@@ -32,7 +32,7 @@ TEST_SUITE_BEGIN("unit/model/assembly/part_models");
 
 TEST_CASE("a model as several: each has what acts on it, by its own numbers") {
   const Model model = build_model(parse_scene(scene(), "parts.toml"));
-  const std::vector<PartModel> parts = part_models(model);
+  const std::vector<assembly::PartModel> parts = assembly::part_models(model);
   REQUIRE(parts.size() == 3);
   CHECK(parts[0].dofs == std::vector<int>{1, 4});
   CHECK(parts[1].dofs == std::vector<int>{0, 3});
@@ -56,7 +56,7 @@ TEST_CASE("a model as several: each has what acts on it, by its own numbers") {
   CHECK(free.loads[0].direction.terms == Terms{{1, 4.0}});
   CHECK(free.loads[1].direction.terms == Terms{{0, 5.0}});
   CHECK(a.dofs[1].displacement == model.dofs[3].displacement);
-  for (const PartModel& part : parts) {
+  for (const assembly::PartModel& part : parts) {
     CHECK(part.model.scales.velocity == model.scales.velocity);
     CHECK(part.model.scales.force == model.scales.force);
     CHECK(part.model.omega_max == model.omega_max);
@@ -82,7 +82,7 @@ TEST_CASE("what is one stays one") {
     } catch (const std::exception& error) {
       FAIL(error.what());
     }
-    CHECK(part_models(build_model(*read)).empty());
+    CHECK(assembly::part_models(build_model(*read)).empty());
   }
 }
 

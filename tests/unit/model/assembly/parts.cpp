@@ -20,10 +20,10 @@ TEST_CASE("parts: what entries and forms couple, and nothing else") {
   // 0 - 3 by K, 1 - 4 by a form, 2 alone; an entry of zero couples nothing.
   const SparseMatrix k = sparse(5, {{0, 0, 2.0}, {0, 3, -1.0}, {3, 0, -1.0}, {3, 3, 3.0}, {0, 2, 0.0}});
   const std::vector<Combination> forms{{{{1, 1.0}, {4, -1.0}}}, {}, {{{3, 0.5}}}};
-  const Parts parts({&k}, forms);
+  const assembly::Parts parts({&k}, forms);
   REQUIRE(parts.count() == 3);
   std::vector<std::vector<int>> dofs;
-  for (const Part& part : parts) dofs.push_back(part.dofs());
+  for (const assembly::Part& part : parts) dofs.push_back(part.dofs());
   CHECK(dofs == std::vector<std::vector<int>>{{0, 3}, {1, 4}, {2}});
   const Eigen::MatrixXd own(parts.begin()->matrix(k));
   CHECK(own == Eigen::Matrix2d{{2.0, -1.0}, {-1.0, 3.0}});
@@ -35,7 +35,7 @@ TEST_CASE("parts: what entries and forms couple, and nothing else") {
 
 TEST_CASE("forms that share a degree of freedom, also through others") {
   const std::vector<Combination> forms{{{{0, 1.0}}}, {{{5, 1.0}}}, {{{0, 1.0}, {7, 1.0}}}, {{{7, 2.0}}}, {}};
-  CHECK(coupled_forms(forms) == std::vector<std::vector<std::size_t>>{{0, 2, 3}, {1}, {4}});
+  CHECK(assembly::coupled_forms(forms) == std::vector<std::vector<std::size_t>>{{0, 2, 3}, {1}, {4}});
 }
 
 TEST_SUITE_END();

@@ -34,7 +34,7 @@ const std::string head =
 TEST_SUITE("unit/model/element/bar") {
   TEST_CASE("a bar resists only its own stretching and carries its mass in both directions") {
     const double dx = 1.2, dy = -0.7, l = std::hypot(dx, dy), ea = 9e3, rho = 0.4;
-    const BeamMatrix k = bar_stiffness(dx, dy, ea);
+    const element::BeamMatrix k = element::bar_stiffness(dx, dy, ea);
     Eigen::Matrix<double, 6, 1> x, y, turn, stretch;
     x << 1, 0, 0, 1, 0, 0;
     y << 0, 1, 0, 0, 1, 0;
@@ -43,14 +43,15 @@ TEST_SUITE("unit/model/element/bar") {
     for (const auto& motion : {x, y, turn}) CHECK((k * motion).norm() <= 1e-12 * k.norm());
     CHECK(stretch.dot(k * stretch) == doctest::Approx(ea / l).epsilon(1e-14));
     for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
-      const BeamMatrix m = bar_mass(dx, dy, rho, kind);
+      const element::BeamMatrix m = element::bar_mass(dx, dy, rho, kind);
       CHECK(x.dot(m * x) == doctest::Approx(rho * l).epsilon(1e-14));
       CHECK(y.dot(m * y) == doctest::Approx(rho * l).epsilon(1e-14));
     }
     // About one end the consistent mass has the inertia of a rod; the lumped one that of its end.
-    CHECK(turn.dot(bar_mass(dx, dy, rho, MassKind::consistent) * turn) ==
+    CHECK(turn.dot(element::bar_mass(dx, dy, rho, MassKind::consistent) * turn) ==
           doctest::Approx(rho * l * l * l / 3.0));
-    CHECK(turn.dot(bar_mass(dx, dy, rho, MassKind::lumped) * turn) == doctest::Approx(rho * l * l * l / 2.0));
+    CHECK(turn.dot(element::bar_mass(dx, dy, rho, MassKind::lumped) * turn) ==
+          doctest::Approx(rho * l * l * l / 2.0));
   }
 
   TEST_CASE("a bar fixed at one end swings along itself at sqrt(3 EA / rho) / L, lumped sqrt(2 ...)") {

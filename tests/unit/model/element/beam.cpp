@@ -33,8 +33,8 @@ double order(double coarse, double fine, double exact) {
 TEST_SUITE("unit/model/element/beam") {
   TEST_CASE("a beam element resists no rigid motion and carries the inertia of a rod") {
     const double dx = 1.2, dy = -0.7, l = std::hypot(dx, dy), rho = 0.4;
-    const BeamMatrix k = beam_stiffness(dx, dy, 9e6, 2e6);
-    const BeamMatrix m = beam_mass(dx, dy, rho, MassKind::consistent);
+    const element::BeamMatrix k = element::beam_stiffness(dx, dy, 9e6, 2e6);
+    const element::BeamMatrix m = element::beam_mass(dx, dy, rho, MassKind::consistent);
     Eigen::Matrix<double, 6, 1> x, y;
     x << 1, 0, 0, 1, 0, 0;
     y << 0, 1, 0, 0, 1, 0;
@@ -46,9 +46,9 @@ TEST_SUITE("unit/model/element/beam") {
     CHECK(r.dot(m * r) == doctest::Approx(rho * l * l * l / 3.0));
     CHECK(k == k.transpose());
     CHECK(m == m.transpose());
-    CHECK(symmetric_eigen(k).values[3] > 0.0);
-    CHECK(symmetric_eigen(m).values[0] > 0.0);
-    const BeamMatrix lumped = beam_mass(dx, dy, rho, MassKind::lumped);
+    CHECK(base::symmetric_eigen(k).values[3] > 0.0);
+    CHECK(base::symmetric_eigen(m).values[0] > 0.0);
+    const element::BeamMatrix lumped = element::beam_mass(dx, dy, rho, MassKind::lumped);
     CHECK(x.dot(lumped * x) == doctest::Approx(rho * l));
     CHECK(lumped.row(2).isZero());
   }
@@ -93,7 +93,7 @@ TEST_SUITE("unit/model/element/beam") {
     REQUIRE(model.size() > 200);
     CHECK(model.omega1 == doctest::Approx(pi * pi * std::sqrt(ei / (rho * std::pow(l, 4)))).epsilon(1e-6));
     const Eigen::VectorXd values =
-        generalized_eigenvalues(Eigen::MatrixXd(model.stiffness), Eigen::MatrixXd(model.mass));
+        base::generalized_eigenvalues(Eigen::MatrixXd(model.stiffness), Eigen::MatrixXd(model.mass));
     CHECK(model.omega_max == doctest::Approx(std::sqrt(values[values.size() - 1])).epsilon(0.02));
     CHECK(model.omega1 == doctest::Approx(std::sqrt(values[0])).epsilon(1e-6));
     s.members[0].mass = MassKind::lumped;

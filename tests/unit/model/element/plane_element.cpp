@@ -11,7 +11,7 @@ using namespace signorini::test;
 
 namespace {
 
-PlaneMaterial material_of(bool strain) { return {7e4, 0.29, 2.7, 0.8, strain}; }
+element::PlaneMaterial material_of(bool strain) { return {7e4, 0.29, 2.7, 0.8, strain}; }
 
 std::vector<bool> boundary_unknowns(const PlaneSystem& system) {
   std::vector<bool> held(static_cast<std::size_t>(system.size()), false);
@@ -22,18 +22,19 @@ std::vector<bool> boundary_unknowns(const PlaneSystem& system) {
 }
 
 /// Hooke's law in its inverse form: strains of stresses, heat aside.
-Eigen::Vector3d strains_of(const PlaneMaterial& m, const Eigen::Vector3d& s) {
+Eigen::Vector3d strains_of(const element::PlaneMaterial& m, const Eigen::Vector3d& s) {
   const double z = m.strain ? m.nu * (s[0] + s[1]) : 0.0;  // stress out of the plane
   return {(s[0] - m.nu * (s[1] + z)) / m.E, (s[1] - m.nu * (s[0] + z)) / m.E,
           2.0 * (1.0 + m.nu) / m.E * s[2]};
 }
 
 void check_patch(PlaneShape shape, bool curved, bool strain) {
-  const PlaneMaterial material = material_of(strain);
+  const element::PlaneMaterial material = material_of(strain);
   const PlaneSystem system(distorted_grid(shape, curved), material);
   const Eigen::Vector3d stress(31.0, -17.0, 9.0), e = strains_of(material, stress);
   const Eigen::VectorXd exact = system.sampled([&](double x, double y) {
-    return PlaneVector{2e-3 + e[0] * x + (0.5 * e[2] - 1e-3) * y, -1e-3 + (0.5 * e[2] + 1e-3) * x + e[1] * y};
+    return element::PlaneVector{2e-3 + e[0] * x + (0.5 * e[2] - 1e-3) * y,
+                                -1e-3 + (0.5 * e[2] + 1e-3) * x + e[1] * y};
   });
   const Eigen::VectorXd u =
       system.solve(Eigen::VectorXd::Zero(system.size()), boundary_unknowns(system), exact);
@@ -45,7 +46,7 @@ void check_patch(PlaneShape shape, bool curved, bool strain) {
 }
 
 /// Lame's ring under inner pressure p: radial displacement.
-double lame(const PlaneMaterial& m, double a, double b, double p, double r) {
+double lame(const element::PlaneMaterial& m, double a, double b, double p, double r) {
   const double A = p * a * a / (b * b - a * a), B = A * b * b;
   if (m.strain) return (1.0 + m.nu) / m.E * ((1.0 - 2.0 * m.nu) * A * r + B / r);
   return ((1.0 - m.nu) * A * r + (1.0 + m.nu) * B / r) / m.E;
@@ -58,9 +59,10 @@ struct RingErrors {
 /// A sector from 0 to pi/2, held by symmetry.
 RingErrors ring_errors(PlaneShape shape, int n, bool strain) {
   const double a = 1.0, b = 2.0, p = 3.0;
-  const PlaneMaterial material = material_of(strain);
+  const element::PlaneMaterial material = material_of(strain);
   const PlaneSystem system(
-      ring_mesh({{0.0, 0.0}, a, b, 0.0, std::numbers::pi / 2.0}, {shape, {n, 2 * n}, {1.0, 1.0}}), material);
+      mesh::ring_mesh({{0.0, 0.0}, a, b, 0.0, std::numbers::pi / 2.0}, {shape, {n, 2 * n}, {1.0, 1.0}}),
+      material);
   std::vector<bool> held(static_cast<std::size_t>(system.size()), false);
   Eigen::VectorXd f = Eigen::VectorXd::Zero(system.size());
   for (const auto& group : system.mesh.groups) {
@@ -70,8 +72,8 @@ RingErrors ring_errors(PlaneShape shape, int n, bool strain) {
     }
     if (group.name != "inner") continue;
     for (const auto& edge : group.edges)
-      for (const EdgePoint& point : edge_points()) {
-        const EdgeValues v = edge_shapes_at(edge.nodes.size(), point.s);
+      for (const mesh::EdgePoint& point : mesh::edge_points()) {
+        const mesh::EdgeValues v = mesh::edge_shapes_at(edge.nodes.size(), point.s);
         double dx = 0.0, dy = 0.0;
         for (std::size_t i = 0; i < edge.nodes.size(); ++i) {
           dx += v.slopes[i] * system.node(edge.nodes[i]).x;
@@ -88,8 +90,8 @@ RingErrors ring_errors(PlaneShape shape, int n, bool strain) {
   for (std::size_t i = 0; i < system.elements.size(); ++i) {
     const auto& e = system.mesh.elements[i];
     const Eigen::VectorXd own = system.of_element(i, u);
-    for (const IntegrationPoint& q : points_of(e.shape)) {
-      const ShapeValues v = shapes_at(e.shape, q.a, q.b);
+    for (const mesh::IntegrationPoint& q : mesh::points_of(e.shape)) {
+      const mesh::ShapeValues v = mesh::shapes_at(e.shape, q.a, q.b);
       Eigen::Vector2d x(0.0, 0.0), w(0.0, 0.0);
       for (std::size_t k = 0; k < e.nodes.size(); ++k) {
         const auto j = static_cast<Eigen::Index>(k);
@@ -114,7 +116,7 @@ TEST_CASE("a patch of distorted elements holds any constant stress") {
       CAPTURE(name_of(shape));
       CAPTURE(strain);
       check_patch(shape, false, strain);
-      if (has_middles(shape)) check_patch(shape, true, strain);
+      if (mesh::has_middles(shape)) check_patch(shape, true, strain);
     }
 }
 
@@ -122,11 +124,11 @@ TEST_CASE("rigid motions, weight, area, mass, inertia and heat are those of the 
   for (const PlaneShape shape : all_plane_shapes)
     for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
       CAPTURE(name_of(shape));
-      const PlaneMaterial material = material_of(true);
+      const element::PlaneMaterial material = material_of(true);
       const PlaneSystem system(distorted_grid(shape, false), material, kind);
       const double area = 2.1 * 1.7, mass = material.density * material.thickness * area;
-      const auto ux = system.sampled([](double, double) { return PlaneVector{1.0, 0.0}; });
-      const auto turn = system.sampled([](double x, double y) { return PlaneVector{-y, x}; });
+      const auto ux = system.sampled([](double, double) { return element::PlaneVector{1.0, 0.0}; });
+      const auto turn = system.sampled([](double x, double y) { return element::PlaneVector{-y, x}; });
       const double size = Eigen::MatrixXd(system.stiffness).norm();
       CHECK((system.stiffness * ux).norm() <= 1e-13 * size);
       CHECK((system.stiffness * turn).norm() <= 1e-12 * size);
@@ -140,7 +142,7 @@ TEST_CASE("rigid motions, weight, area, mass, inertia and heat are those of the 
         CHECK(turn.dot(system.mass * turn) == doctest::Approx(inertia).epsilon(1e-13));
       }
       double spread = 0.0, heat = 0.0;
-      const auto swell = system.sampled([](double px, double py) { return PlaneVector{px, py}; });
+      const auto swell = system.sampled([](double px, double py) { return element::PlaneVector{px, py}; });
       for (std::size_t i = 0; i < system.elements.size(); ++i) {
         spread += system.of_element(i, ux).dot(system.elements[i]->spread({3.0, 5.0}));
         heat += system.elements[i]->strain_work(system.of_element(i, swell));
@@ -157,7 +159,7 @@ TEST_CASE("a ring under pressure: displacements of order 2 and 3, energies of or
   for (const PlaneShape shape : all_plane_shapes)
     for (const bool strain : {false, true}) {
       CAPTURE(name_of(shape));
-      const int degree = has_middles(shape) ? 2 : 1;
+      const int degree = mesh::has_middles(shape) ? 2 : 1;
       const RingErrors coarse = ring_errors(shape, 6, strain), fine = ring_errors(shape, 12, strain);
       const double place = std::log2(coarse.place / fine.place);
       const double energy = std::log2(coarse.energy / fine.energy);

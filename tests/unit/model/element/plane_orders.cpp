@@ -15,12 +15,12 @@ namespace {
 /// 2 G (u + i v) = kappa phi - z conj(phi'),  sigma_x + sigma_y = 4 Re phi',  sigma_y - sigma_x + 2 i tau = 2 conj(z) phi''
 /// with phi = exp z (Kolosov, Muskhelishvili).
 struct Exponential {
-  PlaneMaterial material;
+  element::PlaneMaterial material;
   [[nodiscard]] double G() const { return material.E / (2.0 * (1.0 + material.nu)); }
   [[nodiscard]] double kappa() const {
     return material.strain ? 3.0 - 4.0 * material.nu : (3.0 - material.nu) / (1.0 + material.nu);
   }
-  [[nodiscard]] PlaneVector displacement(double x, double y) const {
+  [[nodiscard]] element::PlaneVector displacement(double x, double y) const {
     const std::complex<double> z(x, y), e = std::exp(z);
     const std::complex<double> w = (kappa() * e - z * std::conj(e)) / (2.0 * G());
     return {w.real(), w.imag()};
@@ -41,7 +41,7 @@ struct StressErrors {
 StressErrors stress_errors(PlaneShape shape, int n, bool strain) {
   const Exponential exact{{3.0e4, 0.3, 1.0, 1.0, strain}};
   // Neither square nor along the axes.
-  const PlaneSystem system(rectangle_mesh({{0.1, -0.3}, {1.0, 0.8}, 0.37}, {shape, {n, n}, {1.7, 0.6}}),
+  const PlaneSystem system(mesh::rectangle_mesh({{0.1, -0.3}, {1.0, 0.8}, 0.37}, {shape, {n, n}, {1.7, 0.6}}),
                            exact.material);
   const Eigen::VectorXd u0 = system.sampled([&](double x, double y) { return exact.displacement(x, y); });
   std::vector<bool> held(static_cast<std::size_t>(system.size()), false),
@@ -53,15 +53,15 @@ StressErrors stress_errors(PlaneShape shape, int n, bool strain) {
     }
   const Eigen::VectorXd u = system.solve(Eigen::VectorXd::Zero(system.size()), held, u0);
   const Eigen::Matrix3d compliance = exact.material.stresses().inverse();
-  const PlaneShape points = corner_count(shape) == 3 ? PlaneShape::t6 : PlaneShape::q8;
+  const PlaneShape points = mesh::corner_count(shape) == 3 ? PlaneShape::t6 : PlaneShape::q8;
   double error = 0.0, whole = 0.0;
   std::vector<Eigen::Vector3d> mean(system.mesh.nodes.size(), Eigen::Vector3d::Zero());
   std::vector<double> area(system.mesh.nodes.size(), 0.0);
   for (std::size_t e = 0; e < system.elements.size(); ++e) {
-    const PlaneElement& element = *system.elements[e];
+    const element::PlaneElement& element = *system.elements[e];
     const Eigen::VectorXd own = system.of_element(e, u);
-    for (const IntegrationPoint& p : points_of(points)) {
-      const ShapeValues shapes = shapes_at(shape, p.a, p.b);
+    for (const mesh::IntegrationPoint& p : mesh::points_of(points)) {
+      const mesh::ShapeValues shapes = mesh::shapes_at(shape, p.a, p.b);
       Eigen::Vector2d at(0.0, 0.0);
       Eigen::Matrix2d j = Eigen::Matrix2d::Zero();
       for (std::size_t k = 0; k < element.nodes().size(); ++k) {
@@ -101,7 +101,7 @@ TEST_CASE(
     for (const PlaneShape shape : all_plane_shapes) {
       CAPTURE(strain);
       CAPTURE(name_of(shape));
-      const double order = has_middles(shape) ? 2.0 : 1.0;
+      const double order = mesh::has_middles(shape) ? 2.0 : 1.0;
       const StressErrors coarse = stress_errors(shape, 6, strain), fine = stress_errors(shape, 12, strain);
       CAPTURE(coarse.energy);
       CAPTURE(fine.energy);

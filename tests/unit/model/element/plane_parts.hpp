@@ -9,22 +9,22 @@
 
 namespace signorini::test {
 
-using Field = std::function<PlaneVector(double x, double y)>;
+using Field = std::function<element::PlaneVector(double x, double y)>;
 
 /// Unknowns of node k: 2 k, 2 k + 1.
 struct PlaneSystem {
   PlaneMesh mesh;
-  std::vector<std::shared_ptr<PlaneElement>> elements;
+  std::vector<std::shared_ptr<element::PlaneElement>> elements;
   Eigen::SparseMatrix<double> stiffness, mass;
 
-  PlaneSystem(PlaneMesh given, const PlaneMaterial& material, MassKind kind = MassKind::consistent)
+  PlaneSystem(PlaneMesh given, const element::PlaneMaterial& material, MassKind kind = MassKind::consistent)
       : mesh(std::move(given)) {
     std::vector<Eigen::Triplet<double>> k, m;
     for (const auto& e : mesh.elements) {
-      std::vector<PlaneVector> at;
+      std::vector<element::PlaneVector> at;
       for (const int n : e.nodes) at.push_back({node(n).x, node(n).y});
-      elements.push_back(std::make_shared<PlaneElement>(e.nodes, 0, e.shape, at, material, kind));
-      const ElementMatrix own_k = elements.back()->stiffness(), own_m = elements.back()->mass();
+      elements.push_back(std::make_shared<element::PlaneElement>(e.nodes, 0, e.shape, at, material, kind));
+      const element::ElementMatrix own_k = elements.back()->stiffness(), own_m = elements.back()->mass();
       for (int i = 0; i < own_k.rows(); ++i)
         for (int j = 0; j < own_k.cols(); ++j) {
           k.emplace_back(unknown(e, i), unknown(e, j), own_k(i, j));
@@ -45,7 +45,7 @@ struct PlaneSystem {
   [[nodiscard]] Eigen::VectorXd sampled(const Field& field) const {
     Eigen::VectorXd u(size());
     for (int i = 0; i < size() / 2; ++i) {
-      const PlaneVector v = field(node(i).x, node(i).y);
+      const element::PlaneVector v = field(node(i).x, node(i).y);
       u[2 * i] = v[0], u[2 * i + 1] = v[1];
     }
     return u;
@@ -93,13 +93,13 @@ inline constexpr std::array all_plane_shapes = {PlaneShape::t3, PlaneShape::t6, 
 /// A grid of a rectangle, turned by an odd angle, whose inner nodes are moved by up to a quarter of an element, by a fixed
 /// pattern; with `curved` middles of inner edges as well.
 [[nodiscard]] inline PlaneMesh distorted_grid(PlaneShape shape, bool curved) {
-  const GridSpec grid{shape, {3, 3}, {1.0, 1.0}};
-  PlaneMesh mesh = rectangle_mesh({{0.3, -0.2}, {2.1, 1.7}, 0.41}, grid);
+  const mesh::GridSpec grid{shape, {3, 3}, {1.0, 1.0}};
+  PlaneMesh mesh = mesh::rectangle_mesh({{0.3, -0.2}, {2.1, 1.7}, 0.41}, grid);
   std::vector<bool> boundary(mesh.nodes.size(), false), corner(mesh.nodes.size(), false);
   for (const auto& group : mesh.groups)
     for (const int n : group.nodes) boundary[static_cast<std::size_t>(n)] = true;
   for (const auto& e : mesh.elements)
-    for (std::size_t i = 0; i < corner_count(e.shape); ++i)
+    for (std::size_t i = 0; i < mesh::corner_count(e.shape); ++i)
       corner[static_cast<std::size_t>(e.nodes[i])] = true;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (boundary[i] || !corner[i]) continue;
@@ -108,9 +108,9 @@ inline constexpr std::array all_plane_shapes = {PlaneShape::t3, PlaneShape::t6, 
     mesh.nodes[i].y += 0.14 * std::cos(2.0 + 5.0 * k);
   }
   for (const auto& e : mesh.elements) {
-    if (!has_middles(shape)) continue;
-    for (std::size_t i = 0; i < corner_count(e.shape); ++i) {
-      const auto nodes = edge_nodes(e, i);
+    if (!mesh::has_middles(shape)) continue;
+    for (std::size_t i = 0; i < mesh::corner_count(e.shape); ++i) {
+      const auto nodes = mesh::edge_nodes(e, i);
       const auto &a = mesh.nodes[static_cast<std::size_t>(nodes[0])],
                  &b = mesh.nodes[static_cast<std::size_t>(nodes[1])];
       auto& m = mesh.nodes[static_cast<std::size_t>(nodes[2])];

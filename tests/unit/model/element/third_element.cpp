@@ -24,7 +24,7 @@ constexpr double plate_angle = 0.37;
 /// A sheet of four triangles around a node that is not in its middle, turned by an odd angle. A holds both ways, B across AB.
 struct Sheet {
   Scene scene = empty_scene();
-  Mesh mesh;
+  element::Mesh mesh;
   double area = 0.0, moment_x = 0.0, moment_y = 0.0;  // of the area, about the origin
 
   Sheet() {
@@ -45,7 +45,7 @@ struct Sheet {
     Triangle::Corners at;
     double x = 0.0, y = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const MeshNode& n = mesh.node(std::array{a, b, m}[i]);
+      const element::MeshNode& n = mesh.node(std::array{a, b, m}[i]);
       at[i] = {n.x, n.y};
       x += n.x / 3.0, y += n.y / 3.0;
     }
@@ -55,8 +55,8 @@ struct Sheet {
   }
 };
 
-Vector answer(const Assembly& assembly, const Vector& load) {
-  return solve_dense(Eigen::MatrixXd(assembly.stiffness), load);
+Vector answer(const assembly::Assembly& assembly, const Vector& load) {
+  return base::solve_dense(Eigen::MatrixXd(assembly.stiffness), load);
 }
 
 }  // namespace
@@ -64,12 +64,13 @@ Vector answer(const Assembly& assembly, const Vector& load) {
 TEST_SUITE("unit/model/element/third_element") {
   TEST_CASE("a third element: nodes of triangles do not turn, and its lines are drawn straight") {
     const Sheet sheet;
-    const DofMap map = number_nodes(sheet.scene, sheet.mesh);
+    const assembly::DofMap map = assembly::number_nodes(sheet.scene, sheet.mesh);
     CHECK(map.size() == 8);
     for (const Dof& dof : map.dofs) CHECK_FALSE(dof.rotation);
-    CHECK(map.element_numbers(0) == std::vector<int>{DofMap::fixed, DofMap::fixed, 0, 1, 6, 7});
+    CHECK(map.element_numbers(0) ==
+          std::vector<int>{assembly::DofMap::fixed, assembly::DofMap::fixed, 0, 1, 6, 7});
     Model model;
-    add_drawing(sheet.scene, map, model);
+    assembly::add_drawing(sheet.scene, map, model);
     REQUIRE(model.drawing.size() == 12);
     for (const DrawnElement& line : model.drawing) CHECK(line.kind == DrawnElement::Kind::bar);
     CHECK(model.drawing[2].nodes[0] == 4);
@@ -83,9 +84,9 @@ TEST_SUITE("unit/model/element/third_element") {
     scene.supports.push_back({"B", false, true, false, {}, {}, false, "supports.2"});
     scene.members[0].thermal_expansion = 1.2e-5;
     scene.members[0].temperature.amplitude = 40.0;
-    const DofMap map = number_nodes(scene, sheet.mesh);
-    const Assembly assembly = assemble_nodes(scene, map);
-    const std::vector<Load> loads = make_loads(scene, map, assembly);
+    const assembly::DofMap map = assembly::number_nodes(scene, sheet.mesh);
+    const assembly::Assembly assembly = assembly::assemble_nodes(scene, map);
+    const std::vector<Load> loads = assembly::make_loads(scene, map, assembly);
     REQUIRE(loads.size() == 2);
     Vector weight = Vector::Zero(map.size()), heat = weight;
     loads[0].direction.add_to(weight, loads[0].history.value(0.0));
@@ -97,16 +98,16 @@ TEST_SUITE("unit/model/element/third_element") {
     const double e = 1.2e-5 * 40.0, turn = -e * sheet.mesh.node(1).y / sheet.mesh.node(1).x;
     for (int i = 0; i < map.size(); ++i) {
       const auto [node, c] = map.where[static_cast<std::size_t>(i)];
-      const MeshNode& at = sheet.mesh.node(node);
+      const element::MeshNode& at = sheet.mesh.node(node);
       CHECK(grown[i] ==
             doctest::Approx(c == 0 ? e * at.x - turn * at.y : e * at.y + turn * at.x).epsilon(1e-9));
     }
 
     // What the supports bear of weight and heat: sums of forces, and of moments about A.
-    const StructureRows rows(scene, map, 0.0, 0.0);
+    const outputs::StructureRows rows(scene, map, 0.0, 0.0);
     const Vector u = answer(assembly, weight + heat);
     const auto reaction = [&](int node, std::size_t c) {
-      PhysicalRow row(map.size());
+      outputs::PhysicalRow row(map.size());
       rows.add_reaction(row, node, c, 1.0);
       REQUIRE(row.given.empty());  // all of it is constant
       return row.constant + row.u.dot(u);
@@ -120,9 +121,9 @@ TEST_SUITE("unit/model/element/third_element") {
 
   TEST_CASE("a third element: without a stiffness of static forces run.geometric is refused") {
     Sheet sheet;
-    const DofMap map = number_nodes(sheet.scene, sheet.mesh);
+    const assembly::DofMap map = assembly::number_nodes(sheet.scene, sheet.mesh);
     const Vector u = Vector::Zero(map.size());
-    CHECK_THROWS_WITH(static_cast<void>(frozen_forces(sheet.scene, map, Model(), {u, {}, {}, {}})),
+    CHECK_THROWS_WITH(static_cast<void>(assembly::prestress(sheet.scene, map, Model(), {u, {}, {}, {}})),
                       doctest::Contains("the elements of members.1 have no stiffness of static forces"));
   }
 }

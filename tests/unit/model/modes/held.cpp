@@ -40,7 +40,7 @@ TEST_CASE("held: motions that one contact fixes, two fix in other units, or seve
   const Combination first{{{0, 1.0}}}, again{{{0, -2.5e3}}}, slope{{{1, 0.6}, {2, -0.8}}}, other{{{4, 0.3}}};
   const Combination sum{{{0, 0.25}, {1, 0.6}, {2, -0.8}}};  // of first and slope: nothing new
   const auto same = [&](const std::vector<Combination>& fixed, const Eigen::MatrixXd& z) {
-    const HeldStructure held(sparse, fixed);
+    const modes::HeldStructure held(sparse, fixed);
     const Vector u = held.solve(b), expected = by_hand(k, z, b);
     CAPTURE(fixed.size());
     CHECK((u - expected).norm() < 1e-11 * expected.norm());

@@ -22,7 +22,7 @@ mass = [[2.0]]
 stiffness = [[50.0]]
 )",
                                               "one.toml"));
-  CHECK(rounding_floor(model) == doctest::Approx(std::ldexp(1.0, -54)).epsilon(1e-12));
+  CHECK(modes::rounding_floor(model) == doctest::Approx(std::ldexp(1.0, -54)).epsilon(1e-12));
 }
 
 TEST_CASE("the pipeline: what random roundings of K do to omega1, by the mesh") {
@@ -30,7 +30,7 @@ TEST_CASE("the pipeline: what random roundings of K do to omega1, by the mesh") 
   for (const char* elements : {"[2,6]", "[4,12]", "[8,24]"}) {
     const Model model = build_model(read_scene(SIGNORINI_MODELS "/pipeline.toml",
                                                {{"members.1.elements", elements}, {"run.t_end", "1e-3"}}));
-    const double floor = rounding_floor(model);
+    const double floor = modes::rounding_floor(model);
     CAPTURE(elements);
     CHECK(floor > 3.0 * last);  // n^3 and more
     last = floor;

@@ -41,23 +41,23 @@ contact_mass = "{}"
                                                   shape, mass),
                                       "reactions.toml");
       const Model model = build_model(scene);
-      const DofMap map = number_nodes(scene);
+      const assembly::DofMap map = assembly::number_nodes(scene);
       REQUIRE(map.size() == model.size());
-      const StructureRows rows(scene, map, 0.0, 0.0);
+      const outputs::StructureRows rows(scene, map, 0.0, 0.0);
       const Eigen::MatrixXd m = model.mass, k = model.stiffness;
       Vector total[2] = {Vector::Zero(map.size()), Vector::Zero(map.size())};
       for (std::size_t node = 0; node < map.mesh.nodes.size(); ++node)
         for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
           const int number = map.numbers_at(static_cast<int>(node))[c];
           REQUIRE(number >= 0);
-          PhysicalRow row(map.size());
+          outputs::PhysicalRow row(map.size());
           rows.add_reaction(row, static_cast<int>(node), c, 2.0);
           CHECK((row.a - 2.0 * m.row(number).transpose()).norm() <= 1e-14 * m.norm());
           CHECK((row.u - 2.0 * k.row(number).transpose()).norm() <= 1e-13 * k.norm());
           total[c] += 0.5 * row.a;
         }
       for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
-        PhysicalRow row(map.size());
+        outputs::PhysicalRow row(map.size());
         rows.add_total(row, c);  // what supports bear: less than nothing where all of it falls
         CHECK((row.a + total[c]).norm() <= 1e-14 * m.norm());
       }

@@ -50,16 +50,16 @@ TEST_CASE("factors of sums come back, with and without both parts; a dashpot bes
   const SparseMatrix M = sparse(chain_mass), K = sparse(chain_stiffness);
   const double cases[][2] = {{0.3, 2e-4}, {10.0, 0.0}, {0.0, 1e-3}, {1e-6, 0.01}};
   for (const auto& [alpha, beta] : cases) {
-    const auto f = rayleigh_factors(sparse(sum_of(alpha, beta)), M, K);
+    const auto f = reduce::rayleigh_factors(sparse(sum_of(alpha, beta)), M, K);
     REQUIRE(f);
     CHECK(f->alpha == doctest::Approx(alpha).epsilon(1e-7));
     CHECK(f->beta == doctest::Approx(beta).epsilon(1e-10));
   }
   Matrix with_dashpot = sum_of(0.3, 2e-4);
   with_dashpot[1][1] += 1e-6;
-  CHECK_FALSE(rayleigh_factors(sparse(with_dashpot), M, K));
-  CHECK_FALSE(rayleigh_factors(sparse(sum_of(-0.3, 2e-4)), M, K));
-  CHECK_FALSE(rayleigh_factors(SparseMatrix(3, 3), M, K));
+  CHECK_FALSE(reduce::rayleigh_factors(sparse(with_dashpot), M, K));
+  CHECK_FALSE(reduce::rayleigh_factors(sparse(sum_of(-0.3, 2e-4)), M, K));
+  CHECK_FALSE(reduce::rayleigh_factors(SparseMatrix(3, 3), M, K));
 }
 
 TEST_CASE("a reduced model damps its modes by the factors, and no static shape") {

@@ -93,7 +93,8 @@ TEST_CASE("a hot pipe that friction holds is in equilibrium to rounding; shears 
     CHECK(off <= 30.0 * 2.3e-16 * greatest);  // sums of some ten terms; 1e-11 of it were left
     int at_limit = 0, below = 0;
     for (const Contact& c : model.contacts) {
-      const double N = c.normal_stiffness * std::abs(c.gap_at(model.u0)), limit = static_friction(c) * N;
+      const double N = c.normal_stiffness * std::abs(c.gap_at(model.u0)),
+                   limit = contact::static_friction(c) * N;
       CHECK(std::abs(c.initial_shear) <= limit);
       (std::abs(c.initial_shear) >= limit * (1.0 - 1e-9) ? at_limit : below)++;
       // As near to its limit as the start was found.

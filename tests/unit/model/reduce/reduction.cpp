@@ -35,13 +35,14 @@ Scene cantilever() {
 /// Greatest displacement along the form for a unit force along `force`; K regular.
 double give(const Model& model, const Combination& form, const Combination& force) {
   const Eigen::MatrixXd k(model.stiffness);
-  return form.dot(Vector(solve_dense(k, full(force, model.size()))));
+  return form.dot(Vector(base::solve_dense(k, assembly::full(force, model.size()))));
 }
 
 /// The same for a structure with free motions, the whole of which are taken out by inertia (independently of
 /// the implementation: all modes of a dense decomposition; M regular).
 double give_elastic(const Model& model, const Combination& form, const Combination& force) {
-  const EigenPairs modes = generalized_eigen(Eigen::MatrixXd(model.stiffness), Eigen::MatrixXd(model.mass));
+  const base::EigenPairs modes =
+      base::generalized_eigen(Eigen::MatrixXd(model.stiffness), Eigen::MatrixXd(model.mass));
   double sum = 0.0;
   for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
     if (modes.values[j] < 1.0) continue;  // free
@@ -53,7 +54,8 @@ double give_elastic(const Model& model, const Combination& form, const Combinati
 
 /// That of the reduced model; its K is diagonal, zero on free modes.
 double give_reduced(const Model& model, const Combination& form, const Combination& force) {
-  const Vector k = model.stiffness.diagonal(), f = full(force, model.size()), g = full(form, model.size());
+  const Vector k = model.stiffness.diagonal(), f = assembly::full(force, model.size()),
+               g = assembly::full(form, model.size());
   double sum = 0.0;
   for (int i = 0; i < model.size(); ++i)
     if (k[i] > 0.0) sum += f[i] * g[i] / k[i];
@@ -179,10 +181,10 @@ TEST_CASE("what is reported: frequencies on both sides of the cutoff, shares, ri
   CHECK(r.highest_kept <= 1000.0);
   CHECK(r.first_left_out > 1000.0);
   REQUIRE(r.shares.size() == 6);  // two contacts, gravity, one load
-  CHECK(r.shares[0].what == "normal of contact 'first'");
-  CHECK(r.shares[3].what == "tangent of contact 'second'");
-  CHECK(r.shares[4].what == "gravity");
-  CHECK(r.shares[5].what == "load 1");
+  CHECK(r.shares[0].label == "normal of contact 'first'");
+  CHECK(r.shares[3].label == "tangent of contact 'second'");
+  CHECK(r.shares[4].label == "gravity");
+  CHECK(r.shares[5].label == "load 1");
   for (const std::size_t i : {0u, 1u, 2u, 3u, 5u}) {
     CHECK(r.shares[i].residual > 0.0);
     CHECK(r.shares[i].residual < r.shares[i].compliance);
@@ -200,7 +202,8 @@ TEST_CASE("check describes the full structure, and the cost of the reduced one")
   Scene whole = pipeline();
   whole.loads[0].history.start = 0.01;  // a jump at t = 0 would already show in the forces at contacts
   const Scene small = cut(whole, 1000.0);
-  const CheckReport a = check(whole, build_model(whole)), b = check(small, build_model(small));
+  const check::CheckReport a = check::check(whole, build_model(whole)),
+                           b = check::check(small, build_model(small));
   CHECK(b.degrees_of_freedom == 51);
   CHECK(b.massless == 0);
   CHECK(b.mass->total == a.mass->total);
@@ -278,11 +281,12 @@ TEST_CASE("rigid contacts meet shapes with mass only, and each has an effective 
       }
       CHECK(response > 0.0);
       // Nothing was cut off: what the massless shapes have along the form is rounding.
-      const Vector f = model.reduction->shapes.transpose() *
-                       full(form == &model.contacts[0].normal ? build_model(scene).contacts[0].normal
-                                                              : build_model(scene).contacts[0].tangent,
-                            static_cast<int>(model.reduction->dofs.size()));
-      CHECK((f - full(*form, model.size())).cwiseAbs().maxCoeff() <= 1e-9);
+      const Vector f =
+          model.reduction->shapes.transpose() *
+          assembly::full(form == &model.contacts[0].normal ? build_model(scene).contacts[0].normal
+                                                           : build_model(scene).contacts[0].tangent,
+                         static_cast<int>(model.reduction->dofs.size()));
+      CHECK((f - assembly::full(*form, model.size())).cwiseAbs().maxCoeff() <= 1e-9);
     }
   }
 }
@@ -340,7 +344,7 @@ Scene equal_cantilevers(int count) {
 TEST_CASE("a large structure of equal parts: each repeated mode is found as often as it is there") {
   const Model one = build_model(equal_cantilevers(1)), all = build_model(cut(equal_cantilevers(1), 1e9));
   const Vector omega =
-      generalized_eigenvalues(Eigen::MatrixXd(one.stiffness), Eigen::MatrixXd(one.mass)).cwiseSqrt();
+      base::generalized_eigenvalues(Eigen::MatrixXd(one.stiffness), Eigen::MatrixXd(one.mass)).cwiseSqrt();
   for (int kept = 1; kept <= 2; ++kept) {
     const Model model = build_model(cut(equal_cantilevers(60), 0.5 * (omega[kept - 1] + omega[kept])));
     const Reduction& r = *model.reduction;

@@ -27,7 +27,8 @@ TEST_SUITE("unit/model/statics/mechanisms") {
     Scene s = three_masses();
     s.supports = {support("A", false, true, false), support("B", false, true, false),
                   support("C", true, false, false)};
-    const Eigen::MatrixXd simple = simple_motions(Eigen::MatrixXd::Identity(3, 3), number_nodes(s));
+    const Eigen::MatrixXd simple =
+        statics::simple_motions(Eigen::MatrixXd::Identity(3, 3), assembly::number_nodes(s));
     REQUIRE(simple.cols() == 3);
     CHECK((simple.col(0) - Eigen::Vector3d(1.0, 1.0, 0.0)).norm() < 1e-14);
     CHECK((simple.col(1) - Eigen::Vector3d(0.0, 0.0, 1.0)).norm() < 1e-14);
@@ -40,7 +41,7 @@ TEST_SUITE("unit/model/statics/mechanisms") {
     Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(6, 3);
     motions(0, 0) = motions(2, 0) = motions(4, 0) = 1.0;
     motions(3, 1) = motions(5, 2) = 1.0;
-    const Eigen::MatrixXd simple = simple_motions(motions, number_nodes(three_masses()));
+    const Eigen::MatrixXd simple = statics::simple_motions(motions, assembly::number_nodes(three_masses()));
     REQUIRE(simple.cols() == 3);
     CHECK((simple.col(0) - motions.col(0)).norm() < 1e-14);
     for (const int j : {1, 2}) {

@@ -12,7 +12,7 @@ using namespace signorini::test;
 
 namespace {
 
-CheckReport checked(const Scene& scene) { return check(scene, build_model(scene)); }
+check::CheckReport checked(const Scene& scene) { return check::check(scene, build_model(scene)); }
 
 std::string why_not(const Scene& scene) {
   try {
@@ -27,7 +27,7 @@ std::string why_not(const Scene& scene) {
 
 TEST_SUITE("unit/study/check/check") {
   TEST_CASE("the pipeline: mass, contacts, breakpoints, cost") {
-    const CheckReport r = checked(pipeline());
+    const check::CheckReport r = checked(pipeline());
     REQUIRE(r.mass);
     CHECK(r.mass->total == doctest::Approx(9.6));
     CHECK(r.mass->x == doctest::Approx((7.2 * 9.0) / 9.6));
@@ -43,7 +43,7 @@ TEST_SUITE("unit/study/check/check") {
     CHECK(r.discontinuities[0].t == 0.0);
     CHECK(r.discontinuities[1].t == doctest::Approx(0.1));
     CHECK(r.discontinuities[1].jump);
-    CHECK(r.discontinuities[1].what == "load 1");
+    CHECK(r.discontinuities[1].description == "load 1");
     CHECK(r.cost.unknowns == 106);
     CHECK(r.method.engine == Engine::ida);
     CHECK(r.cost.effort.steps > 5e5);  // 67 in the period of a frequency that stays quiet
@@ -65,7 +65,7 @@ TEST_SUITE("unit/study/check/check") {
     y.stiffness = 3.0;
     s.springs = {x, y};
     s.contacts = {support_contact("one", "a", 50.0), support_contact("two", "a", 7.0)};
-    const CheckReport r = checked(s);
+    const check::CheckReport r = checked(s);
     REQUIRE(r.stiffness.size() == 4);
     CHECK(r.stiffness[0].normal);
     CHECK(r.stiffness[0].rest == doctest::Approx(3.0 + 7.0));
@@ -74,7 +74,7 @@ TEST_SUITE("unit/study/check/check") {
     CHECK(r.stiffness[2].rest == doctest::Approx(3.0 + 50.0));
     s.contacts.pop_back();
     s.springs.pop_back();
-    const CheckReport alone = checked(s);
+    const check::CheckReport alone = checked(s);
     CHECK(alone.stiffness.at(0).rest == 0.0);
   }
 
@@ -83,7 +83,7 @@ TEST_SUITE("unit/study/check/check") {
     s.supports = {support("L", true, true, true)};
     s.contacts = {support_contact("tip", "R", 1e6)};
     s.contacts[0].gap = 0.01;
-    const CheckReport r = checked(s);
+    const check::CheckReport r = checked(s);
     CHECK(r.contacts[0].state == State::open);
     CHECK(r.stiffness.at(0).rest == doctest::Approx(3.0 * 1e3 / 64.0).epsilon(1e-6));
     CHECK(r.stiffness.at(1).rest == doctest::Approx(1e5 / 4.0).epsilon(1e-6));
@@ -151,13 +151,13 @@ TEST_SUITE("unit/study/check/check") {
     load.history.start = 0.2;
     load.history.end = 5.0;
     s.loads = {load};
-    const CheckReport r = checked(s);
+    const check::CheckReport r = checked(s);
     REQUIRE(r.discontinuities.size() == 2);
     CHECK(r.discontinuities[0].t == doctest::Approx(0.2));
     CHECK_FALSE(r.discontinuities[0].jump);
     CHECK(r.discontinuities[1].t == doctest::Approx(0.5));
     CHECK(r.discontinuities[1].jump);
-    CHECK(r.discontinuities[1].what == "surface_velocity of contact 'pad'");
+    CHECK(r.discontinuities[1].description == "surface_velocity of contact 'pad'");
     CHECK_FALSE(r.mass);
   }
 
@@ -194,7 +194,7 @@ TEST_SUITE("unit/study/check/check") {
   TEST_CASE("negative stiffness is called unstable, with the rate of the fastest motion") {
     const auto warning = [](const Scene& s) { return checked(s).warnings.at(0); };
     Scene s = matrices({{1, 0}, {0, 1}}, {{0, 0}, {0, 0}}, {{-200, 0}, {0, 100}});
-    CheckReport r = checked(s);
+    check::CheckReport r = checked(s);
     CHECK(contains(warning(s), "the motion of d0.u grows like exp(14.14 t)"));
     CHECK(r.free_motions == std::vector<std::string>{"motion of d0.u, unstable"});
     CHECK(r.open.unstable == 1);
@@ -232,7 +232,7 @@ TEST_SUITE("unit/study/check/check") {
   TEST_CASE("check_json parses and holds the same numbers") {
     const Scene s = pipeline();
     const Model model = build_model(s);
-    const auto json = nlohmann::json::parse(check_json(s, model, check(s, model)));
+    const auto json = nlohmann::json::parse(check::check_json(s, model, check::check(s, model)));
     CHECK(json["degrees_of_freedom"] == 51);
     CHECK(json["contacts"][0]["state"] == "stick");
     CHECK(json["frequencies"]["open"]["free_motions"] == 3);

@@ -56,7 +56,7 @@ TEST_CASE("frequencies of a strip are those of a chain of bars, its highest one 
       CAPTURE(mass);
       CAPTURE(n);
       const Scene scene = body_scene(strip(n, mass));
-      const CheckReport report = check(scene, build_model(scene));
+      const check::CheckReport report = check::check(scene, build_model(scene));
       CHECK(report.degrees_of_freedom == 2 * n);
       const double h = 2.0 / n, kh = std::numbers::pi / (2.0 * n), cos = std::cos(kh);
       const double omega =
@@ -75,7 +75,7 @@ TEST_CASE("the highest frequency of one element: its two motions along x by hand
   // take the part of the shear that grows along x.
   const double E = 8.0e6, rho = 2000.0, L = 2.0, H = 0.5;
   const Scene scene = body_scene(strip(1, "consistent"));
-  const CheckReport report = check(scene, build_model(scene));
+  const check::CheckReport report = check::check(scene, build_model(scene));
   REQUIRE(report.open.modes.size() == 2);
   CHECK(report.open.modes[0].omega == doctest::Approx(std::sqrt(3.0 * E / (rho * L * L))).epsilon(1e-10));
   const double highest = std::sqrt(9.0 * (E / (3.0 * L * L) + 0.5 * E / (H * H)) / rho);
@@ -99,7 +99,7 @@ nodes = ["ring.outer"]
 fix = ["ux", "uy"]
 )");
   const Model model = build_model(scene);
-  const auto json = nlohmann::json::parse(check_json(scene, model, check(scene, model)));
+  const auto json = nlohmann::json::parse(check::check_json(scene, model, check::check(scene, model)));
   const auto& body = json.at("bodies").at(0);
   CHECK(body.at("least_angle").at("value").get<double>() == doctest::Approx(90.0 - 11.25).epsilon(1e-9));
   CHECK(body.at("greatest_angle").at("value").get<double>() == doctest::Approx(90.0 + 11.25).epsilon(1e-9));
@@ -151,7 +151,7 @@ direction = {{ px = {8:.17g}, py = {9:.17g}, qx = {8:.17g}, qy = {9:.17g} }}
 amplitude = 1.0
 )",
           m, xx, xy, yy, 4.0 * x, 4.0 * y, kn / 2.0, f, px, py));
-      const std::vector<std::string> warnings = check(scene, build_model(scene)).warnings;
+      const std::vector<std::string> warnings = check::check(scene, build_model(scene)).warnings;
       const bool told = std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
         return warning.find("the slip of contacts 'belt.1' and 'belt.2'") != std::string::npos &&
                warning.find(expected) != std::string::npos;

@@ -10,19 +10,19 @@ using namespace signorini::test;
 
 namespace {
 
-Frequencies stuck(const Model& model, int count) {
+modes::Frequencies stuck(const Model& model, int count) {
   const std::vector<bool> all(model.contacts.size(), true);
-  return lowest_frequencies(model.mass, model.damping, model.stiffness, hold_contacts(model.contacts, all),
-                            count);
+  return modes::lowest_frequencies(model.mass, model.damping, model.stiffness,
+                                   modes::hold_contacts(model.contacts, all), count);
 }
 
-Frequencies closed(const Model& model, int count) {
-  return lowest_frequencies(model.mass, model.damping, model.stiffness, close_contacts(model.contacts),
-                            count);
+modes::Frequencies closed(const Model& model, int count) {
+  return modes::lowest_frequencies(model.mass, model.damping, model.stiffness,
+                                   modes::close_contacts(model.contacts), count);
 }
 
-Frequencies open(const Model& model, int count) {
-  return lowest_frequencies(model.mass, model.damping, model.stiffness, {}, count);
+modes::Frequencies open(const Model& model, int count) {
+  return modes::lowest_frequencies(model.mass, model.damping, model.stiffness, {}, count);
 }
 
 /// One mass of 2 on springs along x and y: 8 and nothing; a floor of kn = 50, kt = 24.
@@ -45,7 +45,7 @@ Model block() {
 TEST_SUITE("unit/study/check/check_frequencies") {
   TEST_CASE("an oscillator: contact open, closed, stuck") {
     const Model model = block();
-    const Frequencies a = open(model, 5), b = closed(model, 5), c = stuck(model, 5);
+    const modes::Frequencies a = open(model, 5), b = closed(model, 5), c = stuck(model, 5);
     CHECK(a.free_motions == 1);
     REQUIRE(a.modes.size() == 1);
     CHECK(a.modes[0].omega == doctest::Approx(2.0).epsilon(1e-14));
@@ -66,9 +66,9 @@ TEST_SUITE("unit/study/check/check_frequencies") {
     s.supports = {support("L", true, true, true)};
     s.damping.alpha = 0.7;
     s.damping.beta = 2e-4;
-    const Frequencies f = open(build_model(s), 5);
+    const modes::Frequencies f = open(build_model(s), 5);
     REQUIRE(f.modes.size() == 5);
-    for (const NaturalMode& mode : f.modes)
+    for (const modes::NaturalMode& mode : f.modes)
       CHECK(mode.damping_ratio == doctest::Approx(0.35 / mode.omega + 1e-4 * mode.omega));
     // First bending mode of a cantilever: (1.875104 / L)^2 sqrt(EI / m)
     CHECK(f.modes[0].omega ==
@@ -80,7 +80,7 @@ TEST_SUITE("unit/study/check/check_frequencies") {
     for (const int elements : {20, 90}) {
       CAPTURE(elements);
       Scene s = beam(4.0, elements, 1e5, 1e3, 0.3);
-      const Frequencies f = open(build_model(s), 3);
+      const modes::Frequencies f = open(build_model(s), 3);
       CHECK(f.free_motions == 3);
       REQUIRE(f.modes.size() == 3);
       const double bending = std::sqrt(1e3 / 0.3) / 16.0, axial = M_PI * std::sqrt(1e5 / 0.3) / 4.0;
@@ -117,7 +117,7 @@ TEST_SUITE("unit/study/check/check_frequencies") {
     SparseMatrix k = model.stiffness;
     k.coeffRef(2, 2) = 0.0;
     k.prune(0.0);
-    const Frequencies f = lowest_frequencies(model.mass, model.damping, k, {}, 5);
+    const modes::Frequencies f = modes::lowest_frequencies(model.mass, model.damping, k, {}, 5);
     CHECK(f.free_motions == 0);
     REQUIRE(f.modes.size() == 1);
     CHECK(f.modes[0].omega == doctest::Approx(std::sqrt(6.0)));
@@ -127,7 +127,7 @@ TEST_SUITE("unit/study/check/check_frequencies") {
     Scene s = matrices({{1, 0}, {0, 1}}, {{0, 0}, {0, 0}}, {{5, -1}, {-1, 4}});
     const Direction first{"", {}, {{"d0", 1.0}}, {}};
     s.contacts = {slider("a", first, 1.0, 0.3), slider("b", first, 1.0, 0.3)};
-    const Frequencies f = stuck(build_model(s), 5);
+    const modes::Frequencies f = stuck(build_model(s), 5);
     REQUIRE(f.modes.size() == 1);
     CHECK(f.modes[0].omega == doctest::Approx(2.0));
   }
@@ -135,9 +135,9 @@ TEST_SUITE("unit/study/check/check_frequencies") {
   TEST_CASE("frequencies: large and small solvers agree, with fixed motions and free ones") {
     Scene s = beam(10.0, 80, 1e5, 1e3, 0.3);  // 243 degrees of freedom
     s.contacts = {slider("a", Direction{"L", {1.0, 0.0}, {}, {}}, 1.0, 0.3)};
-    const Frequencies large = stuck(build_model(s), 4);
+    const modes::Frequencies large = stuck(build_model(s), 4);
     s.members[0].elements = {40};
-    const Frequencies small = stuck(build_model(s), 4);
+    const modes::Frequencies small = stuck(build_model(s), 4);
     CHECK(large.free_motions == 2);
     CHECK(small.free_motions == 2);
     REQUIRE(large.modes.size() == 4);
@@ -150,12 +150,12 @@ TEST_SUITE("unit/study/check/check_frequencies") {
     for (const char* name : {"massless-frame.toml", "massless-node-dashpot.toml"}) {
       CAPTURE(name);
       const Model model = build_model(read_scene(folder + name));
-      const Frequencies free = open(model, 5), resting = closed(model, 5), held = stuck(model, 5);
+      const modes::Frequencies free = open(model, 5), resting = closed(model, 5), held = stuck(model, 5);
       // One point mass of two components: what is free has no frequency.
       CHECK(free.modes.size() + static_cast<std::size_t>(free.free_motions) <= 2);
       CHECK(resting.modes.size() + static_cast<std::size_t>(resting.free_motions) <= 2);
-      for (const Frequencies& found : {free, resting, held})
-        for (const NaturalMode& mode : found.modes) CHECK(mode.omega < 1e4);
+      for (const modes::Frequencies& found : {free, resting, held})
+        for (const modes::NaturalMode& mode : found.modes) CHECK(mode.omega < 1e4);
     }
   }
 }

@@ -34,7 +34,7 @@ class Folder {
     std::string events, history, contacts, energy;
     std::string outcome = R"({"kind": "done", "t": 4, "t_end": 4, "reason": ""})";
   };
-  [[nodiscard]] ComparedRun run(const std::string& name, const Tables& tables) const {
+  [[nodiscard]] compare::ComparedRun run(const std::string& name, const Tables& tables) const {
     fs::create_directory(path_ / name);
     const auto write = [&](const char* file, const std::string& text) {
       std::ofstream(path_ / name / file, std::ios::binary) << text;
@@ -47,7 +47,7 @@ class Folder {
     write("history.csv", tables.history);
     write("contacts.csv", "t,contact,N,T\n" + tables.contacts);
     write("energy.csv", "t,kinetic,balance\n" + tables.energy);
-    return read_compared_run(path_ / name, name);
+    return compare::read_compared_run(path_ / name, name);
   }
 
  private:
@@ -65,13 +65,13 @@ TEST_SUITE_BEGIN("unit/study/compare/comparison");
 
 TEST_CASE("comparison: greatest differences, when and where") {
   const Folder folder;
-  const ComparedRun a = folder.run("a", reference);
+  const compare::ComparedRun a = folder.run("a", reference);
   Folder::Tables other = reference;
   other.events = "1.5,c,slip,stick,slip+,\n2,,time,,,\n3.25,c,stick,slip+,stick,\n";
   other.history = "t,A.ux,A.rz,A.vx\n0,0,0,0\n1,1.25,0,0\n2,2,0.5,0\n3,2.5,0,-8\n4,4,0,0\n";
   other.contacts = "0,c,-1,0.125\n1,c,-1,0\n2,c,-3,0\n3,c,-1,0\n4,c,-1,0\n";
   other.energy = "0,0,7\n1,1,0\n2,2,0\n3,4,0\n4,4,0\n";
-  const Comparison c = compare_runs(a, folder.run("b", other));
+  const compare::Comparison c = compare::compare_runs(a, folder.run("b", other));
   CHECK_FALSE(c.alignment.split);
   CHECK(c.notes.empty());
   CHECK(c.common_times == 5);
@@ -100,8 +100,8 @@ TEST_CASE("comparison: before and after the sequences part") {
   Folder::Tables other = reference;
   other.events = "1.5,c,slip,stick,slip+,\n2.5,c,reversal,slip+,slip-,\n";
   other.history = "t,A.ux,A.rz,A.vx\n0,0,0,0\n1,1.25,0,0\n2,2,0,0\n3,9,0,0\n4,4,0,0\n";
-  const ComparedRun a = folder.run("a", reference), b = folder.run("b", other);
-  const Comparison c = compare_runs(a, b);
+  const compare::ComparedRun a = folder.run("a", reference), b = folder.run("b", other);
+  const compare::Comparison c = compare::compare_runs(a, b);
   REQUIRE(c.alignment.split);
   CHECK(c.alignment.split->t == 2.5);
   CHECK(c.displacement.whole.value == 6.0);
@@ -109,7 +109,7 @@ TEST_CASE("comparison: before and after the sequences part") {
   CHECK(c.displacement.until_split.t == 1.0);
 
   const auto broken = [&](const std::vector<std::string>& limits) {
-    return exceeded(parse_limits(limits), a.figures, b.figures, c).size();
+    return compare::exceeded(compare::parse_limits(limits), a.figures, b.figures, c).size();
   };
   CHECK(broken({}) == 0);
   CHECK(broken({"displacement=6"}) == 0);
@@ -122,16 +122,16 @@ TEST_CASE("comparison: before and after the sequences part") {
 
 TEST_CASE("comparison: other output times, other columns, a run that is cut off") {
   const Folder folder;
-  const ComparedRun a = folder.run("a", reference);
+  const compare::ComparedRun a = folder.run("a", reference);
   Folder::Tables other = reference;
   other.outcome = R"({"kind": "running", "t_end": 4})";
   other.events = "1.5,c,slip,stick,slip+,\n";
   other.history = "t,A.ux,B.ux\n0,0,0\n0.5,77,0\n1,1,0\n2,2.5,0\n3,3";
   other.contacts = "0,c,-1,0\n0.5,c,-77,0\n2,c,-2,0\n";
   other.energy = "0,0,0\n2,2,0\n";
-  const ComparedRun b = folder.run("b", other);
+  const compare::ComparedRun b = folder.run("b", other);
   CHECK(b.figures.t == 2.0);  // the last whole row
-  const Comparison c = compare_runs(a, b);
+  const compare::Comparison c = compare::compare_runs(a, b);
   CHECK(c.t_end == 2.0);
   CHECK_FALSE(c.alignment.split);  // the reference's next event lies beyond
   CHECK(c.common_times == 3);
@@ -140,12 +140,12 @@ TEST_CASE("comparison: other output times, other columns, a run that is cut off"
   REQUIRE(c.notes.size() == 2);
   CHECK(c.notes[0] == "compared up to t = 2, the end of b; a ends at 4");
   CHECK(c.notes[1] == "history.csv: 3 columns in one of the two runs only, the first is \"A.rz\"");
-  CHECK(exceeded(parse_limits({"displacement=1"}), a.figures, b.figures, c).size() == 1);
+  CHECK(compare::exceeded(compare::parse_limits({"displacement=1"}), a.figures, b.figures, c).size() == 1);
 }
 
 TEST_CASE("comparison: a limit fails where what is compared is not the whole of both runs") {
   const Folder folder;
-  const ComparedRun a = folder.run("a", reference);
+  const compare::ComparedRun a = folder.run("a", reference);
   struct Case {
     std::string what, limit, said;
     Folder::Tables tables;
@@ -179,27 +179,29 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
   for (const Case& one : cases) {
     CAPTURE(one.what);
     CAPTURE(one.limit);
-    const ComparedRun b = folder.run("b", one.tables);
-    const std::vector<std::string> list =
-        exceeded(parse_limits({one.limit}), a.figures, b.figures, compare_runs(a, b));
+    const compare::ComparedRun b = folder.run("b", one.tables);
+    const std::vector<std::string> list = compare::exceeded(compare::parse_limits({one.limit}), a.figures,
+                                                            b.figures, compare::compare_runs(a, b));
     REQUIRE(list.size() == 1);
     CAPTURE(list[0]);
     CHECK(list[0].find(one.said) != std::string::npos);
   }
-  const ComparedRun b = folder.run("b", *other_times);
-  const Comparison c = compare_runs(a, b);
-  CHECK(c.rows.history == RowCount{2, 5, 3});
-  CHECK(rows_compared(c) == "history.csv 2 of 5 and 3, contacts.csv 2 of 5 and 3, energy.csv 2 of 5 and 3");
-  const ComparedRun same = folder.run("same", reference);
-  CHECK(rows_compared(compare_runs(a, same)) == "history.csv 5, contacts.csv 5, energy.csv 5");
-  CHECK(exceeded(parse_limits(
-                     {"displacement=0", "rotation=0", "force=0", "force_away=0", "energy=0", "event_time=0"}),
-                 a.figures, same.figures, compare_runs(a, same))
+  const compare::ComparedRun b = folder.run("b", *other_times);
+  const compare::Comparison c = compare::compare_runs(a, b);
+  CHECK(c.rows.history == compare::RowCount{2, 5, 3});
+  CHECK(compare::rows_compared(c) ==
+        "history.csv 2 of 5 and 3, contacts.csv 2 of 5 and 3, energy.csv 2 of 5 and 3");
+  const compare::ComparedRun same = folder.run("same", reference);
+  CHECK(compare::rows_compared(compare::compare_runs(a, same)) ==
+        "history.csv 5, contacts.csv 5, energy.csv 5");
+  CHECK(compare::exceeded(compare::parse_limits({"displacement=0", "rotation=0", "force=0", "force_away=0",
+                                                 "energy=0", "event_time=0"}),
+                          a.figures, same.figures, compare::compare_runs(a, same))
             .empty());
 }
 
 TEST_CASE("comparison: what is no number is greater than any limit") {
-  Greatest greatest;
+  compare::Greatest greatest;
   greatest.take(1.0, 1.0, "a");
   greatest.take(std::nan(""), 2.0, "b");
   greatest.take(3.0, 3.0, "c");
@@ -214,11 +216,11 @@ TEST_CASE("compare: the JSON names the event of either run where the sequences p
   other.events = "1.5,c,slip,stick,slip+,1e-9\n2.25,c,stick,slip+,stick,\n";
   Folder::Tables third = reference;
   third.events = "1.5,c,slip,stick,slip+,1e-9\n2.75,c,reversal,slip+,slip-,\n";
-  ComparisonReport report;
+  compare::ComparisonReport report;
   report.runs = {folder.run("a", reference), folder.run("b", other), folder.run("c", third)};
-  report.comparisons = {compare_runs(report.runs[0], report.runs[1]),
-                        compare_runs(report.runs[0], report.runs[2])};
-  const auto json = nlohmann::json::parse(comparison_json(report));
+  report.comparisons = {compare::compare_runs(report.runs[0], report.runs[1]),
+                        compare::compare_runs(report.runs[0], report.runs[2])};
+  const auto json = nlohmann::json::parse(compare::comparison_json(report));
   const auto& parted = json["comparisons"][1]["first_difference"];
   CHECK(parted["t"] == 2.75);
   CHECK(parted["reference"]["t"] == 3.5);

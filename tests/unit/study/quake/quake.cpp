@@ -13,9 +13,9 @@ using namespace signorini;
 namespace {
 
 /// The ground by the trapezoidal rule on a fine grid: independent of the closed form of ground_motion().
-GroundMotion by_small_steps(const std::vector<double>& a, double dt) {
+quake::GroundMotion by_small_steps(const std::vector<double>& a, double dt) {
   constexpr int parts = 64;
-  GroundMotion g;
+  quake::GroundMotion g;
   double u = 0.0, v = 0.0;
   for (std::size_t i = 0; i + 1 < a.size(); ++i)
     for (int k = 0; k < parts; ++k) {
@@ -39,8 +39,8 @@ TEST_SUITE("unit/study/quake") {
         CAPTURE(T);
         CAPTURE(z);
         const double exact = 3.0 * (1.0 + std::exp(-z * std::numbers::pi / std::sqrt(1.0 - z * z)));
-        CHECK(pseudo_acceleration(a, 1e-3, T, z) == doctest::Approx(exact).epsilon(3e-3));
-        CHECK(pseudo_acceleration(a, 1e-3, T, z) <= exact * (1.0 + 1e-12));
+        CHECK(quake::pseudo_acceleration(a, 1e-3, T, z) == doctest::Approx(exact).epsilon(3e-3));
+        CHECK(quake::pseudo_acceleration(a, 1e-3, T, z) <= exact * (1.0 + 1e-12));
       }
   }
 
@@ -52,16 +52,16 @@ TEST_SUITE("unit/study/quake") {
     for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = 0.0025 * static_cast<double>(i);
     const double u = (end - std::sin(w * end) / w) / (w * w), v = (1.0 - std::cos(w * end)) / (w * w);
     const double exact = w * w * std::hypot(u, v / w);
-    CHECK(pseudo_acceleration(coarse, 0.5, 0.8, 0.0) == doctest::Approx(exact).epsilon(3.1e-3));
+    CHECK(quake::pseudo_acceleration(coarse, 0.5, 0.8, 0.0) == doctest::Approx(exact).epsilon(3.1e-3));
     // A greatest value between two samples is (w dt)^2 / 8 = 4.8e-5 of it above them.
-    CHECK(pseudo_acceleration(fine, 0.0025, 0.8, 0.0) == doctest::Approx(exact).epsilon(4.9e-5));
+    CHECK(quake::pseudo_acceleration(fine, 0.0025, 0.8, 0.0) == doctest::Approx(exact).epsilon(4.9e-5));
   }
 
   TEST_CASE("quake: the ground comes to rest where it was, has its peak, and follows its seed") {
-    QuakeSpec spec;
+    quake::QuakeSpec spec;
     spec.pga = 2.5;
     spec.duration = 17.3;
-    const std::vector<double> a = quake(spec);
+    const std::vector<double> a = quake::quake(spec);
     CHECK(a.size() == 1731);
     CHECK(a.front() == 0.0);
     CHECK(std::abs(a.back()) < 1e-15);
@@ -69,27 +69,27 @@ TEST_SUITE("unit/study/quake") {
     for (const double value : a) most = std::max(most, std::abs(value));
     CHECK(most == doctest::Approx(2.5).epsilon(1e-14));
     // Rounding: 1731 samples of 2.5 at eps, times 0.01 s and 17.3 s.
-    const GroundMotion g = by_small_steps(a, spec.dt);
+    const quake::GroundMotion g = by_small_steps(a, spec.dt);
     CHECK(std::abs(g.end_velocity) < 1e-12);
     CHECK(std::abs(g.end_displacement) < 1e-11);
-    CHECK(ground_motion(a, spec.dt).velocity > 0.05);
-    CHECK(quake(spec) == a);
+    CHECK(quake::ground_motion(a, spec.dt).velocity > 0.05);
+    CHECK(quake::quake(spec) == a);
     spec.seed = 2;
-    CHECK(quake(spec) != a);
+    CHECK(quake::quake(spec) != a);
   }
 
   TEST_CASE("quake: the ground's filter is felt: twice its frequency, and the spectrum's peak moves") {
     const auto center = [](double frequency) {
       double sum = 0.0, weighted = 0.0;
       for (unsigned long seed = 1; seed <= 4; ++seed) {
-        QuakeSpec spec;
+        quake::QuakeSpec spec;
         spec.pga = 1.0;
         spec.seed = seed;
         spec.ground_frequency = frequency;
         spec.ground_damping = 0.2;
-        const std::vector<double> a = quake(spec);
+        const std::vector<double> a = quake::quake(spec);
         for (double T = 0.1; T < 2.0; T *= 1.1) {
-          const double s = pseudo_acceleration(a, spec.dt, T, 0.05);
+          const double s = quake::pseudo_acceleration(a, spec.dt, T, 0.05);
           sum += s * s;
           weighted += s * s * std::log(T);
         }
@@ -102,10 +102,10 @@ TEST_SUITE("unit/study/quake") {
   TEST_CASE("quake: the spectrum of EN 1998-1, ground B and D, within 20 % everywhere and 3 % on average") {
     for (const char* name : {"ec8-B", "ec8-D"}) {
       CAPTURE(name);
-      QuakeSpec spec;
+      quake::QuakeSpec spec;
       spec.pga = 2.0;
-      spec.target = TargetSpectrum::read(name, spec.pga);
-      const std::vector<double> a = quake(spec);
+      spec.target = quake::TargetSpectrum::read(name, spec.pga);
+      const std::vector<double> a = quake::quake(spec);
       // Closed forms of the standard, at other periods than those of the iteration.
       const bool b = name[4] == 'B';
       const double S = b ? 1.2 : 1.35, TB = b ? 0.15 : 0.2, TC = b ? 0.5 : 0.8;
@@ -113,7 +113,7 @@ TEST_SUITE("unit/study/quake") {
       int count = 0;
       for (double T = 0.06; T < 2.0; T *= 1.083) {
         const double exact = 2.0 * S * (T < TB ? 1.0 + 1.5 * T / TB : T < TC ? 2.5 : 2.5 * TC / T);
-        const double is = pseudo_acceleration(a, spec.dt, T, 0.05);
+        const double is = quake::pseudo_acceleration(a, spec.dt, T, 0.05);
         CAPTURE(T);
         CHECK(std::abs(is / exact - 1.0) < 0.2);
         sum += is / exact;

@@ -56,19 +56,20 @@ TEST_CASE(
     "static answers to contacts and loads are those of all modes left out, and so is the first term after "
     "them") {
   const Model model = build_model(parse_scene(beam, "beam.toml"));
-  const Eigen::MatrixXd none = null_motions(model.stiffness);
-  const KeptModes all = modes_up_to(std::numeric_limits<double>::max(), model.mass, model.stiffness, none);
+  const Eigen::MatrixXd none = statics::null_motions(model.stiffness);
+  const reduce::KeptModes all =
+      reduce::modes_up_to(std::numeric_limits<double>::max(), model.mass, model.stiffness, none);
   for (const Eigen::Index kept : {2, 5, 9}) {
     CAPTURE(kept);
     const double cutoff = std::sqrt(0.5 * (all.squares[kept - 1] + all.squares[kept]));
-    const KeptModes low = modes_up_to(cutoff, model.mass, model.stiffness, none);
+    const reduce::KeptModes low = reduce::modes_up_to(cutoff, model.mass, model.stiffness, none);
     REQUIRE(low.squares.size() == kept);
-    const ExcitedModes others = excited_modes(model, low);
+    const reduction::ExcitedModes others = reduction::excited_modes(model, low);
     const auto left = all.squares.size() - kept;
     REQUIRE(others.squares.size() > 0);
     REQUIRE(others.squares.size() <= left);
     for (const Combination* form : {&model.contacts[0].normal, &model.contacts[0].tangent}) {
-      const Vector f = full(*form, model.size());
+      const Vector f = assembly::full(*form, model.size());
       for (const double power : {1.0, 2.0}) {  // sum of psi psi.f / omega^(2 power)
         const auto answer = [&](const Eigen::MatrixXd& shapes, const Eigen::VectorXd& squares) {
           return Vector(shapes * squares.array().pow(-power).matrix().cwiseProduct(shapes.transpose() * f));

@@ -37,7 +37,7 @@ const Eigen::VectorXd squares = (Eigen::VectorXd(2) << 1.0, 1e4).finished();
 TEST_SUITE_BEGIN("unit/study/reduction/find_cutoff");
 
 TEST_CASE("places: contacts along their normals, named displacements") {
-  const std::vector<AskedPlace> places = asked_places(two_masses());
+  const std::vector<reduction::RequestedPlace> places = reduction::requested_places(two_masses());
   REQUIRE(places.size() == 3);
   CHECK(places[0].name == "normal of contact 'stop'");
   CHECK(places[2].name == "b.u");
@@ -47,7 +47,7 @@ TEST_CASE("places: contacts along their normals, named displacements") {
 TEST_CASE("a contact force N = -3 (1 - cos 20 t): z'' + 8 z' + 10^4 z = -N, less what is static") {
   const Model model = two_masses();
   const double step = 2e-3, w = 20.0;
-  LeftOut left_out(model, squares, Eigen::MatrixXd::Identity(2, 2), 1, step);
+  reduction::TruncationError left_out(model, squares, Eigen::MatrixXd::Identity(2, 2), 1, step);
   for (int i = 0; i <= 1000; ++i) left_out.sample(i * step, {-3.0 * (1.0 - std::cos(w * i * step)), 0.0});
   left_out.finish();
   // What is missed starts with -F''(0)/omega^4 and dies out, e^(-4 t), to |F/(k - w^2 + 8 i w) - F/k|, F = 3.
@@ -65,7 +65,7 @@ TEST_CASE("a load that jumps rings with its whole static answer") {
   load.direction.terms = {{1, 2.0}};
   load.history = History({1e-3}, {Piece{}, Piece{0.0, {50.0}}});
   model.loads.push_back(load);
-  LeftOut left_out(model, squares, Eigen::MatrixXd::Identity(2, 2), 1, 1e-4);
+  reduction::TruncationError left_out(model, squares, Eigen::MatrixXd::Identity(2, 2), 1, 1e-4);
   for (int i = 0; i <= 2000; ++i) left_out.sample(i * 1e-4, {0.0, 0.0});
   left_out.finish();
   // 2 * 50 / 10^4 before the damper takes a part of the first swing
@@ -74,7 +74,7 @@ TEST_CASE("a load that jumps rings with its whole static answer") {
 
 TEST_CASE("all modes kept: nothing is missed") {
   const Model model = two_masses();
-  LeftOut left_out(model, squares, Eigen::MatrixXd::Identity(2, 2), 2, 1e-3);
+  reduction::TruncationError left_out(model, squares, Eigen::MatrixXd::Identity(2, 2), 2, 1e-3);
   for (int i = 0; i < 10; ++i) left_out.sample(i * 1e-3, {-1.0 * i, 0.0});
   left_out.finish();
   for (const double missed : left_out.missed()) CHECK(missed == 0.0);

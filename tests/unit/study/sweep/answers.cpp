@@ -34,11 +34,11 @@ at = "A"
 direction = [1.0, 0.0]
 )",
                                               "test.toml"));
-  std::vector<ResponseQuery> queries;
+  std::vector<sweep::ResponseQuery> queries;
   for (const char* text : {"max:u", "min:u", "abs:u", "tmax:u", "tmin:u", "end:u", "residual:floor",
                            "count:slip", "impulse:floor"})
-    queries.push_back(parse_query(text, model));
-  Answers answers(queries, model);
+    queries.push_back(sweep::parse_query(text, model));
+  sweep::QueryRecorder answers(queries, model);
   Sample sample;
   sample.contacts.resize(1);
   answers.sample(sample);
@@ -59,13 +59,13 @@ TEST_CASE("answers: a contact's name may have an @") {
   model.contacts.resize(2);
   model.contacts[0].name = "a@2";
   model.contacts[1].name = "b";
-  CHECK(parse_query("residual:a@2", model).name == "a@2");
-  CHECK(parse_query("impulse:a@2", model).number == 0);
-  CHECK(parse_query("impulse:a@2@3", model).name == "a@2");
-  CHECK(parse_query("impulse:a@2@3", model).number == 3);
-  CHECK(parse_query("count:stick@a@2", model).name == "a@2");
-  CHECK(parse_query("impulse:b@2", model).number == 2);
-  CHECK_THROWS_AS((void)parse_query("residual:b@2", model), UsageError);
+  CHECK(sweep::parse_query("residual:a@2", model).name == "a@2");
+  CHECK(sweep::parse_query("impulse:a@2", model).number == 0);
+  CHECK(sweep::parse_query("impulse:a@2@3", model).name == "a@2");
+  CHECK(sweep::parse_query("impulse:a@2@3", model).number == 3);
+  CHECK(sweep::parse_query("count:stick@a@2", model).name == "a@2");
+  CHECK(sweep::parse_query("impulse:b@2", model).number == 2);
+  CHECK_THROWS_AS((void)sweep::parse_query("residual:b@2", model), UsageError);
 }
 
 TEST_SUITE_END();

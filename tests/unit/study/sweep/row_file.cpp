@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SweepRow made(std::size_t index, const std::string& outcome, double t) {
-  SweepRow out;
+sweep::SweepRow made(std::size_t index, const std::string& outcome, double t) {
+  sweep::SweepRow out;
   out.index = index;
   out.values = {"0.3", "\"a, \\ b\""};
   out.outcome = outcome;
@@ -35,7 +35,7 @@ std::string text(const fs::path& file) {
 
 std::string why_refused(const fs::path& file) {
   try {
-    (void)read_rows(file);
+    (void)sweep::read_rows(file);
   } catch (const FileError& error) {
     return error.what();
   }
@@ -49,42 +49,43 @@ TEST_SUITE_BEGIN("unit/study/sweep/row_file");
 TEST_CASE("row file: rows come back as they were, the later of two with one number") {
   const tests::OwnFolder folder;
   const fs::path file = folder.path() / "rows.jsonl";
-  CHECK(read_rows(file).empty());
+  CHECK(sweep::read_rows(file).empty());
   {
-    RowFile rows(file);
-    rows.append(row_line(made(2, "crashed", 0.0)) + row_line(made(0, "done", 0.1)));
-    rows.append(row_line(made(2, "stopped", 1.0 / 3.0)));
+    sweep::RowFile rows(file);
+    rows.append(sweep::row_line(made(2, "crashed", 0.0)) + sweep::row_line(made(0, "done", 0.1)));
+    rows.append(sweep::row_line(made(2, "stopped", 1.0 / 3.0)));
   }
-  RowFile(file).append(row_line(made(1, "refused", 2.0)));  // goes on
-  const auto rows = read_rows(file);
+  sweep::RowFile(file).append(sweep::row_line(made(1, "refused", 2.0)));  // goes on
+  const auto rows = sweep::read_rows(file);
   REQUIRE(rows.size() == 3);
   for (const auto& [index, found] : rows) CHECK(found.row.index == index);
   CHECK(rows.at(0).line == 2);
   CHECK(rows.at(2).line == 3);
   CHECK(rows.at(1).line == 4);
-  CHECK(same_result(rows.at(0).row, made(0, "done", 0.1)));
-  CHECK(same_result(rows.at(1).row, made(1, "refused", 2.0)));
-  CHECK(same_result(rows.at(2).row, made(2, "stopped", 1.0 / 3.0)));
+  CHECK(sweep::same_result(rows.at(0).row, made(0, "done", 0.1)));
+  CHECK(sweep::same_result(rows.at(1).row, made(1, "refused", 2.0)));
+  CHECK(sweep::same_result(rows.at(2).row, made(2, "stopped", 1.0 / 3.0)));
 }
 
 TEST_CASE("row file: half a line at the end is no row, and the next one does not lengthen it") {
   const tests::OwnFolder folder;
   const fs::path file = folder.path() / "rows.jsonl";
-  const std::string first = row_line(made(0, "done", 1.0)), second = row_line(made(1, "done", 1.0));
+  const std::string first = sweep::row_line(made(0, "done", 1.0)),
+                    second = sweep::row_line(made(1, "done", 1.0));
   for (const std::size_t cut : {std::size_t{1}, second.size() / 2, second.size() - 1}) {
     CAPTURE(cut);
     std::ofstream(file, std::ios::binary) << first << second.substr(0, cut);
-    CHECK(read_rows(file).size() == 1);
-    RowFile(file).append(second);
+    CHECK(sweep::read_rows(file).size() == 1);
+    sweep::RowFile(file).append(second);
     CHECK(text(file) == first + second);
-    CHECK(read_rows(file).size() == 2);
+    CHECK(sweep::read_rows(file).size() == 2);
   }
 }
 
 TEST_CASE("row file: every byte of a row counts") {
   const tests::OwnFolder folder;
   const fs::path file = folder.path() / "rows.jsonl";
-  const std::string good = row_line(made(0, "stopped", 1.0));
+  const std::string good = sweep::row_line(made(0, "stopped", 1.0));
   for (std::size_t i = 0; i + 1 < good.size(); ++i) {
     std::string bad = good;
     bad[i] = bad[i] == 'x' ? 'y' : 'x';
@@ -99,7 +100,7 @@ TEST_CASE("row file: what is no file of its own is refused, by name") {
   const auto refused = [&](const fs::path& file, const std::string& why) {
     const std::string message = file.string() + ": " + why + ", expected the rows of a sweep";
     CHECK(why_refused(file) == message);
-    CHECK_THROWS_WITH_AS(RowFile{file}, message.c_str(), FileError);
+    CHECK_THROWS_WITH_AS(sweep::RowFile{file}, message.c_str(), FileError);
   };
   fs::create_directory(folder.path() / "folder");
   refused(folder.path() / "folder", "is a directory");
@@ -107,7 +108,7 @@ TEST_CASE("row file: what is no file of its own is refused, by name") {
   fs::create_symlink(folder.path() / "mine", folder.path() / "link");
   refused(folder.path() / "link", "is a link");
   CHECK(text(folder.path() / "mine") == "mine");
-  CHECK_THROWS_AS(RowFile{folder.path() / "nowhere" / "rows.jsonl"}, FileError);
+  CHECK_THROWS_AS(sweep::RowFile{folder.path() / "nowhere" / "rows.jsonl"}, FileError);
 }
 
 TEST_SUITE_END();

@@ -61,13 +61,14 @@ amplitude = 0.0
 history = { type = "constant" }
 )";
 
-SweepRow row_of(const std::string& scene, const std::string& strobe, std::optional<double> settle = {}) {
-  RowTask task;
+sweep::SweepRow row_of(const std::string& scene, const std::string& strobe,
+                       std::optional<double> settle = {}) {
+  sweep::RowTask task;
   task.scene = "scene.toml";  // no such file: rows are of the text
   task.text = scene;
   task.strobe = strobe;
   task.settle = settle;
-  return compute_row(task);
+  return sweep::compute_row(task);
 }
 
 /// Of a forced oscillator.
@@ -83,7 +84,7 @@ history = { type = "harmonic", omega = 4.0 }
 std::string refusal(const std::string& text, const std::string& scene_text = belt) {
   const Scene scene = parse_scene(scene_text, "belt.toml");
   try {
-    (void)parse_strobe(text, scene, build_model(scene));
+    (void)sweep::parse_strobe(text, scene, build_model(scene));
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -95,7 +96,7 @@ std::string refusal(const std::string& text, const std::string& scene_text = bel
 TEST_SUITE_BEGIN("unit/study/sweep/stroboscopic_map");
 
 TEST_CASE("strobe: states at multiples of a period, of displacement, velocity and outputs") {
-  const SweepRow row = row_of(oscillator, "0.7", 0.0);
+  const sweep::SweepRow row = row_of(oscillator, "0.7", 0.0);
   REQUIRE(row.outcome == "done");
   REQUIRE(row.points.size() == 8);  // 0.7 to 5.6; neither the start nor t_end
   for (std::size_t k = 0; k < row.points.size(); ++k) {
@@ -112,21 +113,22 @@ TEST_CASE("strobe: states at multiples of a period, of displacement, velocity an
 }
 
 TEST_CASE("strobe: without --settle the second half of the run has points") {
-  const SweepRow row = row_of(oscillator, "0.5");
+  const sweep::SweepRow row = row_of(oscillator, "0.5");
   REQUIRE(row.points.size() == 7);
   CHECK(row.points.front().t == 3.0);
 }
 
 TEST_CASE("strobe: after events the block has the velocity of its belt") {
-  const SweepRow sticks = row_of(belt, "stick@belt", 0.0);
-  const SweepRow slips = row_of(belt, "slip", 0.0);
+  const sweep::SweepRow sticks = row_of(belt, "stick@belt", 0.0);
+  const sweep::SweepRow slips = row_of(belt, "slip", 0.0);
   REQUIRE(sticks.points.size() == static_cast<std::size_t>(sticks.events.at("stick")));
   REQUIRE(slips.points.size() == static_cast<std::size_t>(slips.events.at("slip")));
   REQUIRE(sticks.points.size() > 3);
-  for (const StrobePoint& point : sticks.points)
+  for (const sweep::StroboscopicPoint& point : sticks.points)
     CHECK(point.values[1] == doctest::Approx(0.2).epsilon(1e-12));
   // Stuck until the spring has the static limit: 4 N / 8 N/m.
-  for (const StrobePoint& point : slips.points) CHECK(point.values[0] == doctest::Approx(0.5).epsilon(1e-11));
+  for (const sweep::StroboscopicPoint& point : slips.points)
+    CHECK(point.values[0] == doctest::Approx(0.5).epsilon(1e-11));
 }
 
 TEST_CASE("strobe: every engine that locates events, and parts that nothing couples") {
@@ -155,16 +157,16 @@ gap = 0.004
   for (const auto& [engine, tolerance] :
        {std::pair{"exact", 1e-12}, std::pair{"ida", 1e-6}, std::pair{"newmark", 1e-5}}) {
     CAPTURE(engine);
-    RowTask task;
+    sweep::RowTask task;
     task.scene = "scene.toml";  // no such file: rows are of the text
     task.text = apart;
     task.changes = {{"run.engine", std::string("\"") + engine + "\""}};
     task.strobe = "contact@stop";
     task.settle = 0.0;
-    const SweepRow row = compute_row(task);
+    const sweep::SweepRow row = sweep::compute_row(task);
     REQUIRE(row.points.size() == static_cast<std::size_t>(row.events.at("contact")));
     // u = -0.01 with all of the energy of the start: v^2 = 25 (0.03^2 - 0.01^2).
-    for (const StrobePoint& point : row.points) {
+    for (const sweep::StroboscopicPoint& point : row.points) {
       CHECK(std::abs(point.values[0] + 0.01) <= tolerance * 0.01);
       CHECK(std::abs(point.values[1] + std::sqrt(0.02)) <= tolerance * std::sqrt(0.02));
       CHECK(point.values[2] == 0.0);
@@ -173,7 +175,7 @@ gap = 0.004
 }
 
 TEST_CASE("strobe: runs that go on from each other show the hysteresis of friction") {
-  RowTask task;
+  sweep::RowTask task;
   task.scene = "scene.toml";  // no such file: rows are of the text
   task.text = hysteresis;
   task.strobe = "10";
@@ -182,7 +184,7 @@ TEST_CASE("strobe: runs that go on from each other show the hysteresis of fricti
   for (const double load : {2.0, 7.0, 12.0, 10.0, 6.0, 1.0, -4.0}) {
     CAPTURE(load);
     task.changes = {{"loads.1.amplitude", std::to_string(load)}};
-    const SweepRow row = compute_row(task, carried);
+    const sweep::SweepRow row = sweep::compute_row(task, carried);
     REQUIRE(row.outcome == "done");
     REQUIRE(carried);
     // It moves where the spring and the load leave more than 3 N, until they leave 3 N.
@@ -192,9 +194,9 @@ TEST_CASE("strobe: runs that go on from each other show the hysteresis of fricti
   }
   // A run that is refused leaves the state as it was.
   task.changes = {{"loads.1.amplitude", "-4.0"}, {"contacts.pad.friction", "-1"}};
-  CHECK(compute_row(task, carried).outcome == "refused");
+  CHECK(sweep::compute_row(task, carried).outcome == "refused");
   task.changes = {{"loads.1.amplitude", "-2.0"}};
-  CHECK(std::abs(compute_row(task, carried).points.back().values[0] - u) < 1e-9);
+  CHECK(std::abs(sweep::compute_row(task, carried).points.back().values[0] - u) < 1e-9);
 }
 
 TEST_CASE(
@@ -202,16 +204,16 @@ TEST_CASE(
   // m u'' + c u' + k u = F sin w t: u = F (D sin w t - C cos w t)/(D^2 + C^2), D = k - m w^2, C = c w, at phase 0
   for (const double w : {2.0, 4.0, 7.3}) {
     CAPTURE(w);
-    RowTask task;
+    sweep::RowTask task;
     task.scene = "scene.toml";  // no such file: rows are of the text
     task.text = forced;
     task.changes = {{"loads.1.history.omega", std::to_string(w)}};
     task.strobe = "loads";
-    const SweepRow row = compute_row(task);
+    const sweep::SweepRow row = sweep::compute_row(task);
     REQUIRE(row.outcome == "done");
     const double D = 50.0 - 2.0 * w * w, C = 4.0 * w, square = D * D + C * C;
     REQUIRE(row.points.size() > 10);
-    for (const StrobePoint& point : row.points) {
+    for (const sweep::StroboscopicPoint& point : row.points) {
       CHECK(std::abs(point.values[0] + 3.0 * C / square) <= 1e-11);
       CHECK(std::abs(point.values[1] - 3.0 * D * w / square) <= 1e-11);
     }
@@ -228,12 +230,12 @@ TEST_CASE("strobe: a period that is none of the loads is doubted, a multiple of 
   const Model model = build_model(scene);
   const double T = 3.141592653589793 / 2.0;
   const auto doubt = [&](double period) {
-    return strobe_doubt(parse_strobe(std::to_string(period), scene, model), scene);
+    return sweep::strobe_doubt(sweep::parse_strobe(std::to_string(period), scene, model), scene);
   };
   const auto exact = [&](double turns) {
-    Strobe strobe;
+    sweep::StroboscopicMap strobe;
     strobe.period = turns * T;
-    return strobe_doubt(strobe, scene);
+    return sweep::strobe_doubt(strobe, scene);
   };
   CHECK(exact(1.0).empty());
   CHECK(exact(3.0).empty());
@@ -241,12 +243,12 @@ TEST_CASE("strobe: a period that is none of the loads is doubted, a multiple of 
   CHECK(doubt(1.5).find("--strobe loads") != std::string::npos);
   CHECK(doubt(1.5707).find("1.5707963") != std::string::npos);
   const Scene belted = parse_scene(belt, "belt.toml");
-  CHECK(strobe_doubt(parse_strobe("1.5", belted, build_model(belted)), belted).empty());
+  CHECK(sweep::strobe_doubt(sweep::parse_strobe("1.5", belted, build_model(belted)), belted).empty());
 }
 
 TEST_CASE("strobe: rows keep their points on disk") {
-  const SweepRow row = row_of(oscillator, "0.7");
-  const SweepRow again = parse_row(row_line(row));
+  const sweep::SweepRow row = row_of(oscillator, "0.7");
+  const sweep::SweepRow again = sweep::parse_row(sweep::row_line(row));
   REQUIRE(again.points.size() == row.points.size());
   for (std::size_t k = 0; k < row.points.size(); ++k) {
     CHECK(again.points[k].t == row.points[k].t);

@@ -13,10 +13,10 @@ namespace {
 using Values = std::vector<std::string>;
 using Variables = std::map<std::string, std::string>;
 
-Values values(const std::string& text) { return parse_vary("a.b=" + text).values; }
+Values values(const std::string& text) { return sweep::parse_vary("a.b=" + text).values; }
 
-Share share(const std::string& text, const Variables& variables = {}) {
-  return parse_share(text, [&](const char* name) -> std::optional<std::string> {
+sweep::Share share(const std::string& text, const Variables& variables = {}) {
+  return sweep::parse_share(text, [&](const char* name) -> std::optional<std::string> {
     const auto found = variables.find(name);
     return found == variables.end() ? std::nullopt : std::optional<std::string>(found->second);
   });
@@ -58,12 +58,12 @@ TEST_CASE("sweep: what is no range is refused") {
     CAPTURE(text);
     CHECK_THROWS_AS((void)values(text), UsageError);
   }
-  CHECK_THROWS_AS((void)parse_vary("=1:2:1"), UsageError);
-  CHECK_THROWS_AS((void)points({parse_vary("a=1,2"), parse_vary("a=3")}), UsageError);
+  CHECK_THROWS_AS((void)sweep::parse_vary("=1:2:1"), UsageError);
+  CHECK_THROWS_AS((void)sweep::points({sweep::parse_vary("a=1,2"), sweep::parse_vary("a=3")}), UsageError);
 }
 
 TEST_CASE("sweep: several ranges make a product, the last runs fastest") {
-  const auto list = points({parse_vary("a=1,2"), parse_vary("b=x,y,z")});
+  const auto list = sweep::points({sweep::parse_vary("a=1,2"), sweep::parse_vary("b=x,y,z")});
   REQUIRE(list.size() == 6);
   CHECK(list[1][0].value == "1");
   CHECK(list[1][1].value == "y");
@@ -82,16 +82,16 @@ TEST_CASE("sweep: shares part the rows") {
 }
 
 TEST_CASE("sweep: shares from the environment") {
-  CHECK(share("auto", {{"OMPI_COMM_WORLD_RANK", "2"}, {"OMPI_COMM_WORLD_SIZE", "4"}}) == Share{3, 4});
-  CHECK(share("auto", {{"PMI_RANK", "0"}, {"PMI_SIZE", "2"}}) == Share{1, 2});
+  CHECK(share("auto", {{"OMPI_COMM_WORLD_RANK", "2"}, {"OMPI_COMM_WORLD_SIZE", "4"}}) == sweep::Share{3, 4});
+  CHECK(share("auto", {{"PMI_RANK", "0"}, {"PMI_SIZE", "2"}}) == sweep::Share{1, 2});
   Variables array = {{"SLURM_ARRAY_TASK_ID", "7"},
                      {"SLURM_ARRAY_TASK_COUNT", "4"},
                      {"SLURM_ARRAY_TASK_MIN", "1"},
                      {"SLURM_ARRAY_TASK_MAX", "10"}};
-  CHECK(share("auto", array) == Share{3, 4});  // 1, 4, 7, 10
+  CHECK(share("auto", array) == sweep::Share{3, 4});  // 1, 4, 7, 10
   array["PMI_RANK"] = "1";
   array["PMI_SIZE"] = "8";
-  CHECK(share("auto", array) == Share{18, 32});
+  CHECK(share("auto", array) == sweep::Share{18, 32});
   array["SLURM_ARRAY_TASK_ID"] = "5";  // of no even array
   CHECK_THROWS_AS((void)share("auto", array), UsageError);
   CHECK_THROWS_AS((void)share("auto", {}), UsageError);

@@ -61,19 +61,19 @@ at = "p"
 direction = [1.0, 0.0]
 )";
 
-Verification verified_swing(const Model& own) {
+verify::Verification verified_swing(const Model& own) {
   const Scene scene = parse_scene(swinging, "test.toml", {{"run.engine", "ida"}, {"run.dt", "2e-3"}});
-  VerifyRequest request;
+  verify::VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;
-  return verify(build_model(scene), own, request);
+  return verify::verify(build_model(scene), own, request);
 }
 
 Model swing() { return build_model(parse_scene(swinging, "test.toml", {{"run.engine", "ida"}})); }
 
-const VerifiedKind& kind_of(const Verification& result, const std::string& name) {
+const verify::VerifiedKind& kind_of(const verify::Verification& result, const std::string& name) {
   const auto found = std::find_if(result.kinds.begin(), result.kinds.end(),
-                                  [&](const VerifiedKind& kind) { return kind.name == name; });
+                                  [&](const verify::VerifiedKind& kind) { return kind.name == name; });
   REQUIRE(found != result.kinds.end());
   return *found;
 }
@@ -83,9 +83,9 @@ const VerifiedKind& kind_of(const Verification& result, const std::string& name)
 TEST_SUITE_BEGIN("unit/study/verify/outputs");
 
 TEST_CASE("verify: outputs agree at rows and in their extremes") {
-  const Verification result = verified_swing(swing());
+  const verify::Verification result = verified_swing(swing());
   INFO(result.sentence);
-  CHECK(result.verdict == Agreement::agree);
+  CHECK(result.verdict == verify::Agreement::agree);
   for (const char* name : {"output [m/s^2]", "output [m]"}) {
     CHECK(kind_of(result, name).compared > 150);
     CHECK(*kind_of(result, name).order == doctest::Approx(2.0).epsilon(0.05));
@@ -101,9 +101,9 @@ TEST_CASE("verify: an output that is off in one engine alone is found, and named
     Output& off = own.outputs[output];
     for (Combination* form : {&off.u, &off.a})
       for (auto& term : form->terms) term.second *= output == 0 ? 0.0 : 1.001;
-    const Verification result = verified_swing(own);
+    const verify::Verification result = verified_swing(own);
     INFO(result.sentence);
-    CHECK(result.verdict == Agreement::differ);
+    CHECK(result.verdict == verify::Agreement::differ);
     CHECK(result.sentence.find(off.name) != std::string::npos);
     CHECK(kind_of(result, output == 0 ? "output [m/s^2]" : "output [m]").disagreeing > 0);
     CHECK(kind_of(result, output == 0 ? "extremes [m/s^2]" : "extremes [m]").disagreeing > 0);
@@ -140,16 +140,16 @@ friction = 0.0
 )",
                                   "test.toml", {{"run.engine", "ida"}, {"run.dt", "1e-3"}});
   // v.n = -0.12 - 0.8 = -0.92 but for the friction's 0.003 N: vx after = 0.2 - 1.5 0.92 0.6 < 0.
-  VerifyRequest request;
+  verify::VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;
   const Model model = build_model(scene);
-  const Verification result = verify(model, model, request);
+  const verify::Verification result = verify::verify(model, model, request);
   INFO(result.sentence);
-  const auto turned = [](const VerifiedEvent& event) {
+  const auto turned = [](const verify::VerifiedEvent& event) {
     return event.contact == 0 && event.type == EventType::reversal;
   };
-  const auto hits = [](const VerifiedEvent& event) {
+  const auto hits = [](const verify::VerifiedEvent& event) {
     return event.contact == 1 && event.type == EventType::impact;
   };
   REQUIRE(std::count_if(result.events.begin(), result.events.end(), hits) >= 1);

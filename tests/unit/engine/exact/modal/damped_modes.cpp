@@ -25,10 +25,10 @@ struct Whole {
 };
 
 Whole whole_of(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
-               const std::vector<ModalTerm>& terms) {
+               const std::vector<modal::ModalTerm>& terms) {
   Whole w{square.asDiagonal(), decay.asDiagonal(), {}, {}};
-  std::vector<const ModalTerm*> rigid;
-  for (const ModalTerm& term : terms) {
+  std::vector<const modal::ModalTerm*> rigid;
+  for (const modal::ModalTerm& term : terms) {
     if (term.rigid) rigid.push_back(&term);
     w.k += term.stiffness * term.u * term.v.transpose();
     w.c += term.damping * term.u * term.v.transpose();
@@ -44,14 +44,14 @@ Whole whole_of(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
 
 /// Every root with its shape and its forces solves the equations; y of x is 1, of the others 0.
 void check_equations(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
-                     const std::vector<ModalTerm>& terms) {
-  const DampedModes modes = damped_modes(square, decay, terms);
+                     const std::vector<modal::ModalTerm>& terms) {
+  const modal::DampedModes modes = modal::damped_modes(square, decay, terms);
   CAPTURE(modes.failure);
   REQUIRE(modes.failure.empty());
   const Whole w = whole_of(square, decay, terms);
   const Index n = square.size();
   std::size_t rigid = 0;
-  for (const ModalTerm& term : terms) rigid += term.rigid ? 1 : 0;
+  for (const modal::ModalTerm& term : terms) rigid += term.rigid ? 1 : 0;
   Index count = 0;
   for (Index k = 0; k < modes.root.size(); ++k) {
     const std::complex<double> l = modes.root[k];
@@ -88,34 +88,36 @@ TEST_SUITE_BEGIN("unit/engine/exact/modal/damped_modes");
 
 TEST_CASE("a mass with a spring and a dashpot: l^2 + c l + k = 0") {
   const Eigen::VectorXd one = vector_of({1.0});
-  const DampedModes modes = damped_modes(vector_of({4.0}), vector_of({0.5}), {{one, one, 12.0, 1.5, false}});
+  const modal::DampedModes modes =
+      modal::damped_modes(vector_of({4.0}), vector_of({0.5}), {{one, one, 12.0, 1.5, false}});
   REQUIRE(modes.failure.empty());
   REQUIRE(modes.root.size() == 1);
   CHECK(modes.root[0].real() == doctest::Approx(-1.0).epsilon(1e-15));
   CHECK(modes.root[0].imag() == doctest::Approx(std::sqrt(15.0)).epsilon(1e-15));
   // Overdamped: two real roots, -1 and -4.
-  const DampedModes slow = damped_modes(vector_of({0.0}), vector_of({1.0}), {{one, one, 4.0, 4.0, false}});
+  const modal::DampedModes slow =
+      modal::damped_modes(vector_of({0.0}), vector_of({1.0}), {{one, one, 4.0, 4.0, false}});
   REQUIRE(slow.root.size() == 2);
   CHECK(slow.root[0].real() == doctest::Approx(-1.0).epsilon(1e-15));
   CHECK(slow.root[1].real() == doctest::Approx(-4.0).epsilon(1e-15));
   // A free motion with damping alone: 0 exactly, and -c.
-  const DampedModes free = damped_modes(vector_of({0.0}), vector_of({0.25}), {});
+  const modal::DampedModes free = modal::damped_modes(vector_of({0.0}), vector_of({0.25}), {});
   CHECK(free.root[0] == 0.0);
   CHECK(free.root[1].real() == -0.25);
 }
 
 TEST_CASE("what cannot be told apart fails and says so") {
   const Eigen::VectorXd one = vector_of({1.0});
-  CHECK_FALSE(damped_modes(vector_of({0.0}), vector_of({0.0}), {}).failure.empty());
-  CHECK_FALSE(damped_modes(vector_of({4.0}), vector_of({4.0}), {}).failure.empty());
+  CHECK_FALSE(modal::damped_modes(vector_of({0.0}), vector_of({0.0}), {}).failure.empty());
+  CHECK_FALSE(modal::damped_modes(vector_of({4.0}), vector_of({4.0}), {}).failure.empty());
   // critical by its dashpot
   CHECK_FALSE(
-      damped_modes(vector_of({1.0}), vector_of({0.0}), {{one, one, 3.0, 4.0, false}}).failure.empty());
+      modal::damped_modes(vector_of({1.0}), vector_of({0.0}), {{one, one, 3.0, 4.0, false}}).failure.empty());
 }
 
 TEST_CASE("a constraint leaves n - 1 modes: two masses held together") {
-  const DampedModes modes = damped_modes(vector_of({1.0, 3.0}), vector_of({0.0, 0.0}),
-                                         {{vector_of({1, -1}), vector_of({1, -1}), 0, 0, true}});
+  const modal::DampedModes modes = modal::damped_modes(
+      vector_of({1.0, 3.0}), vector_of({0.0, 0.0}), {{vector_of({1, -1}), vector_of({1, -1}), 0, 0, true}});
   REQUIRE(modes.failure.empty());
   REQUIRE(modes.root.size() == 1);
   CHECK(modes.root[0].imag() == doctest::Approx(std::sqrt(2.0)).epsilon(1e-14));
@@ -140,7 +142,7 @@ TEST_CASE(
       for (Index j = 0; j < n; ++j) square[j] = 100.0 * std::pow(1.0 + static_cast<double>(j), 4.0);
       if (kind % 2 == 1) square[0] = 0.0;
       for (Index j = 0; j < n; ++j) decay[j] = kind < 4 ? 0.3 : 0.1 + 1e-5 * square[j];
-      std::vector<ModalTerm> terms;
+      std::vector<modal::ModalTerm> terms;
       const Eigen::VectorXd a = any(n), b = any(n), c = any(n);
       if (kind != 2) terms.push_back({a + 0.4 * c, a, 1e4, kind % 3 == 0 ? 20.0 : 0.0, false});
       if (kind > 1) terms.push_back({b, b, 0.0, 7.0, false});
@@ -166,8 +168,8 @@ TEST_CASE("equal frequencies: bodies that do not know of each other, seen or not
   check_equations(vector_of({4.0, 9.0}), vector_of({0.1, 0.1}),
                   {{vector_of({1, 0.5}), vector_of({1, 0}), 6.0, 0.0, false}});
   // in resonance with it: no basis of modes
-  CHECK_FALSE(damped_modes(vector_of({4.0, 9.0}), vector_of({0.1, 0.1}),
-                           {{vector_of({1, 0.5}), vector_of({1, 0}), 5.0, 0.0, false}})
+  CHECK_FALSE(modal::damped_modes(vector_of({4.0, 9.0}), vector_of({0.1, 0.1}),
+                                  {{vector_of({1, 0.5}), vector_of({1, 0}), 5.0, 0.0, false}})
                   .failure.empty());
 }
 

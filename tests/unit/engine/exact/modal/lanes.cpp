@@ -26,7 +26,7 @@ TEST_CASE("lanes: a great matrix times a few vectors, row by row the same whatev
   for (const Eigen::Index rows : {1, 3, 4, 9})
     for (const Eigen::Index columns : {1, 2, 3, 4, 5, 8, 11})
       for (const std::size_t count : {1U, 2U, 3U, 4U, 7U}) {
-        RowMatrix a(rows, columns);
+        modal::RowMatrix a(rows, columns);
         for (Eigen::Index i = 0; i < rows; ++i) a.row(i) = random_list(random, columns).transpose();
         std::vector<VectorXd> x, y(count);
         for (std::size_t s = 0; s < count; ++s) x.push_back(random_list(random, columns));
@@ -36,7 +36,7 @@ TEST_CASE("lanes: a great matrix times a few vectors, row by row the same whatev
           from.push_back(&x[s]);
           to.push_back(&y[s]);
         }
-        thin_product(a, from, to);
+        modal::thin_product(a, from, to);
         for (std::size_t s = 0; s < count; ++s) {
           REQUIRE(y[s].size() == rows);
           for (Eigen::Index i = 0; i < rows; ++i) {
@@ -47,9 +47,9 @@ TEST_CASE("lanes: a great matrix times a few vectors, row by row the same whatev
             }
             CHECK(std::abs(y[s][i] - plain) < 1e-14);
             CHECK(y[s][i] == (part[0] + part[1]) + (part[2] + part[3]));
-            const RowMatrix alone = a.row(i);
+            const modal::RowMatrix alone = a.row(i);
             VectorXd one;
-            thin_product(alone, {&x[s]}, {&one});
+            modal::thin_product(alone, {&x[s]}, {&one});
             CHECK(one[0] == y[s][i]);
           }
         }
@@ -64,10 +64,10 @@ TEST_CASE("lanes: pairs of modes against their formula") {
     const VectorXd y0 = random_list(random, n), r0 = random_list(random, n), y1 = random_list(random, n),
                    r1 = random_list(random, n), shared = random_list(random, n),
                    normal = random_list(random, n), tangent = random_list(random, n);
-    const ModeEnds ends{l.data(), y0.data(), r0.data(), y1.data(), r1.data()};
+    const modal::ModeEnds ends{l.data(), y0.data(), r0.data(), y1.data(), r1.data()};
     const Eigen::Index k = n - 1;
     VectorXd yy = VectorXd::Zero(n), mixed = yy;
-    const double lost = meet_before(ends, alpha, k, shared.data(), yy.data(), mixed.data());
+    const double lost = modal::meet_before(ends, alpha, k, shared.data(), yy.data(), mixed.data());
     double expected = 0.0, crossed = 0.0;
     for (Eigen::Index i = 0; i < k; ++i) {
       const double d = l[i] - l[k], e = 1.0 / (d * d + 2.0 * alpha * alpha * (l[k] + l[i]));
@@ -83,8 +83,8 @@ TEST_CASE("lanes: pairs of modes against their formula") {
       crossed += normal[k] * tangent[i] * mix + tangent[k] * normal[i] * (both - mix);
     }
     CHECK(std::abs(lost - expected) < 1e-10);
-    CHECK(std::abs(crossed_before(normal.data(), tangent.data(), k, yy.data(), mixed.data()) - crossed) <
-          1e-12);
+    CHECK(std::abs(modal::crossed_before(normal.data(), tangent.data(), k, yy.data(), mixed.data()) -
+                   crossed) < 1e-12);
     CHECK(yy[k] == 0.0);  // nothing is written beyond
     CHECK(mixed[k] == 0.0);
   }
@@ -96,24 +96,26 @@ TEST_CASE("lanes: sums over poles against plain loops") {
     const VectorXd base = VectorXd::LinSpaced(n, 1.0, 9.0), tiny = 1e-3 * random_list(random, n),
                    w = random_list(random, n), small = random_list(random, 2);
     const Eigen::MatrixXd side = random_list(random, 2 * n).reshaped(n, 2);
-    const Complex own(0.3, 0.2);
+    const modal::Complex own(0.3, 0.2);
     const double home = 4.5, home_tiny = 1e-4;
     VectorXd re(n), im(n), re2(n), im2(n), cauchy(n);
-    inverse_distances(base.data(), tiny.data(), n, home, home_tiny, own, re.data(), im.data());
-    square_all(re.data(), im.data(), n, re2.data(), im2.data());
-    cauchy_vector(base.data(), tiny.data(), n, home, home_tiny, own.re, small.data(), side.data(), 2,
-                  cauchy.data());
-    Complex sum, all;
+    modal::inverse_distances(base.data(), tiny.data(), n, home, home_tiny, own, re.data(), im.data());
+    modal::square_all(re.data(), im.data(), n, re2.data(), im2.data());
+    modal::cauchy_vector(base.data(), tiny.data(), n, home, home_tiny, own.re, small.data(), side.data(), 2,
+                         cauchy.data());
+    modal::Complex sum, all;
     for (Eigen::Index i = 0; i < n; ++i) {
       const double pole = base[i] - home + tiny[i] - home_tiny;
-      const Complex one = inverse(own - Complex(pole)), two = one * one;
-      CHECK(size_of(one - Complex(re[i], im[i])) < 1e-14 * size_of(one));
-      CHECK(size_of(two - Complex(re2[i], im2[i])) < 1e-14 * size_of(two));
+      const modal::Complex one = modal::inverse(own - modal::Complex(pole)), two = one * one;
+      CHECK(modal::size_of(one - modal::Complex(re[i], im[i])) < 1e-14 * modal::size_of(one));
+      CHECK(modal::size_of(two - modal::Complex(re2[i], im2[i])) < 1e-14 * modal::size_of(two));
       CHECK(cauchy[i] == doctest::Approx(side.row(i).dot(small) / (pole - own.re)).epsilon(1e-12));
       sum += one * w[i];
       all += one;
     }
-    CHECK(size_of(weighted(re.data(), im.data(), w.data(), n) - sum) < 1e-13 * (1.0 + size_of(sum)));
-    CHECK(size_of(sum_of_all(re.data(), im.data(), n) - all) < 1e-13 * (1.0 + size_of(all)));
+    CHECK(modal::size_of(modal::weighted(re.data(), im.data(), w.data(), n) - sum) <
+          1e-13 * (1.0 + modal::size_of(sum)));
+    CHECK(modal::size_of(modal::sum_of_all(re.data(), im.data(), n) - all) <
+          1e-13 * (1.0 + modal::size_of(all)));
   }
 }

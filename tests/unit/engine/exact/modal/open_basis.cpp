@@ -10,13 +10,13 @@
 namespace signorini::tests::open_bases {
 namespace {
 
-Model two_masses(const std::string& pressing, const std::string& surface, const std::string& load) {
+Model two_masses(const std::string& applied, const std::string& surface, const std::string& load) {
   return build_model(parse_scene(
       matrix_scene("t_end = 1.0",
                    "mass = [[2.0, 0.5], [0.5, 1.0]]\nstiffness = [[30.0, -10.0], [-10.0, 20.0]]",
                    fmt::format("law = \"slider\"\ntangent = {{ d0 = 0.3, d1 = -2.0 }}\nfriction = 0.3\n"
                                "normal_force = {}\nsurface_velocity = {}",
-                               pressing, surface),
+                               applied, surface),
                    fmt::format("[[loads]]\ndirection = {{ d1 = 1.0 }}\namplitude = 3.0\n{}", load)),
       "test.toml"));
 }
@@ -31,18 +31,18 @@ TEST_CASE(
   const std::string shakes = "{ type = \"harmonic\", amplitude = 0.5, omega = 3.0 }",
                     steps = "history = { type = \"step\", start = 0.3 }",
                     ramp = "history = { type = \"triangle\", start = 0.0, end = 0.6 }";
-  CHECK(stands_still(two_masses("2.0", "0.0", "")));
-  CHECK(stands_still(two_masses("2.0", "0.0", steps)));
-  CHECK_FALSE(stands_still(two_masses("2.0", "0.0", ramp)));
-  CHECK_FALSE(stands_still(two_masses("2.0", "0.4", "")));
-  CHECK_FALSE(stands_still(two_masses("2.0", shakes, "")));
-  CHECK_FALSE(stands_still(
+  CHECK(modal::stands_still(two_masses("2.0", "0.0", "")));
+  CHECK(modal::stands_still(two_masses("2.0", "0.0", steps)));
+  CHECK_FALSE(modal::stands_still(two_masses("2.0", "0.0", ramp)));
+  CHECK_FALSE(modal::stands_still(two_masses("2.0", "0.4", "")));
+  CHECK_FALSE(modal::stands_still(two_masses("2.0", shakes, "")));
+  CHECK_FALSE(modal::stands_still(
       two_masses("{ type = \"harmonic\", offset = 2.0, amplitude = 0.5, omega = 3.0 }", "0.0", "")));
 }
 
 TEST_CASE("amplitudes of open modes: frequencies of the pencil, and the way there and back") {
   const Model model = two_masses("2.0", "0.0", "");
-  const OpenBasis basis(model);
+  const modal::OpenBasis basis(model);
   REQUIRE(basis.failure().empty());
   // det (K - l M) = (30 - 2 l)(20 - l) - (10 + l / 2)^2 = 1.75 l^2 - 80 l + 500
   const double root = std::sqrt(80.0 * 80.0 - 4.0 * 1.75 * 500.0);
@@ -56,10 +56,10 @@ TEST_CASE("amplitudes of open modes: frequencies of the pencil, and the way ther
   // A form's amplitudes are what the modes show of it.
   CHECK(basis.amplitudes_of(model.contacts[0].tangent).dot(q) ==
         doctest::Approx(0.3 * 0.7 + 2.0 * 1.9).epsilon(1e-13));
-  CHECK(is_symmetric(model.stiffness));
+  CHECK(modal::is_symmetric(model.stiffness));
   SparseMatrix skew = model.stiffness;
   skew.coeffRef(0, 1) += 1e-6;
-  CHECK_FALSE(is_symmetric(skew));
+  CHECK_FALSE(modal::is_symmetric(skew));
 }
 
 TEST_SUITE_END();

@@ -34,13 +34,13 @@ SparseMatrix identity(int n) {
   return matrix;
 }
 
-double off_diagonal(const OpenModes& modes, const SparseMatrix& stiffness) {
+double off_diagonal(const modal::UnconstrainedModes& modes, const SparseMatrix& stiffness) {
   Eigen::MatrixXd k = modes.shapes.transpose() * (stiffness * modes.shapes);
   k.diagonal() -= modes.square;
   return k.cwiseAbs().maxCoeff();
 }
 
-double off_identity(const OpenModes& modes, const SparseMatrix& mass) {
+double off_identity(const modal::UnconstrainedModes& modes, const SparseMatrix& mass) {
   Eigen::MatrixXd m = modes.shapes.transpose() * (mass * modes.shapes);
   m.diagonal().array() -= 1.0;
   return m.cwiseAbs().maxCoeff();
@@ -53,7 +53,7 @@ TEST_SUITE_BEGIN("unit/engine/exact/modal/open_modes");
 TEST_CASE("open modes: a free chain") {
   const int n = 24;
   const SparseMatrix k = chain(n, 1e4, false);
-  const OpenModes modes = open_modes(identity(n), k);
+  const modal::UnconstrainedModes modes = modal::unconstrained_modes(identity(n), k);
   REQUIRE(modes.failure == "");
   CHECK(modes.free == 1);
   CHECK(off_identity(modes, identity(n)) < 1e-14 * n);
@@ -65,13 +65,13 @@ TEST_CASE("open modes: a free chain") {
 }
 
 TEST_CASE("open modes: a ring, all of whose frequencies are double, is not found, and that is said") {
-  CHECK(open_modes(identity(24), chain(24, 1e4, true)).failure ==
+  CHECK(modal::unconstrained_modes(identity(24), chain(24, 1e4, true)).failure ==
         "the modes that were found are not orthogonal");
 }
 
 TEST_CASE("open modes: the pipeline floats freely, all its modes are orthogonal") {
   const Model model = build_model(read_scene(SIGNORINI_MODELS "/pipeline.toml"));
-  const OpenModes modes = open_modes(model.mass, model.stiffness);
+  const modal::UnconstrainedModes modes = modal::unconstrained_modes(model.mass, model.stiffness);
   REQUIRE(modes.failure == "");
   CHECK(modes.free == 3);
   CHECK(off_identity(modes, model.mass) < 1e-13);
@@ -81,9 +81,12 @@ TEST_CASE("open modes: the pipeline floats freely, all its modes are orthogonal"
 TEST_CASE("open modes: what is not a structure of their kind is named") {
   SparseMatrix k = chain(6, 1.0, false);
   k.coeffRef(0, 0) = -3.0;
-  CHECK(open_modes(identity(6), k).failure == "the stiffness matrix is not positive semidefinite");
+  CHECK(modal::unconstrained_modes(identity(6), k).failure ==
+        "the stiffness matrix is not positive semidefinite");
   SparseMatrix m = identity(6);
   m.coeffRef(2, 2) = -1.0;
-  CHECK(open_modes(m, chain(6, 1.0, false)).failure == "the mass matrix is not positive definite");
-  CHECK(open_modes(identity(3), SparseMatrix(3, 3)).failure == "the structure has no stiffness");
+  CHECK(modal::unconstrained_modes(m, chain(6, 1.0, false)).failure ==
+        "the mass matrix is not positive definite");
+  CHECK(modal::unconstrained_modes(identity(3), SparseMatrix(3, 3)).failure ==
+        "the structure has no stiffness");
 }

@@ -32,13 +32,13 @@ TEST_CASE("oscillators: free, slow, critically damped, overdamped and fast modes
   const double alpha = 2.0, p = 3.0, time = 0.7;
   const std::vector<double> squares{0.0, 1e-9, 0.5, 1.0, 1.0 + 1e-9, 2.5, 40.0, 4000.0};
   const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(squares.data(), 8);
-  const Poles poles(d);
-  const Spectrum spectrum(poles, Eigen::MatrixXd(8, 0), Eigen::MatrixXd(8, 0), true);
-  const Oscillators modes(spectrum, alpha);
-  ModalPoint from, to;
+  const modal::Poles poles(d);
+  const modal::Spectrum spectrum(poles, Eigen::MatrixXd(8, 0), Eigen::MatrixXd(8, 0), true);
+  const modal::Oscillators modes(spectrum, alpha);
+  modal::ModalPoint from, to;
   from.z.real.assign(8, 0.4);
   from.rate.real.assign(8, -1.5);
-  Amplitudes force, area;
+  modal::Amplitudes force, area;
   force.real.assign(8, p);
   modes.advance(from, force, time, to);
   modes.integrate(from, to, force, time, area);
@@ -56,12 +56,12 @@ TEST_CASE("oscillators: coefficients of the series sum up to the motion") {
   const double alpha = 0.3, p = -2.0, l = 9.0, time = 1.2;
   Eigen::VectorXd d(1);
   d << l;
-  const Poles poles(d);
-  const Spectrum spectrum(poles, Eigen::MatrixXd(1, 0), Eigen::MatrixXd(1, 0), true);
-  ModalPoint from{{{0.7}, {}}, {{1.1}, {}}, {}}, to;
-  Oscillators(spectrum, alpha).advance(from, {{p}, {}}, time, to);
+  const modal::Poles poles(d);
+  const modal::Spectrum spectrum(poles, Eigen::MatrixXd(1, 0), Eigen::MatrixXd(1, 0), true);
+  modal::ModalPoint from{{{0.7}, {}}, {{1.1}, {}}, {}}, to;
+  modal::Oscillators(spectrum, alpha).advance(from, {{p}, {}}, time, to);
   std::vector<double> c(33);
-  taylor_of_mode(0.7, 1.1, p, l, alpha, time, c.size(), 1, c.data());
+  modal::taylor_of_mode(0.7, 1.1, p, l, alpha, time, c.size(), 1, c.data());
   double sum = 0.0, slope = 0.0;
   for (std::size_t j = 0; j < c.size(); ++j) {
     sum += c[j];

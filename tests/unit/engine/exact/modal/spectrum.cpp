@@ -40,9 +40,9 @@ Case random_case(std::mt19937_64& random, int n, int rank, bool symmetric) {
   return c;
 }
 
-std::vector<std::complex<double>> values_of(const Spectrum& spectrum) {
+std::vector<std::complex<double>> values_of(const modal::Spectrum& spectrum) {
   std::vector<std::complex<double>> all(spectrum.real().begin(), spectrum.real().end());
-  for (const Complex l : spectrum.pairs()) {
+  for (const modal::Complex l : spectrum.pairs()) {
     all.emplace_back(l.re, l.im);
     all.emplace_back(l.re, -l.im);
   }
@@ -71,7 +71,7 @@ Case twin_case(std::mt19937_64& random, double stiffer, bool symmetric) {
   mixed << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
   if (!symmetric) mixed(0, 1) += 0.4;
   c.u = (c.u * mixed).eval();
-  c.v = (c.v * solve_dense(mixed, MatrixXd::Identity(2, 2)).transpose()).eval();
+  c.v = (c.v * base::solve_dense(mixed, MatrixXd::Identity(2, 2)).transpose()).eval();
   return c;
 }
 
@@ -79,23 +79,24 @@ Case twin_case(std::mt19937_64& random, double stiffer, bool symmetric) {
 Case split_case(std::mt19937_64& random) {
   constexpr int n = 16;
   std::normal_distribution<double> normal;
-  const MatrixXd turn = orthonormal(MatrixXd::NullaryExpr(n, n, [&] { return normal(random); }));
+  const MatrixXd turn = base::orthonormal(MatrixXd::NullaryExpr(n, n, [&] { return normal(random); }));
   VectorXd l = VectorXd::NullaryExpr(n, [](Eigen::Index i) { return 10.0 * std::pow(1.0 + double(i), 2.0); });
   l[9] = l[8];
   const MatrixXd w = MatrixXd::NullaryExpr(n, 2, [&] { return 3.0 * normal(random); });
-  const EigenPairs open = symmetric_eigen(turn * l.asDiagonal() * turn.transpose() - w * w.transpose());
+  const base::EigenPairs open =
+      base::symmetric_eigen(turn * l.asDiagonal() * turn.transpose() - w * w.transpose());
   const MatrixXd u = open.vectors.transpose() * w;
   return {open.values, u, u, true};
 }
 
 /// The motion that a spectrum makes of a state, and the matrix itself.
 void check_against_dense(const Case& c) {
-  const Spectrum spectrum(Poles(c.d), c.u, c.v, c.symmetric);
+  const modal::Spectrum spectrum(modal::Poles(c.d), c.u, c.v, c.symmetric);
   REQUIRE(spectrum.failure() == "");
   const auto n = c.d.size();
   REQUIRE(values_of(spectrum).size() == static_cast<std::size_t>(n));
   const VectorXd q = VectorXd::LinSpaced(n, -1.0, 2.0);
-  Amplitudes z;
+  modal::Amplitudes z;
   spectrum.to_modes(q, z);
   for (std::size_t k = 0; k < z.real.size(); ++k) z.real[k] *= spectrum.real()[k];
   for (std::size_t k = 0; k < z.pair.size(); ++k) z.pair[k] *= spectrum.pairs()[k];
@@ -106,7 +107,7 @@ void check_against_dense(const Case& c) {
   for (std::size_t k = 0; k < spectrum.real().size(); ++k)
     for (std::size_t l = 0; l < k; ++l) {
       VectorXd x, y;
-      Amplitudes one = spectrum.zero(), other = one;
+      modal::Amplitudes one = spectrum.zero(), other = one;
       one.real[k] = other.real[l] = 1.0;
       spectrum.from_modes({&one, &other}, {&x, &y});
       CHECK(std::abs(spectrum.product(k, l) - x.dot(y)) < 1e-9 * x.norm() * y.norm());
@@ -129,14 +130,14 @@ TEST_CASE(
           CAPTURE(rank);
           CAPTURE(symmetric);
           const Case c = random_case(random, n, rank, symmetric);
-          const Poles poles(c.d);
-          const Spectrum spectrum(poles, c.u, c.v, symmetric);
+          const modal::Poles poles(c.d);
+          const modal::Spectrum spectrum(poles, c.u, c.v, symmetric);
           REQUIRE(spectrum.failure() == "");
           pairs += static_cast<int>(spectrum.pairs().size());
           const std::vector<std::complex<double>> found = values_of(spectrum);
           REQUIRE(found.size() == static_cast<std::size_t>(n));
           const MatrixXd a = c.dense();
-          for (const std::complex<double> l : general_eigenvalues(a)) {
+          for (const std::complex<double> l : base::general_eigenvalues(a)) {
             double nearest = 1e300;
             for (const std::complex<double> mine : found) nearest = std::min(nearest, std::abs(mine - l));
             // The dense matrix is perturbed by rounding of its greatest entries.
@@ -151,16 +152,16 @@ TEST_CASE("spectrum: X L Y is the matrix, rows show what the modes show") {
   std::mt19937_64 random(2);
   for (const bool symmetric : {true, false}) {
     const Case c = random_case(random, 30, 3, symmetric);
-    const Poles poles(c.d);
-    const Spectrum spectrum(poles, c.u, c.v, symmetric);
+    const modal::Poles poles(c.d);
+    const modal::Spectrum spectrum(poles, c.u, c.v, symmetric);
     REQUIRE(spectrum.failure() == "");
     const VectorXd q = VectorXd::Random(30), form = VectorXd::Random(30);
-    Amplitudes z, row;
+    modal::Amplitudes z, row;
     spectrum.to_modes(q, z);
     spectrum.of_form(form, row);
     double shown = 0.0;
     for (std::size_t k = 0; k < z.real.size(); ++k) shown += row.real[k] * z.real[k];
-    for (std::size_t k = 0; k < z.pair.size(); ++k) shown += whole(row.pair[k] * z.pair[k]);
+    for (std::size_t k = 0; k < z.pair.size(); ++k) shown += modal::whole(row.pair[k] * z.pair[k]);
     CHECK(shown == doctest::Approx(form.dot(q)).epsilon(1e-10));
     for (std::size_t k = 0; k < z.real.size(); ++k) z.real[k] *= spectrum.real()[k];
     for (std::size_t k = 0; k < z.pair.size(); ++k) z.pair[k] *= spectrum.pairs()[k];
@@ -175,21 +176,23 @@ TEST_CASE("spectrum: written out or not, the same products") {
   for (const bool symmetric : {true, false})
     for (const int n : {12, 30}) {
       const Case c = random_case(random, n, 3, symmetric);
-      const Spectrum written(Poles(c.d), c.u, c.v, symmetric), summed(Poles(c.d), c.u, c.v, symmetric, 0);
+      const modal::Spectrum written(modal::Poles(c.d), c.u, c.v, symmetric),
+          summed(modal::Poles(c.d), c.u, c.v, symmetric, 0);
       REQUIRE(written.failure() == "");
       REQUIRE(summed.failure() == "");
       CHECK(written.written_bytes() == sizeof(double) * 2 * static_cast<std::size_t>(n * n));
       CHECK(summed.written_bytes() == 0);
       const VectorXd q = VectorXd::Random(n);
       for (const bool form : {false, true}) {
-        Amplitudes a, b;
+        modal::Amplitudes a, b;
         form ? written.of_form(q, a) : written.to_modes(q, a);
         form ? summed.of_form(q, b) : summed.to_modes(q, b);
         REQUIRE(a.real.size() == b.real.size());
         REQUIRE(a.pair.size() == b.pair.size());
         const double size = written.condition();
         for (std::size_t k = 0; k < a.real.size(); ++k) CHECK(std::abs(a.real[k] - b.real[k]) < 1e-13 * size);
-        for (std::size_t k = 0; k < a.pair.size(); ++k) CHECK(size_of(a.pair[k] - b.pair[k]) < 1e-13 * size);
+        for (std::size_t k = 0; k < a.pair.size(); ++k)
+          CHECK(modal::size_of(a.pair[k] - b.pair[k]) < 1e-13 * size);
         VectorXd from_a, twice, from_b;
         written.from_modes({&a, &a}, {&from_a, &twice});
         summed.from_modes({&a}, {&from_b});
@@ -201,9 +204,9 @@ TEST_CASE("spectrum: written out or not, the same products") {
 
 TEST_CASE("spectrum: without springs every mode is its own") {
   const VectorXd d = VectorXd::LinSpaced(4, 0.0, 3.0), q = VectorXd::LinSpaced(4, 1.0, 2.0);
-  const Poles poles(d);
-  const Spectrum spectrum(poles, MatrixXd(4, 0), MatrixXd(4, 0), true);
-  Amplitudes z;
+  const modal::Poles poles(d);
+  const modal::Spectrum spectrum(poles, MatrixXd(4, 0), MatrixXd(4, 0), true);
+  modal::Amplitudes z;
   spectrum.to_modes(q, z);
   CHECK(z.real == std::vector<double>(q.data(), q.data() + 4));
   CHECK(spectrum.real() == std::vector<double>(d.data(), d.data() + 4));
@@ -212,15 +215,15 @@ TEST_CASE("spectrum: without springs every mode is its own") {
 TEST_CASE("spectrum: products of vectors from c and h are those of the vectors") {
   std::mt19937_64 random(3);
   const Case c = random_case(random, 12, 2, false);
-  const Poles poles(c.d);
-  const Spectrum spectrum(poles, c.u, c.v, false);
+  const modal::Poles poles(c.d);
+  const modal::Spectrum spectrum(poles, c.u, c.v, false);
   REQUIRE(spectrum.failure() == "");
   const std::size_t count = spectrum.real().size();
   std::vector<VectorXd> x(count);
   for (std::size_t k = 0; k < count; ++k) {
-    Amplitudes one;
+    modal::Amplitudes one;
     one.real.assign(count, 0.0);
-    one.pair.assign(spectrum.pairs().size(), Complex());
+    one.pair.assign(spectrum.pairs().size(), modal::Complex());
     one.real[k] = 1.0;
     spectrum.from_modes({&one}, {&x[k]});
   }

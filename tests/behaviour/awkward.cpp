@@ -10,7 +10,7 @@ using namespace signorini;
 
 namespace {
 
-Result run(const std::string& name, const std::string& engine, const std::vector<Override>& more = {}) {
+Result run_scene(const std::string& name, const std::string& engine, const std::vector<Override>& more = {}) {
   std::vector<Override> changes = more;
   changes.push_back({"run.engine", engine});
   const Scene scene =
@@ -59,7 +59,7 @@ void check_energy(const Result& result) {
 
 TEST_SUITE("behaviour/awkward") {
   TEST_CASE("a belt in micrometres: friction says how far it goes") {
-    const Result result = run("belt-micrometre", "ida", {{"run.rtol", "1e-8"}});
+    const Result result = run_scene("belt-micrometre", "ida", {{"run.rtol", "1e-8"}});
     std::vector<double> slips;
     for (const Event& event : result.events)
       if (event.type == EventType::slip) slips.push_back(event.t);
@@ -73,9 +73,9 @@ TEST_SUITE("behaviour/awkward") {
 
   TEST_CASE("a million tonnes on a rigid floor") {
     // Rebounds rest below a velocity that follows rtol, in exact, too.
-    const Result exact = run("point-1e9kg", "exact", {{"run.rtol", "1e-10"}});
+    const Result exact = run_scene("point-1e9kg", "exact", {{"run.rtol", "1e-10"}});
     CHECK(exact.events.size() > 10);
-    check_events(exact, run("point-1e9kg", "ida", {{"run.rtol", "1e-10"}}), 1e-6);
+    check_events(exact, run_scene("point-1e9kg", "ida", {{"run.rtol", "1e-10"}}), 1e-6);
   }
 
   TEST_CASE(
@@ -89,19 +89,19 @@ TEST_SUITE("behaviour/awkward") {
   }
 
   TEST_CASE("a symmetric trestle: both feet do the same to the end") {
-    const Result result = run("symmetric-trestle", "exact");
+    const Result result = run_scene("symmetric-trestle", "exact");
     check_feet(result, 50);
     // What `ida` finds: nothing but rounding stood between the feet.
-    check_events(result, run("symmetric-trestle", "ida"), 1e-6);
+    check_events(result, run_scene("symmetric-trestle", "ida"), 1e-6);
   }
 
   // Its landings are known to the rounding of a sum over modes, and flights shorter than that end there: half as
   // many hits as in series, whose flights begin with g = 0.
   TEST_CASE("a symmetric trestle in complex modes: both feet do the same, and hits say how sharp they are") {
-    const Result modes = run("symmetric-trestle", "exact", {{"run.flow", "modal"}});
+    const Result modes = run_scene("symmetric-trestle", "exact", {{"run.flow", "modal"}});
     CHECK(modes.report.outcome.reason == "");
     check_feet(modes, 20);
-    const Result series = run("symmetric-trestle", "exact", {{"run.flow", "taylor"}});
+    const Result series = run_scene("symmetric-trestle", "exact", {{"run.flow", "taylor"}});
     double sharpest = 1.0;
     for (std::size_t i = 0; i < modes.events.size() && modes.events[i].t < 0.0302; ++i) {
       const Event &one = modes.events[i], &other = series.events[i];
@@ -118,14 +118,14 @@ TEST_SUITE("behaviour/awkward") {
   TEST_CASE("massless members with beta K: their rotation as one body has no damper") {
     for (const char* name : {"massless-frame", "massless-truss"}) {
       CAPTURE(name);
-      const Result exact = run(name, "exact");
+      const Result exact = run_scene(name, "exact");
       CHECK(exact.report.outcome.reason == "");
       CHECK(exact.events.size() > 2);
       check_energy(exact);
-      const Result ida = run(name, "ida", {{"run.rtol", "1e-10"}});
+      const Result ida = run_scene(name, "ida", {{"run.rtol", "1e-10"}});
       check_events(exact, ida, 1e-6);
       check_energy(ida);
-      const Result newmark = run(name, "newmark", {{"run.dt", "1e-4"}});
+      const Result newmark = run_scene(name, "newmark", {{"run.dt", "1e-4"}});
       check_events(exact, newmark, 1e-4);
     }
   }

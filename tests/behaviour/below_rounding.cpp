@@ -18,7 +18,7 @@ struct Run {
   Certificate certificate;
 };
 
-Run run(const std::string& name, const std::vector<Override>& more) {
+Run run_scene(const std::string& name, const std::vector<Override>& more) {
   std::vector<Override> overrides = more;
   overrides.push_back({"run.certify", "true"});
   const Scene scene =
@@ -46,7 +46,7 @@ TEST_CASE("a contact that closes with the twelfth power of time: its error cover
       CAPTURE(std::string(flow));
       std::vector<Override> how{{"run.engine", engine}};
       if (engine == std::string("exact")) how.push_back({"run.flow", flow});
-      const Run result = run("chain6", how);
+      const Run result = run_scene("chain6", how);
       REQUIRE(result.rows.events.size() > 1);
       const Event& closes = result.rows.events[1];
       REQUIRE(closes.type == EventType::contact);
@@ -58,12 +58,12 @@ TEST_CASE("a contact that closes with the twelfth power of time: its error cover
 }
 
 TEST_CASE("chatter beside a slider is the same turned, and in modes as far as it is certain") {
-  const Run along = run("chatter", {{"run.engine", "exact"}, {"run.flow", "taylor"}});
+  const Run along = run_scene("chatter", {{"run.engine", "exact"}, {"run.flow", "taylor"}});
   for (const char* flow : {"taylor", "modal"})
     for (const char* name : {"chatter", "chatter-turned"}) {
       CAPTURE(std::string(flow));
       CAPTURE(std::string(name));
-      const Run other = run(name, {{"run.engine", "exact"}, {"run.flow", flow}});
+      const Run other = run_scene(name, {{"run.engine", "exact"}, {"run.flow", flow}});
       std::size_t certain = 0;
       for (std::size_t i = 0; i < other.rows.events.size() && other.certificate.certain(i); ++i, ++certain) {
         if (!along.certificate.certain(i)) break;

@@ -57,7 +57,7 @@ class Beam {
   double c_, s_, m_;
 };
 
-Result run(const std::string& text, const char* engine) {
+Result run_scene(const std::string& text, const char* engine) {
   const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.dt", "1e-5"}});
   Result result = simulate(build_model(scene), scene.run);
   INFO(result.report.outcome.reason);
@@ -81,7 +81,7 @@ TEST_CASE("a foot with a dashpot slides through hits that only rounding brings, 
         const std::string text = beam.scene(0.03, 0.5) + beam.foot(friction);
         for (const char* engine : {"exact", "ida", "newmark"}) {
           CAPTURE(engine);
-          const Result result = run(text, engine);
+          const Result result = run_scene(text, engine);
           if (nodes >= 26)  // 0.28^25: less than 1e-13 of the hit
             for (const Event& e : result.events) CHECK(e.contact == 0);
         }
@@ -95,7 +95,7 @@ TEST_CASE("which hits are felt far away does not depend on the unit of length") 
     CAPTURE(nodes);
     const auto events = [&](double a_metre) {
       const Beam beam(nodes, 0.7, a_metre);
-      return run(beam.scene(0.03, 0.5) + beam.foot("0.3"), "exact").events;
+      return run_scene(beam.scene(0.03, 0.5) + beam.foot("0.3"), "exact").events;
     };
     const std::vector<Event> metres = events(1.0), millimetres = events(1e3);
     REQUIRE(metres.size() == millimetres.size());
@@ -113,7 +113,7 @@ TEST_CASE("a slider that sticks rigidly is not let go by the rounding of a hit")
     for (const double angle : {0.0, 0.3, 1.1, 2.7}) {
       CAPTURE(angle);
       const Beam beam(nodes, angle);
-      const Result result = run(
+      const Result result = run_scene(
           beam.scene(0.02, 0.0) +
               fmt::format(
                   "[[contacts]]\nname = \"slider\"\nnode = \"b0\"\nlaw = \"slider\"\ntangent = "

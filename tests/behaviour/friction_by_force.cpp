@@ -178,7 +178,7 @@ State state_of(Phase phase) {
                                  : State::slip_minus;
 }
 
-void compare(const Result& result, const std::vector<Change>& expected, double within) {
+void check_against(const Result& result, const std::vector<Change>& expected, double within) {
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
   REQUIRE(result.events.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -216,15 +216,15 @@ TEST_CASE("a body that bounces and slides has the events of a small step; turned
   for (const double angle : {0.0, 0.83, -2.1}) {
     CAPTURE(angle);
     const Result result = run_text(turned(body, angle, t_end), "ida", "1e-11");
-    compare(result, expected, 2e-9);
+    check_against(result, expected, 2e-9);
     const auto& u = result.rows.back().u;
     CHECK(std::abs(std::cos(angle) * u[0] + std::sin(angle) * u[1] - reference.state()[0]) < 1e-9);
     CHECK(std::abs(-std::sin(angle) * u[0] + std::cos(angle) * u[1] - reference.state()[2]) < 1e-9);
   }
-  compare(run_text(turned(body, 0.83, t_end, 1000.0, 1e-3,
-                          "friction = { light = 0.6, heavy = 0.15, force = 0.02 }\n"),
-                   "ida", "1e-11"),
-          expected, 2e-9);
+  check_against(run_text(turned(body, 0.83, t_end, 1000.0, 1e-3,
+                                "friction = { light = 0.6, heavy = 0.15, force = 0.02 }\n"),
+                         "ida", "1e-11"),
+                expected, 2e-9);
 }
 
 TEST_CASE("a bearing under a compression that grows has the events of a small step") {
@@ -234,7 +234,7 @@ TEST_CASE("a bearing under a compression that grows has the events of a small st
   const std::vector<Change> expected = reference.run(2.0, 2e-5);
   REQUIRE(expected.size() > 8);
   const Result result = run_text(bearing(law), "ida", "1e-11");
-  compare(result, expected, 1e-8);
+  check_against(result, expected, 1e-8);
   CHECK(std::abs(result.rows.back().u[0] - reference.state()[0]) < 1e-9);
 }
 

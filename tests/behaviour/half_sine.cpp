@@ -216,7 +216,7 @@ class Follower {
   std::vector<double> times_;
 };
 
-void check(const Block& block, double t_end, int impacts, int slips) {
+void check_case(const Block& block, double t_end, int impacts, int slips) {
   Follower follower(block);
   const std::vector<double> times = follower.follow(t_end);
   CHECK(follower.impacts >= impacts);
@@ -252,20 +252,20 @@ TEST_SUITE_BEGIN("behaviour/half_sine");
 TEST_CASE("a block that only slides") {
   Block block;
   block.f = 0.3;  // below b/h
-  check(block, 1.2, 0, 1);
+  check_case(block, 1.2, 0, 1);
 }
 
 TEST_CASE("a block that rocks, with hits of its feet") {
   Block block;
   block.f = 3.0;
-  check(block, 1.2, 2, 0);
+  check_case(block, 1.2, 2, 0);
 }
 
 TEST_CASE("a block that rocks and slides") {
   Block block;
   block.f = 0.42;
   block.size = 9.0;
-  check(block, 1.2, 1, 1);
+  check_case(block, 1.2, 1, 1);
 }
 
 TEST_SUITE_END();

@@ -55,7 +55,7 @@ struct Block {
   }
 };
 
-Result run(const std::string& text, const std::string& engine) {
+Result run_scene(const std::string& text, const std::string& engine) {
   const Scene scene = parse_scene(
       text, "test.toml",
       {{"run.engine", engine}, {"run.certify", "false"}, {"run.rtol", "1e-10"}, {"run.dt", "1e-3"}});
@@ -90,7 +90,7 @@ TEST_CASE("a block on two feet is at rest up to the sum of their static limits")
           block.static_0 = 0.62;
           block.static_1 = 0.37;
         }
-        const Result result = run(block.scene(), engine);
+        const Result result = run_scene(block.scene(), engine);
         const double t = block.breaks_away();
         CHECK(last_slip(result) == doctest::Approx(t).epsilon(1e-9));
         const double after = block.t_end - t, friction = block.kinetic * m * g;
@@ -121,7 +121,7 @@ TEST_CASE("pushed to below its limit and pulled back, it breaks away at the same
           .history = "{ type = \"table\", times = [0.0, 1.0, 3.0, 4.0], values = [0.0, 0.75, -1.2, -1.2] }",
           .t_end = 3.5};
       const double away = 1.0 + 2.0 * (0.75 + 0.5 * m * g / A) / 1.95;
-      const Result result = run(block.scene(), engine);
+      const Result result = run_scene(block.scene(), engine);
       CHECK(last_slip(result) == doctest::Approx(away).epsilon(1e-9));
       for (const Result::Row& row : result.rows) CHECK((row.t > away || std::abs(block.along(row)) < 1e-10));
     }
@@ -146,7 +146,7 @@ TEST_CASE("sliders of one mass: it moves when the last of them is at its static 
   const double t = holds / 14.0, after = 2.0 - t;
   for (const char* engine : engines) {
     CAPTURE(engine);
-    const Result result = run(text, engine);
+    const Result result = run_scene(text, engine);
     CHECK(last_slip(result) == doctest::Approx(t).epsilon(1e-9));
     const double slid =
         (14.0 * (8.0 - t * t * t) / 6.0 - 7.0 * t * t * after - rubs * after * after / 2.0) / 1.3;
@@ -209,7 +209,7 @@ TEST_CASE(
                                        : "friction = 0.5\n");
         text += "[[loads]]\nnode = \"b\"\ndirection = " + axes.vector(1.0, 0.0) +
                 "\namplitude = 20.0\nhistory = { type = \"polynomial\", coefficients = [0.0, 1.0] }\n";
-        const Result result = run(text, engine);
+        const Result result = run_scene(text, engine);
         CHECK(last_slip(result) == doctest::Approx(away).epsilon(1e-8));
         const auto b = order.find('b');
         CHECK(result.rows.back().contacts[b].ut == doctest::Approx(slid).epsilon(1e-6));
@@ -236,7 +236,7 @@ TEST_CASE("a box that stands against a wall is pulled away from it without an ev
           "[[loads]]\nnode = \"box\"\ndirection = " + axes.vector(-1.0, 0.0) +
           fmt::format("\namplitude = {}\nhistory = {{ type = \"polynomial\", coefficients = [0.0, 1.0] }}\n",
                       m * g);
-      const Result result = run(text, engine);
+      const Result result = run_scene(text, engine);
       CHECK(last_slip(result) == doctest::Approx(0.5).epsilon(1e-8));
       CHECK(result.events.size() == 2);  // the foot that bears less, then the other one
     }

@@ -44,7 +44,7 @@ struct Sum {
   explicit Sum(const Row& given) : row(given), gap{Long(0.6171), Long(given.second_gap)} {
     v0 = Long(0.9), v2 = Long(-0.83), vc = Long(-0.1), m0 = Long(1.3), m1 = Long(0.7), m2 = Long(2.9);
     if (row.stiffness > 0.0) w = std::sqrt(Long(row.stiffness) * (m1 + md) / (m1 * md));
-    run();
+    run_scene();
   }
   [[nodiscard]] Long v1() const { return vc + dr; }
   [[nodiscard]] Long moved(Long h) const {  // of b1
@@ -84,7 +84,7 @@ struct Sum {
     }
     return b;
   }
-  void run() {
+  void run_scene() {
     while (t < Long(row.t_end)) {
       const bool still = r == 0.0L && dr == 0.0L;
       const Long left = Long(row.t_end) - t, h = std::min(left, still ? 0.7L : w > 0.0L ? 0.02L / w : left);
@@ -141,7 +141,7 @@ struct Found {
   std::array<double, 3> v{};  // at the end, along the row
 };
 
-Found run(const Row& row, double degrees, std::vector<Override> overrides) {
+Found run_scene(const Row& row, double degrees, std::vector<Override> overrides) {
   Found found;
   found.scene = parse_scene(text(row, degrees), "row.toml", overrides);
   found.model = build_model(found.scene);
@@ -175,7 +175,7 @@ TEST_CASE("hits that the clock does not tell apart come one after the other, and
     for (const char* engine : {"exact", "ida"}) {
       CAPTURE(degrees);
       CAPTURE(engine);
-      const Found found = run(row, degrees, {{"run.engine", engine}, {"run.certify", "true"}});
+      const Found found = run_scene(row, degrees, {{"run.engine", engine}, {"run.certify", "true"}});
       check_end(found, sum, 1e-12);
     }
 }
@@ -184,7 +184,7 @@ TEST_CASE("hits that nothing but rounding tells apart are not certain") {
   const Row row{0.450483000000008};  // 1e-14 s
   for (const double degrees : {0.0, 62.97}) {
     CAPTURE(degrees);
-    const Found found = run(row, degrees, {{"run.engine", "exact"}, {"run.certify", "true"}});
+    const Found found = run_scene(row, degrees, {{"run.engine", "exact"}, {"run.certify", "true"}});
     REQUIRE(found.certificate);
     CHECK_FALSE(found.certificate->complete);
   }
@@ -204,7 +204,7 @@ TEST_CASE("hits that the clock tells apart are events of their own, however stif
         const Row row{c.gap, c.stiffness};
         const Sum sum(row);
         REQUIRE(sum.hits.size() == 4);
-        const Found found = run(row, degrees, {{"run.engine", engine}});
+        const Found found = run_scene(row, degrees, {{"run.engine", engine}});
         REQUIRE(found.result.events.size() == sum.hits.size());
         for (std::size_t i = 0; i < sum.hits.size(); ++i) {
           const Event& event = found.result.events[i];
@@ -222,7 +222,7 @@ TEST_CASE("rtol moves no hit of exact") {
     for (const double degrees : {0.0, 62.97}) {
       CAPTURE(rtol);
       CAPTURE(degrees);
-      const Found found = run(row, degrees, {{"run.engine", "exact"}, {"run.rtol", rtol}});
+      const Found found = run_scene(row, degrees, {{"run.engine", "exact"}, {"run.rtol", rtol}});
       REQUIRE(found.result.events.size() == sum.hits.size());
       for (std::size_t i = 0; i < sum.hits.size(); ++i)
         CHECK(std::abs(found.result.events[i].t - static_cast<double>(sum.hits[i].t)) < 1e-11);

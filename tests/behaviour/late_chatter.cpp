@@ -58,7 +58,7 @@ struct Run {
   bool open = false;  // a capture was faster than capture_velocity
 };
 
-Run run(double begin) {
+Run run_scene(double begin) {
   const Scene scene = parse_scene(text(begin), "late.toml");
   Run found;
   CertifiedReport report = simulate_certified(build_model(scene), scene.run, found.result);
@@ -73,7 +73,7 @@ Run run(double begin) {
 TEST_SUITE_BEGIN("behaviour/late_chatter");
 
 TEST_CASE("what ida certifies of a late chatter is what happened early") {
-  const Run early = run(0.0), late = run(1000.0);
+  const Run early = run_scene(0.0), late = run_scene(1000.0);
   std::size_t certain = 0;
   for (std::size_t i = 0; i < late.result.events.size() && late.certificate.certain(i); ++i, ++certain) {
     CAPTURE(i);

@@ -26,7 +26,7 @@ struct Seen {
 };
 
 /// On compliant contacts with friction, thrown up by pulses that come from left to right; turned as a whole.
-std::string scene(const Seen& seen) {
+std::string scene_text(const Seen& seen) {
   const double m = seen.metre, kN = seen.kilonewton, t = seen.tonne, s = std::sqrt(t * m / kN);
   const double c = std::cos(seen.turn), sine = std::sin(seen.turn), sign = seen.mirrored ? -1.0 : 1.0;
   const auto vector = [&](double x, double y) {
@@ -76,7 +76,7 @@ TEST_CASE("decisions near the contacts that change are those of the whole struct
       CAPTURE(std::string(engine));
       CAPTURE(turn);
       const Scene read = parse_scene(
-          scene({turn}), "test.toml",
+          scene_text({turn}), "test.toml",
           {{"run.engine", engine}, {"run.flow", "taylor"}, {"run.dt", "1e-4"}, {"run.certify", "false"}});
       const Model model = build_model(read);
       Result near, whole;
@@ -112,7 +112,7 @@ TEST_CASE("decisions near the contacts that change are those of the whole struct
 TEST_CASE("turned, mirrored, numbered backwards and in other units the beam has the same events") {
   const auto run = [](const Seen& seen) {
     const Scene read =
-        parse_scene(scene(seen), "test.toml",
+        parse_scene(scene_text(seen), "test.toml",
                     {{"run.engine", "exact"}, {"run.flow", "taylor"}, {"run.certify", "false"}});
     const Model model = build_model(read);
     Result result;
@@ -145,7 +145,8 @@ TEST_CASE("turned, mirrored, numbered backwards and in other units the beam has 
 }
 
 TEST_CASE("what a companion would take counts the events that it has to decide") {
-  const Scene read = parse_scene(scene({0.1}), "test.toml", {{"run.engine", "newmark"}, {"run.dt", "1e-4"}});
+  const Scene read =
+      parse_scene(scene_text({0.1}), "test.toml", {{"run.engine", "newmark"}, {"run.dt", "1e-4"}});
   Result result;
   const CertifiedReport run = simulate_certified(build_model(read), read.run, result);
   REQUIRE_FALSE(run.certificate);
@@ -155,7 +156,7 @@ TEST_CASE("what a companion would take counts the events that it has to decide")
 
 TEST_CASE("in two halves the beam has the events of the whole run") {
   const halves::Difference d = halves::split_text(
-      scene({0.7}), {{"run.engine", "exact"}, {"run.flow", "taylor"}, {"run.certify", "false"}}, 0.437);
+      scene_text({0.7}), {{"run.engine", "exact"}, {"run.flow", "taylor"}, {"run.certify", "false"}}, 0.437);
   CAPTURE(d.first);
   CHECK(d.events_agree);
   CHECK(d.events > 30);
@@ -164,7 +165,7 @@ TEST_CASE("in two halves the beam has the events of the whole run") {
 }
 
 TEST_CASE("series of exact are no longer than events let them be") {
-  const Scene read = parse_scene(scene({0.2}), "test.toml",
+  const Scene read = parse_scene(scene_text({0.2}), "test.toml",
                                  {{"run.engine", "exact"}, {"run.flow", "taylor"}, {"run.certify", "false"}});
   Result result;
   result.report = simulate(build_model(read), read.run, result);

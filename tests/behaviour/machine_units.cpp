@@ -22,7 +22,7 @@ class Told : public Result {
   std::vector<Round> rounds;
 };
 
-Told run(const Model& model, const RunSpec& spec) {
+Told run_scene(const Model& model, const RunSpec& spec) {
   Told told;
   told.report = simulate(model, spec, told, [&](const Round& round) { told.rounds.push_back(round); });
   return told;
@@ -129,7 +129,7 @@ void check_bytes(const Scene& scene, const Factors& factors) {
   CAPTURE(factors.time);
   const Scene other = scene::rescaled(scene, factors);
   const Model model = build_model(scene);
-  const Told here = run(model, scene.run), there = run(build_model(other), other.run);
+  const Told here = run_scene(model, scene.run), there = run_scene(build_model(other), other.run);
   CHECK(here.report.outcome.reason == there.report.outcome.reason);
   REQUIRE(here.events.size() == there.events.size());
   for (std::size_t i = 0; i < here.events.size(); ++i)
@@ -219,13 +219,13 @@ TEST_SUITE("behaviour/machine_units") {
   }
 
   TEST_CASE("forces far from one: the frame keeps its events") {
-    const Result here = run(build_model(scene_of("rigid-frame", "exact", "0.7")),
-                            scene_of("rigid-frame", "exact", "0.7").run);
+    const Result here = run_scene(build_model(scene_of("rigid-frame", "exact", "0.7")),
+                                  scene_of("rigid-frame", "exact", "0.7").run);
     CHECK(here.events.size() == 614);
     for (const double force : {1e-9, 1e-13, 1e20}) {
       CAPTURE(force);
       const Scene scene = scene::rescaled(scene_of("rigid-frame", "exact", "0.7"), {force, 1.0, 1.0});
-      const Result there = run(build_model(scene), scene.run);
+      const Result there = run_scene(build_model(scene), scene.run);
       CHECK(there.report.outcome.reason == "");
       CHECK(there.events.size() == 614);
     }

@@ -38,7 +38,7 @@ std::string beam(int nodes, double degrees) {
   return text + "[[members]]\nnodes = [" + names + "]\nsection = \"s\"\nelements = 1\n" + rest;
 }
 
-Result run(const std::string& text, const char* flow) {
+Result run_scene(const std::string& text, const char* flow) {
   const Scene scene =
       parse_scene(text, "beam.toml", {{"run.engine", "exact"}, {"run.flow", flow}, {"run.certify", "false"}});
   return simulate(build_model(scene), scene.run);
@@ -49,7 +49,7 @@ Result run(const std::string& text, const char* flow) {
 TEST_SUITE_BEGIN("behaviour/many_contacts");
 
 TEST_CASE("a beam on many contacts has the same events and peaks in both flows of exact") {
-  const Result series = run(beam(21, 17.0), "taylor"), modes = run(beam(21, 17.0), "modal");
+  const Result series = run_scene(beam(21, 17.0), "taylor"), modes = run_scene(beam(21, 17.0), "modal");
   CHECK(series.events.size() > 40);
   REQUIRE(series.events.size() == modes.events.size());
   for (std::size_t i = 0; i < series.events.size(); ++i) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double k = 50.0, kv = 7.0, kc = 1e6, press = 10.0;
 
 /// along: a pull on q; drive: amplitude of the mass's load, sin 3t.
-std::string scene(double turn, double along, double drive, double gap, const std::string& engine) {
+std::string scene_text(double turn, double along, double drive, double gap, const std::string& engine) {
   const auto vector = [&](double x, double y) {
     return fmt::format("[{:.17g}, {:.17g}]", std::cos(turn) * x - std::sin(turn) * y,
                        std::sin(turn) * x + std::cos(turn) * y);
@@ -58,7 +58,7 @@ TEST_CASE(
           CAPTURE(turn);
           CAPTURE(along);
           CAPTURE(drive);
-          const Scene read = parse_scene(scene(turn, along, drive, 0.0, engine), "test.toml");
+          const Scene read = parse_scene(scene_text(turn, along, drive, 0.0, engine), "test.toml");
           const Result result = simulate(build_model(read), read.run);
           REQUIRE(result.report.outcome.reason == "");
           const ContactSample& c = result.rows.front().contacts[0];
@@ -73,7 +73,7 @@ TEST_CASE("what closes on the way keeps the slip of the way from there") {
   const double gap = 0.4, along = 5.0, part = gap * kv / press;
   const double drag =
       along * (1.0 - part);  // the rest of the pull comes on contact: elastic, within its limit
-  const Scene read = parse_scene(scene(0.3, along, 0.0, gap, "exact"), "test.toml");
+  const Scene read = parse_scene(scene_text(0.3, along, 0.0, gap, "exact"), "test.toml");
   const Result result = simulate(build_model(read), read.run);
   const ContactSample& c = result.rows.front().contacts[0];
   const double N = (press - kv * gap) * kc / (kc + kv);

@@ -40,7 +40,7 @@ void check_ways(const Scene& scene, std::uint64_t seed, Engine engine, Sums& sum
   check_ways(scene, transformations(scene, seed), engine, sums);
 }
 
-Scene model(const std::string& name, std::vector<Override> changes = {}) {
+Scene model_scene(const std::string& name, std::vector<Override> changes = {}) {
   changes.push_back({"run.output_dt", "0.1"});
   return read_scene(std::string(SIGNORINI_MODELS) + "/" + name + ".toml", changes);
 }
@@ -52,9 +52,9 @@ TEST_SUITE("behaviour/metamorphic") {
     Sums sums;
     for (const char* name :
          {"belt", "coulomb-pad", "den-hartog", "lift-off", "matrices", "oscillator", "pipeline"})
-      check_ways(model(name), 1, Engine::exact, sums);
+      check_ways(model_scene(name), 1, Engine::exact, sums);
     // a hundred of its events; all of them: signorini_differential --angles 360 --scales 100
-    check_ways(model("rigid-frame", {{"run.t_end", "0.3"}}), 1, Engine::exact, sums);
+    check_ways(model_scene("rigid-frame", {{"run.t_end", "0.3"}}), 1, Engine::exact, sums);
     CHECK(sums.scenes == 8);
     CHECK(sums.ways > 150);
     CHECK(sums.events > 3000);
@@ -63,7 +63,7 @@ TEST_SUITE("behaviour/metamorphic") {
   TEST_CASE("models, ida: within its tolerance") {
     Sums sums;
     for (const char* name : {"belt", "den-hartog", "oscillator"})
-      check_ways(model(name), 2, Engine::ida, sums);
+      check_ways(model_scene(name), 2, Engine::ida, sums);
     CHECK(sums.scenes == 3);
   }
 
@@ -71,7 +71,7 @@ TEST_SUITE("behaviour/metamorphic") {
       "newmark, around in 24 turns: a step that lifts off lands at rest, whatever rounding makes of that") {
     // From g = g' = g'' = 0 one step ends with g = h^2/4 g'' and g' = h/2 g'', so where it lands both vanish.
     Sums sums;
-    const Scene scene = model("rigid-frame", {{"run.dt", "1e-4"}, {"members.1.elements", "[2, 1, 2]"}});
+    const Scene scene = model_scene("rigid-frame", {{"run.dt", "1e-4"}, {"members.1.elements", "[2, 1, 2]"}});
     check_ways(scene, angles_and_scales(scene, 24, 0), Engine::newmark, sums);
     CHECK(sums.ways == 24);
     CHECK(sums.events == 24 * 222);
@@ -97,7 +97,7 @@ TEST_SUITE("behaviour/metamorphic") {
   }
 
   TEST_CASE("the judge sees what is not the same") {
-    const Scene scene = model("oscillator");
+    const Scene scene = model_scene("oscillator");
     const Metamorphic judge(scene, {});
     Transformed other = permuted(scene, 1);
     CHECK(judge.compare(other).verdict == Sameness::Verdict::same);
@@ -109,14 +109,14 @@ TEST_SUITE("behaviour/metamorphic") {
   }
 
   TEST_CASE("what cannot be turned is left out") {
-    CHECK_FALSE(turned(model("oscillator"), 0.5));  // a support holds one translation
-    CHECK_FALSE(turned(model("matrices"), 0.5));
-    CHECK_FALSE(in_units(model("matrices"), {1.0, 2.0, 1.0}));
-    CHECK_FALSE(reversed(model("oscillator")));
-    CHECK(turned(model("rigid-frame"), 0.5));
-    const std::optional<Transformed> quarter = turned(model("oscillator"), 90.0);
+    CHECK_FALSE(turned(model_scene("oscillator"), 0.5));  // a support holds one translation
+    CHECK_FALSE(turned(model_scene("matrices"), 0.5));
+    CHECK_FALSE(in_units(model_scene("matrices"), {1.0, 2.0, 1.0}));
+    CHECK_FALSE(reversed(model_scene("oscillator")));
+    CHECK(turned(model_scene("rigid-frame"), 0.5));
+    const std::optional<Transformed> quarter = turned(model_scene("oscillator"), 90.0);
     REQUIRE(quarter);  // which the scene can say: what held uy holds ux
-    CHECK(quarter->scene.supports[0].ux == model("oscillator").supports[0].uy);
-    CHECK(quarter->scene.supports[0].uy == model("oscillator").supports[0].ux);
+    CHECK(quarter->scene.supports[0].ux == model_scene("oscillator").supports[0].uy);
+    CHECK(quarter->scene.supports[0].uy == model_scene("oscillator").supports[0].ux);
   }
 }

@@ -12,7 +12,7 @@ using namespace signorini;
 
 namespace {
 
-Result run(double f, bool modal) {
+Result run_scene(double f, bool modal) {
   const Scene scene =
       read_scene(SIGNORINI_MODELS "/pipeline.toml", {{"contacts.*.friction", fmt::format("{}", f)},
                                                      {"run.engine", "exact"},
@@ -91,7 +91,7 @@ TEST_CASE(
     "pipeline: both flows find the same events at the same times, forces and peaks; their balances close") {
   for (const double f : {0.0, 0.1, 0.3, 0.9, 1.3}) {
     CAPTURE(f);
-    const Result modes = run(f, true), series = run(f, false);
+    const Result modes = run_scene(f, true), series = run_scene(f, false);
     REQUIRE(modes.report.outcome.kind == Outcome::Kind::done);
     CHECK(modes.report.warnings == series.report.warnings);
     CHECK(modes.report.counters.fallbacks == 0);

@@ -53,7 +53,7 @@ normal = [{9:.17g}, {10:.17g}]
 const std::string oscillates =
     fmt::format("{{ type = \"harmonic\", amplitude = {}, omega = {}, phase = {} }}", V, w, phi);
 
-Result run(const std::string& text, const std::string& engine) {
+Result run_scene(const std::string& text, const std::string& engine) {
   const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.certify", "false"}});
   Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.reason == "");
@@ -71,7 +71,7 @@ TEST_CASE(
     for (const double angle : {0.0, 1.0, -2.1}) {
       CAPTURE(engine);
       CAPTURE(angle);
-      const Result result = run(corner(angle, oscillates), engine);
+      const Result result = run_scene(corner(angle, oscillates), engine);
       int turns = 0;
       for (const Event& event : result.events) {
         REQUIRE(event.type == EventType::reversal);
@@ -95,9 +95,9 @@ TEST_CASE("a wall that rubs and a floor that stands, or oscillates and then stan
       "{ type = \"table\", times = [0.0, 0.13, 0.21, 0.31], values = [0.1, -0.2, 0.3, 0.0] }";
   for (const std::string& engine : locating_engines) {
     CAPTURE(engine);
-    const Result still = run(corner(0.3, "0.0", "friction = 0.2"), engine);
+    const Result still = run_scene(corner(0.3, "0.0", "friction = 0.2"), engine);
     CHECK(still.events.empty());
-    const Result moved = run(corner(0.3, stops, "friction = 0.2"), engine);
+    const Result moved = run_scene(corner(0.3, stops, "friction = 0.2"), engine);
     std::vector<double> turns;
     for (const Event& event : moved.events)
       if (event.type == EventType::reversal) turns.push_back(event.t);

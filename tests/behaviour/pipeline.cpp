@@ -20,7 +20,7 @@ constexpr Row table[] = {{0.0, 42.43, 10.97, 41.36, 116}, {0.1, 36.80, 10.85, 35
                          {0.7, 21.83, 10.15, 19.62, 199}, {1.0, 16.34, 9.82, 13.87, 187},
                          {1.3, 12.65, 9.62, 9.93, 237}};
 
-Result run(double f, const char* rtol, const char* t_end = "1.2", const char* engine = "ida") {
+Result run_scene(double f, const char* rtol, const char* t_end = "1.2", const char* engine = "ida") {
   const Scene scene =
       read_scene(SIGNORINI_MODELS "/pipeline.toml", {{"contacts.*.friction", fmt::format("{}", f)},
                                                      {"run.rtol", rtol},
@@ -47,7 +47,7 @@ void check_peaks(const Result& result, const Row& row, double millimetres) {
 TEST_SUITE_BEGIN("behaviour/pipeline");
 
 TEST_CASE("first events at f = 0.3") {
-  const Result result = run(0.3, "1e-10", "0.0035");
+  const Result result = run_scene(0.3, "1e-10", "0.0035");
   REQUIRE(result.events.size() >= 2);
   CHECK(result.events[0].t == doctest::Approx(1.939e-3).epsilon(3e-4));
   CHECK(result.events[0].contact == 0);
@@ -70,7 +70,7 @@ TEST_CASE("static start, damping and free motion") {
 TEST_CASE(
     "a flight of a few tolerances ends with a landing: f = 1.3 at rtol 1e-6, every event that `exact` "
     "finds") {
-  const Result result = run(1.3, "1e-6", "0.15"), exact = run(1.3, "1e-6", "0.15", "exact");
+  const Result result = run_scene(1.3, "1e-6", "0.15"), exact = run_scene(1.3, "1e-6", "0.15", "exact");
   INFO(result.report.outcome.reason);
   CHECK(result.report.outcome.kind == Outcome::Kind::done);
   REQUIRE(exact.events.size() > 100);
@@ -85,7 +85,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the load that ends is one time row, and no step crosses it") {
-  const Result result = run(0.3, "1e-6", "0.102");
+  const Result result = run_scene(0.3, "1e-6", "0.102");
   int rows = 0;
   for (const Event& e : result.events)
     if (e.type == EventType::time) {
@@ -102,7 +102,7 @@ TEST_SUITE_BEGIN("slow/pipeline");
 
 TEST_CASE(
     "f = 0.3 at rtol 1e-10: 250 events, landing directly into slip+, energy to 1e-7 of the loads' work") {
-  const Result result = run(0.3, "1e-10");
+  const Result result = run_scene(0.3, "1e-10");
   CHECK(count(result) == 250);
   check_peaks(result, table[2], 0.006);
   bool landed = false;
@@ -119,14 +119,14 @@ TEST_CASE(
 TEST_CASE("all coefficients of friction at rtol 1e-8: counts and peaks of the table") {
   for (const Row& row : table) {
     CAPTURE(row.f);
-    const Result result = run(row.f, "1e-8");
+    const Result result = run_scene(row.f, "1e-8");
     CHECK(count(result) == row.events);
     check_peaks(result, row, 0.006);
   }
 }
 
 TEST_CASE("rtol 1e-6 keeps the energy to 1e-4 of the loads' work and the peaks to 0.5 %") {
-  const Result result = run(0.3, "1e-6");
+  const Result result = run_scene(0.3, "1e-6");
   check_peaks(result, table[2], 0.05);
   CHECK(result.report.audit.energy.value < 1e-4 * result.report.audit.work_of_loads);
 }
@@ -134,7 +134,7 @@ TEST_CASE("rtol 1e-6 keeps the energy to 1e-4 of the loads' work and the peaks t
 TEST_CASE("by the exact flow: counts and peaks of the whole table, energy to roundoff") {
   for (const Row& row : table) {
     CAPTURE(row.f);
-    const Result result = run(row.f, "1e-8", "1.2", "exact");
+    const Result result = run_scene(row.f, "1e-8", "1.2", "exact");
     CHECK(count(result) == row.events);
     check_peaks(result, row, 0.0051);  // half of the last printed digit
     CHECK(result.report.audit.energy.value < 1e-10 * result.report.audit.energy_scale);
@@ -142,7 +142,7 @@ TEST_CASE("by the exact flow: counts and peaks of the whole table, energy to rou
 }
 
 TEST_CASE("both engines see the same run at f = 0.3, event by event, within ida's tolerance") {
-  const Result exact = run(0.3, "1e-8", "1.2", "exact"), ida = run(0.3, "1e-10");
+  const Result exact = run_scene(0.3, "1e-8", "1.2", "exact"), ida = run_scene(0.3, "1e-10");
   REQUIRE(exact.events.size() == ida.events.size());
   for (std::size_t i = 0; i < exact.events.size(); ++i) {
     CAPTURE(i);

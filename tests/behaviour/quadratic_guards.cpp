@@ -67,7 +67,7 @@ history = {{ type = "harmonic", omega = 17.0 }}
                      "block.toml");
 }
 
-Result run(const Scene& scene) { return simulate(build_model(scene), scene.run); }
+Result run_scene(const Scene& scene) { return simulate(build_model(scene), scene.run); }
 
 }  // namespace
 
@@ -85,7 +85,7 @@ TEST_CASE("one quadratic guard has the events of two linear ones") {
         Scene disc = linear;
         disc.contacts[0].friction = {};
         disc.contacts[0].own = disc_law();
-        const Result a = run(linear), b = run(disc);
+        const Result a = run_scene(linear), b = run_scene(disc);
         CHECK(b.report.outcome.kind == Outcome::Kind::done);
         CHECK(b.report.method.engine == linear.run.engine);
         REQUIRE(a.events.size() == b.events.size());

@@ -14,7 +14,7 @@ namespace {
 
 const std::string folder = SIGNORINI_TEST_DATA "/scenes/robust/";
 
-Result run(const std::string& name, const std::string& engine, const std::string& dt) {
+Result run_scene(const std::string& name, const std::string& engine, const std::string& dt) {
   const Scene scene = read_scene(folder + name + ".toml", {{"run.engine", engine}, {"run.dt", dt}});
   return simulate(build_model(scene), scene.run);
 }
@@ -27,7 +27,7 @@ TEST_CASE("a motion that grows beyond the range of numbers ends the run where it
   for (const EngineName& name : all_engines) {
     const std::string engine(name.name);
     CAPTURE(engine);
-    const Outcome outcome = run("growth", engine, "1e-2").report.outcome;
+    const Outcome outcome = run_scene("growth", engine, "1e-2").report.outcome;
     CHECK(outcome.kind == Outcome::Kind::stopped);
     // 0.01 cosh(10 t) is the greatest double at t = 71.5.
     CHECK(outcome.t > 70.5);
@@ -39,7 +39,7 @@ TEST_CASE("a load of 6e300 newtons a second for a hundred seconds") {
   for (const EngineName& name : all_engines) {
     const std::string engine(name.name);
     CAPTURE(engine);
-    CHECK(run("hang-slider", engine, "1e-2").report.outcome.kind == Outcome::Kind::done);
+    CHECK(run_scene("hang-slider", engine, "1e-2").report.outcome.kind == Outcome::Kind::done);
   }
 }
 
@@ -65,14 +65,14 @@ TEST_CASE("times below what engines can divide by: nothing moves in them") {
   for (const EngineName& name : all_engines) {
     const std::string engine(name.name);
     CAPTURE(engine);
-    const Result shortest = run("tiny-times", engine, "1e-157");
+    const Result shortest = run_scene("tiny-times", engine, "1e-157");
     CHECK(shortest.report.outcome.kind == Outcome::Kind::done);
     CHECK(shortest.report.outcome.t == 1e-155);
     CHECK(shortest.events.empty());
     CHECK(shortest.rows.back().u[0] == 0.0);
     if (name.engine == Engine::friction_iteration) continue;  // it takes no rigid contacts
     // The load that begins at the least positive number acts from then on.
-    const Result rocking = run("denormal-start", engine, "1e-4");
+    const Result rocking = run_scene("denormal-start", engine, "1e-4");
     CHECK(rocking.report.outcome.kind == Outcome::Kind::done);
     const Scene plain =
         read_scene(folder + "denormal-start.toml",

@@ -18,7 +18,7 @@ namespace {
 
 using Changes = std::vector<Override>;
 
-Result run(const std::string& file, Changes changes, double cutoff, const std::string& engine) {
+Result run_scene(const std::string& file, Changes changes, double cutoff, const std::string& engine) {
   if (cutoff > 0.0) changes.push_back({"reduction.cutoff_omega", fmt::format("{}", cutoff)});
   changes.push_back({"run.engine", engine});
   const Scene scene = read_scene(file, changes);
@@ -176,7 +176,8 @@ TEST_CASE("masses in contact with each other, no stiffness: nothing is left out,
 
 TEST_CASE("above all frequencies the events are those of the full model") {
   const Changes until{{"run.t_end", "0.2"}};
-  const Result whole = run(pipeline, until, 0.0, "exact"), all = run(pipeline, until, 1e7, "exact");
+  const Result whole = run_scene(pipeline, until, 0.0, "exact"),
+               all = run_scene(pipeline, until, 1e7, "exact");
   REQUIRE(state_changes(whole).size() > 20);
   check_events(whole, all, 1e-9);
   CHECK(apart(whole, all) < 1e-9);
@@ -184,14 +185,14 @@ TEST_CASE("above all frequencies the events are those of the full model") {
 
 TEST_CASE("a reduced pipeline: engines agree, forces and energy are kept") {
   const Changes until{{"run.t_end", "0.2"}, {"run.rtol", "1e-10"}, {"run.dt", "2e-6"}};
-  const Result exact = run(pipeline, until, 2000.0, "exact");
+  const Result exact = run_scene(pipeline, until, 2000.0, "exact");
   REQUIRE(state_changes(exact).size() > 6);
-  check_events(exact, run(pipeline, until, 2000.0, "ida"), 1e-7);
-  const Result newmark = run(pipeline, until, 2000.0, "newmark");
+  check_events(exact, run_scene(pipeline, until, 2000.0, "ida"), 1e-7);
+  const Result newmark = run_scene(pipeline, until, 2000.0, "newmark");
   check_events(exact, newmark, 1e-5);
   CHECK(apart(exact, newmark) < 1e-6);
   const Changes longer{{"run.t_end", "0.2"}, {"run.dt", "1e-5"}};
-  const Result iteration = run(pipeline, longer, 2000.0, "friction-iteration");
+  const Result iteration = run_scene(pipeline, longer, 2000.0, "friction-iteration");
   CHECK(apart(exact, iteration) < 1e-4);
   const Audit& audit = exact.report.audit;
   CHECK(audit.energy.value < 1e-9 * audit.energy_scale);
@@ -202,10 +203,10 @@ TEST_CASE("a reduced pipeline: engines agree, forces and energy are kept") {
 // Until the first landing; after it short slips differ, and displacements differ with them.
 TEST_CASE("displacements converge with the cutoff") {
   const Changes until{{"run.t_end", "0.15"}};
-  const Result whole = run(pipeline, until, 0.0, "exact");
+  const Result whole = run_scene(pipeline, until, 0.0, "exact");
   double before = 1.0;
   for (const double cutoff : {500.0, 2000.0, 8000.0, 32000.0}) {
-    const Result reduced = run(pipeline, until, cutoff, "exact");
+    const Result reduced = run_scene(pipeline, until, cutoff, "exact");
     CHECK(reduced.rows[0].u.size() == 51);
     const double error = apart(whole, reduced);
     INFO(cutoff, " ", error);
@@ -217,27 +218,28 @@ TEST_CASE("displacements converge with the cutoff") {
 
 TEST_CASE("rigid contacts: a reduced frame follows the full one") {
   const Changes until{{"run.t_end", "0.2"}, {"run.frames", "[]"}, {"run.rtol", "1e-9"}};
-  const Result whole = run(frame, until, 0.0, "exact");
+  const Result whole = run_scene(frame, until, 0.0, "exact");
   double scale = 0.0;
   for (const Result::Row& row : whole.rows) scale = std::max(scale, row.u.cwiseAbs().maxCoeff());
-  const Result coarse = run(frame, until, 500.0, "exact"), fine = run(frame, until, 2000.0, "exact");
+  const Result coarse = run_scene(frame, until, 500.0, "exact"),
+               fine = run_scene(frame, until, 2000.0, "exact");
   CHECK(apart(whole, fine) < 1e-3 * scale);
   CHECK(apart(whole, fine) < apart(whole, coarse));
   CHECK(fine.report.audit.penetration.value < 1e-9 * scale);
-  const Result ida = run(frame, until, 500.0, "ida");
+  const Result ida = run_scene(frame, until, 500.0, "ida");
   CHECK(apart(coarse, ida) < 1e-5 * scale);
 }
 
 TEST_CASE("parts without mass: above all frequencies as the full model, below with all engines alike") {
   const std::string lumped = SIGNORINI_TEST_DATA "/cases/08b_lumped_singular_M.toml";
   const Changes step{{"run.dt", "1e-4"}};
-  const Result whole = run(lumped, step, 0.0, "exact");
-  const Result all = run(lumped, step, 1e3, "exact");
+  const Result whole = run_scene(lumped, step, 0.0, "exact");
+  const Result all = run_scene(lumped, step, 1e3, "exact");
   check_events(whole, all, 1e-9);
   CHECK(apart(whole, all) < 1e-11);
-  const Result exact = run(lumped, step, 5.0, "exact");
-  check_events(exact, run(lumped, step, 5.0, "ida"), 1e-6);
-  check_events(exact, run(lumped, step, 5.0, "newmark"), 1e-4);
+  const Result exact = run_scene(lumped, step, 5.0, "exact");
+  check_events(exact, run_scene(lumped, step, 5.0, "ida"), 1e-6);
+  check_events(exact, run_scene(lumped, step, 5.0, "newmark"), 1e-4);
 }
 
 namespace {
@@ -385,15 +387,15 @@ TEST_CASE("contacts with dashpots, and sliders that stick rigidly") {
                          {"run.rtol", "1e-10"},
                          {"contacts.*.normal_damping", "50.0"},
                          {"contacts.*.tangential_damping", "50.0"}};
-  const Result exact = run(pipeline, dashpots, 1000.0, "exact");
+  const Result exact = run_scene(pipeline, dashpots, 1000.0, "exact");
   REQUIRE(state_changes(exact).size() > 4);
-  check_events(exact, run(pipeline, dashpots, 1000.0, "ida"), 1e-7);
+  check_events(exact, run_scene(pipeline, dashpots, 1000.0, "ida"), 1e-7);
 
   const std::string chain = SIGNORINI_TEST_DATA "/cases/10a_bk_chain_20.toml";
   const Changes until{{"run.output_times", "[10.0]"}, {"run.t_end", "10.0"}};
-  const Result whole = run(chain, until, 0.0, "exact");
+  const Result whole = run_scene(chain, until, 0.0, "exact");
   REQUIRE(state_changes(whole).size() > 10);
-  const Result all = run(chain, until, 1e3, "exact");
+  const Result all = run_scene(chain, until, 1e3, "exact");
   check_events(whole, all, 1e-8);
 }
 

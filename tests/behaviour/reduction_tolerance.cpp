@@ -14,7 +14,7 @@ using namespace signorini;
 namespace signorini::tests::reduction_tolerance {
 namespace {
 
-Result run(const Scene& scene) {
+Result run_scene(const Scene& scene) {
   Result result = simulate(build_model(scene), scene.run);
   INFO(result.report.outcome.reason);
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
@@ -48,11 +48,11 @@ ReductionSpec check_promise(Scene scene, double tolerance) {
   REQUIRE_FALSE(spec.tried.empty());
   const double told = spec.tried.back().error;
   CHECK(told <= tolerance);
-  const Result asked = run(found);
+  const Result asked = run_scene(found);
   scene.reduction.emplace().cutoff_omega = spec.cutoff_omega;
-  CHECK(apart(scene, run(scene), asked) == 0.0);
+  CHECK(apart(scene, run_scene(scene), asked) == 0.0);
   scene.reduction.reset();
-  CHECK(apart(scene, run(scene), asked) <= 1.1 * told + 1e-8);
+  CHECK(apart(scene, run_scene(scene), asked) <= 1.1 * told + 1e-8);
   return spec;
 }
 

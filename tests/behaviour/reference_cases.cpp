@@ -17,7 +17,7 @@ struct Expectation {
 };
 constexpr double exact_time = 1e-11, exact_state = 1e-10;
 
-void check(Expectation expected) {
+void check_case(Expectation expected) {
   for (const std::string& engine : engines) {
     CAPTURE(engine);
     if (engine == "exact") expected = {expected.name, exact_time, exact_state};
@@ -38,26 +38,32 @@ void check(Expectation expected) {
 
 TEST_SUITE_BEGIN("behaviour/reference");
 
-TEST_CASE("01a: Coulomb decay, slider without stiffness") { check({"01a_coulomb_decay_rigid", 1e-9, 1e-8}); }
-TEST_CASE("01b: Coulomb decay, slider with stiffness") { check({"01b_coulomb_decay_compliant", 1e-8, 1e-6}); }
-TEST_CASE("02b: belt, static above kinetic friction") { check({"02b_belt_fs_gt_fk", 1e-7, 1e-7}); }
-TEST_CASE("03b: Den Hartog's oscillator, two stops a cycle") { check({"03b_den_hartog_2stop", 1e-8, 1e-8}); }
-TEST_CASE("05b: two masses, simultaneous events") { check({"05b_two_mass_symmetric", 1e-8, 1e-8}); }
-TEST_CASE("05g: two masses on sliders with stiffness") { check({"05g_two_mass_compliant", 1e-7, 1e-7}); }
+TEST_CASE("01a: Coulomb decay, slider without stiffness") {
+  check_case({"01a_coulomb_decay_rigid", 1e-9, 1e-8});
+}
+TEST_CASE("01b: Coulomb decay, slider with stiffness") {
+  check_case({"01b_coulomb_decay_compliant", 1e-8, 1e-6});
+}
+TEST_CASE("02b: belt, static above kinetic friction") { check_case({"02b_belt_fs_gt_fk", 1e-7, 1e-7}); }
+TEST_CASE("03b: Den Hartog's oscillator, two stops a cycle") {
+  check_case({"03b_den_hartog_2stop", 1e-8, 1e-8});
+}
+TEST_CASE("05b: two masses, simultaneous events") { check_case({"05b_two_mass_symmetric", 1e-8, 1e-8}); }
+TEST_CASE("05g: two masses on sliders with stiffness") { check_case({"05g_two_mass_compliant", 1e-7, 1e-7}); }
 TEST_CASE("06: point mass that slips, lifts off and lands") {
-  check({"06_point_compliant_kn1e+06", 1e-9, 1e-7});
+  check_case({"06_point_compliant_kn1e+06", 1e-9, 1e-7});
 }
-TEST_CASE("04a: bouncing ball past its accumulation point") { check({"04a_bouncing_ball", 1e-8, 1e-7}); }
+TEST_CASE("04a: bouncing ball past its accumulation point") { check_case({"04a_bouncing_ball", 1e-8, 1e-7}); }
 TEST_CASE("04c: impact oscillator that sticks to its stop") {
-  check({"04c_impact_oscillator_e0", 1e-8, 1e-7});
+  check_case({"04c_impact_oscillator_e0", 1e-8, 1e-7});
 }
-TEST_CASE("04e: a graze that hits with 1e-6") { check({"04e_graze_hit_1e-6", 1e-5, 1e-5}); }
-TEST_CASE("06: rigid point mass with restitution") { check({"06_point_rigid_e0.5", 1e-8, 1e-7}); }
+TEST_CASE("04e: a graze that hits with 1e-6") { check_case({"04e_graze_hit_1e-6", 1e-5, 1e-5}); }
+TEST_CASE("06: rigid point mass with restitution") { check_case({"06_point_rigid_e0.5", 1e-8, 1e-7}); }
 TEST_CASE("11: rigid rod, regular side of the Painleve limit") {
-  check({"11_painleve_regular_rigid", 1e-8, 1e-7});
+  check_case({"11_painleve_regular_rigid", 1e-8, 1e-7});
 }
-TEST_CASE("07: plane frame, four elements") { check({"07_frame_4el_kn1e6_f0.3", 1e-8, 1e-6}); }
-TEST_CASE("08b: massless degrees of freedom") { check({"08b_lumped_singular_M", 1e-6, 1e-6}); }
+TEST_CASE("07: plane frame, four elements") { check_case({"07_frame_4el_kn1e6_f0.3", 1e-8, 1e-6}); }
+TEST_CASE("08b: massless degrees of freedom") { check_case({"08b_lumped_singular_M", 1e-6, 1e-6}); }
 
 TEST_CASE("02c: belt at the margin, where only the trajectory is unique") {
   for (const std::string& engine : engines) {
@@ -107,6 +113,6 @@ TEST_CASE("10a by the exact flow: 1e-10 s to t = 35, where errors have grown 360
   CHECK(all.velocity < 1e-9);
 }
 
-TEST_CASE("07: plane frame, ten elements") { check({"07_frame_10el_kn1e6_f0.5", 1e-6, 1e-5}); }
+TEST_CASE("07: plane frame, ten elements") { check_case({"07_frame_10el_kn1e6_f0.5", 1e-6, 1e-5}); }
 
 TEST_SUITE_END();

@@ -113,7 +113,7 @@ std::string contact_keys(const Drawn::Touch& t, std::size_t k, const View& v, co
                      2e4 * k1, 1e4 * k1);
 }
 
-std::string history(const Drawn::Push& p, const View& v) {
+std::string history_text(const Drawn::Push& p, const View& v) {
   return fmt::format("history = {{ type = \"harmonic\", omega = {:.17g}, start = 0.0 }}\n", p.omega / v.time);
 }
 
@@ -152,7 +152,7 @@ std::string as_bodies(const Drawn& s, const View& v = {}, const std::string& eng
   for (const Drawn::Push& p : s.pushes)
     text += fmt::format("[[loads]]\nnode = \"{}\"\ndirection = {}\namplitude = {:.17g}\n",
                         name_of(p.body, p.node), v.direction(p.d), p.amplitude * v.force) +
-            history(p, v);
+            history_text(p, v);
   return text;
 }
 
@@ -219,11 +219,11 @@ std::string as_matrices(const Drawn& s) {
   for (const Drawn::Push& p : s.pushes)
     text += fmt::format("[[loads]]\ndirection = {}\namplitude = {:.17g}\n",
                         as_table(row_of(s, p.body, p.node, p.d)), p.amplitude) +
-            history(p, {});
+            history_text(p, {});
   return text;
 }
 
-Result run(const std::string& text, const std::vector<Override>& changes = {}) {
+Result run_scene(const std::string& text, const std::vector<Override>& changes = {}) {
   const Scene scene = parse_scene(text, "test.toml", changes);
   Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.reason == "");
@@ -251,7 +251,7 @@ TEST_CASE("random bodies move as their matrices, made by hand") {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);
     const Drawn s = draw(seed);
-    const Result bodies = run(as_bodies(s)), matrices = run(as_matrices(s));
+    const Result bodies = run_scene(as_bodies(s)), matrices = run_scene(as_matrices(s));
     check_same(bodies, matrices, 1.0, 1e-9);
     const Model model = build_model(parse_scene(as_bodies(s), "test.toml"));
     for (std::size_t i = 0; i < model.columns.size(); ++i)
@@ -267,26 +267,26 @@ TEST_CASE("turned, mirrored, permuted, in other units: the same events") {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     CAPTURE(seed);
     const Drawn s = draw(seed);
-    const Result plain = run(as_bodies(s));
+    const Result plain = run_scene(as_bodies(s));
     View view;
     view.angle = 0.7391;
-    check_same(plain, run(as_bodies(s, view)), 1.0, 1e-9);
+    check_same(plain, run_scene(as_bodies(s, view)), 1.0, 1e-9);
     view.mirrored = true;
-    check_same(plain, run(as_bodies(s, view)), 1.0, 1e-9, true);
+    check_same(plain, run_scene(as_bodies(s, view)), 1.0, 1e-9, true);
     View permuted;
     permuted.reversed = true;
-    check_same(plain, run(as_bodies(s, permuted)), 1.0, 1e-9);
+    check_same(plain, run_scene(as_bodies(s, permuted)), 1.0, 1e-9);
     View small;  // N, t, mm: force 1, length 1000
     small.length = 1000.0;
-    check_same(plain, run(as_bodies(s, small)), 1.0, 1e-9);
-    check_same(plain, run(as_bodies(s, {}, "ida")), 1.0, 1e-5);
+    check_same(plain, run_scene(as_bodies(s, small)), 1.0, 1e-9);
+    check_same(plain, run_scene(as_bodies(s, {}, "ida")), 1.0, 1e-5);
   }
 }
 
 TEST_CASE("the second half of a run, and a reduced model with all modes, move alike") {
   const Drawn s = draw(3);
-  const Result plain = run(as_bodies(s));
-  const Result reduced = run(as_bodies(s) + "[reduction]\ncutoff_omega = 1e5\n");
+  const Result plain = run_scene(as_bodies(s));
+  const Result reduced = run_scene(as_bodies(s) + "[reduction]\ncutoff_omega = 1e5\n");
   check_same(plain, reduced, 1.0, 1e-9);
   REQUIRE(plain.rows.back().u.size() == reduced.rows.back().u.size());
   CHECK((plain.rows.back().u - reduced.rows.back().u).norm() < 1e-9 * plain.rows.back().u.norm());
@@ -311,7 +311,7 @@ TEST_CASE("events move with mass and inertia of a body as differences say") {
   for (const char* key : {"rigid.A.mass", "rigid.A.inertia"}) {
     CAPTURE(key);
     const double value = key[8] == 'm' ? s.bodies[0].mass : s.bodies[0].inertia, h = 1e-5 * value;
-    const auto times = [&](double p) { return run(text, {{key, fmt::format("{:.17g}", p)}}); };
+    const auto times = [&](double p) { return run_scene(text, {{key, fmt::format("{:.17g}", p)}}); };
     const Result up = times(value + h), down = times(value - h);
     const Sensitivities all = rates_of(text, {key});
     REQUIRE(all.events.size() == up.events.size());

@@ -33,7 +33,7 @@ std::string block(const std::string& run, const std::string& more) {
          more;
 }
 
-Result run(const std::string& text, const std::string& engine) {
+Result run_scene(const std::string& text, const std::string& engine) {
   const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.certify", "false"}});
   Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.reason == "");
@@ -69,7 +69,7 @@ TEST_CASE("a constant push at two feet: halves, or what the lighter foot can bea
       CAPTURE(engine);
       CAPTURE(push);
       // At the height h: about the feet push h is borne by N.
-      const Result result = run(
+      const Result result = run_scene(
           block("[run]\nt_end = 1.0\noutput_dt = 0.25\n",
                 fmt::format("[[loads]]\nnode = \"block\"\ndirection = [1.0, 0.0]\namplitude = {}\n", push)),
           engine);
@@ -108,7 +108,7 @@ TEST_CASE("a block slides under a half sine of its ground as an event follower s
           pulse.end(), pulse.A));
   for (const std::string& engine : engines) {
     CAPTURE(engine);
-    const Result result = run(text, engine);
+    const Result result = run_scene(text, engine);
     const double bound = engine == "exact" ? 1e-10 : 1e-6;
     // The foot that bears less is at its limit before, when a/2 = f (g - a h/b)/2; then the other one slips.
     const double alone = std::asin(f * g / (1.0 + f * h / b) / pulse.A) / pulse.w;
@@ -133,7 +133,7 @@ TEST_CASE("a static start, and a run that goes on, stand on both feet") {
       0.25);
   for (const std::string& engine : engines) {
     CAPTURE(engine);
-    const Result result = run(block("[run]\nt_end = 2.0\ninitial = \"static\"\n", push), engine);
+    const Result result = run_scene(block("[run]\nt_end = 2.0\ninitial = \"static\"\n", push), engine);
     CHECK(std::none_of(result.events.begin(), result.events.end(),
                        [](const Event& event) { return event.type == EventType::impact; }));
     CHECK(result.rows.front().contacts[1].N == doctest::Approx(-0.5 * m * g).epsilon(1e-12));
@@ -160,7 +160,7 @@ TEST_CASE("a block that rocks comes to rest on both feet") {
   sticky.replace(sticky.find("friction = 0.5"), 14, "friction = 1.0");
   for (const std::string& engine : engines) {
     CAPTURE(engine);
-    const Result result = run(sticky, engine);
+    const Result result = run_scene(sticky, engine);
     for (const ContactSample& contact : result.rows.back().contacts) {
       CHECK(contact.state == State::stick);
       CHECK(contact.N == doctest::Approx(-0.5 * m * g).epsilon(1e-12));
@@ -195,7 +195,7 @@ TEST_CASE("a block by matrices rocks, rests, is pushed, rocks and rests, with ev
                lifts = 3.0 + std::asin(half / 0.45) / w;
   for (const std::string& engine : locating_engines) {
     CAPTURE(engine);
-    const Result result = run(text, engine);
+    const Result result = run_scene(text, engine);
     const auto after = std::find_if(result.events.begin(), result.events.end(),
                                     [](const Event& event) { return event.t > 3.0; });
     REQUIRE(result.events.end() - after > 10);

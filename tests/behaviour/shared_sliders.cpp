@@ -54,7 +54,7 @@ std::string slider(const std::string& name, double N, const std::string& node, c
       name, node, N, f, more);
 }
 
-Result run(const std::string& text, const std::string& engine, const std::string& rtol = "1e-10") {
+Result run_scene(const std::string& text, const std::string& engine, const std::string& rtol = "1e-10") {
   const Scene scene =
       parse_scene(text, "test.toml",
                   {{"run.engine", engine}, {"run.certify", "false"}, {"run.rtol", rtol}, {"run.dt", "1e-3"}});
@@ -90,7 +90,7 @@ TEST_CASE(
       CAPTURE(engine);
       CAPTURE(turn);
       const double bound = engine == "exact" ? 1e-11 : 1e-7;
-      const Result both = run(at_centre(two), engine), alone = run(one, engine);
+      const Result both = run_scene(at_centre(two), engine), alone = run_scene(one, engine);
       // The lighter one is at its limit when half of the load is, then the body slips at the sum.
       REQUIRE(both.events.size() > 4);
       CHECK(both.events[0].t == doctest::Approx(std::asin(2.0 * f * right / A) / w).epsilon(bound));
@@ -122,9 +122,9 @@ TEST_CASE(
 TEST_CASE("two sliders beside the centre: which of them slips first, and where the body comes to rest") {
   for (const std::string& engine : engines) {
     CAPTURE(engine);
-    const Result result = run(body(0.3, slider("L", left, "L") + slider("R", right, "R")), engine);
+    const Result result = run_scene(body(0.3, slider("L", left, "L") + slider("R", right, "R")), engine);
     CHECK(result.events.size() > 8);
-    const Result one = run(body(0.3, slider("L", left + right, "L")), engine);
+    const Result one = run_scene(body(0.3, slider("L", left + right, "L")), engine);
     for (std::size_t i = 0; i < one.rows.size(); ++i)  // both act on the line through L and R
       CHECK((result.rows[i].u - one.rows[i].u).norm() < (engine == "exact" ? 1e-10 : 1e-6));
   }
@@ -134,12 +134,12 @@ TEST_CASE(
     "newmark's steps with two sliders are those with one; what decides each contact alone refuses them by "
     "name") {
   const std::string two = body(0.0, slider("L", left, "B") + slider("R", right, "B"));
-  const Result both = run(two, "newmark");
-  const Result one = run(body(0.0, slider("L", left + right, "B")), "newmark");
+  const Result both = run_scene(two, "newmark");
+  const Result one = run_scene(body(0.0, slider("L", left + right, "B")), "newmark");
   REQUIRE(both.rows.size() == one.rows.size());
   for (std::size_t i = 0; i < one.rows.size(); ++i)
     CHECK(std::abs(both.rows[i].u[0] - one.rows[i].u[0]) < 1e-5);
-  CHECK_THROWS_WITH_AS(static_cast<void>(run(two, "friction-iteration")),
+  CHECK_THROWS_WITH_AS(static_cast<void>(run_scene(two, "friction-iteration")),
                        doctest::Contains("decides each contact alone, and contacts 'L' and 'R'"), SceneError);
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("three sliders on two motions share what they hold by the least norm")
     for (const auto& [x, y] : {std::pair{3.0, 1.5}, std::pair{-2.0, 3.5}, std::pair{6.0, 6.6}}) {
       CAPTURE(engine);
       CAPTURE(x);
-      const Result result = run(scene(x, y), engine);
+      const Result result = run_scene(scene(x, y), engine);
       const double shared = (x + y) / 3.0;  // 4.2 of 5 at most
       for (const Result::Row& row : result.rows) {
         CHECK(row.contacts[2].T == doctest::Approx(shared).epsilon(1e-12));
@@ -172,7 +172,7 @@ TEST_CASE("three sliders on two motions share what they hold by the least norm")
       }
     }
   // Beyond what the third can bear the others take the rest: 5, and 4 + 5 - 9 ...
-  const Result result = run(scene(9.2, 7.0), "exact");
+  const Result result = run_scene(scene(9.2, 7.0), "exact");
   CHECK(result.rows.back().contacts[2].T == doctest::Approx(5.0).epsilon(1e-12));
   CHECK(result.rows.back().contacts[0].T == doctest::Approx(4.2).epsilon(1e-12));
   CHECK(result.rows.back().contacts[1].T == doctest::Approx(2.0).epsilon(1e-12));
@@ -187,7 +187,7 @@ TEST_CASE("sliders that share: a start with friction, a run that goes on, check"
   frictional.replace(frictional.find("t_end = 5.0"), 11, "t_end = 5.0\ninitial = \"frictional\"");
   for (const std::string& engine : engines) {
     CAPTURE(engine);
-    const Result whole = run(text, engine), slow = run(frictional, engine);
+    const Result whole = run_scene(text, engine), slow = run_scene(frictional, engine);
     CHECK((whole.rows.back().u - slow.rows.back().u).norm() < 1e-6);
     Scene half = parse_scene(text, "test.toml",
                              {{"run.engine", engine}, {"run.certify", "false"}, {"run.t_end", "2.0"}});

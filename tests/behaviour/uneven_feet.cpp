@@ -54,7 +54,7 @@ double last_rest(const Block& b, double end) {
 }
 
 /// mirror: -1 looks at the block from behind. permuted: foot R comes first in the scene.
-std::string scene(const Block& b, double mirror, bool permuted) {
+std::string scene_text(const Block& b, double mirror, bool permuted) {
   std::string text = parts::head + fmt::format("gravity = [0.0, {}]\n", -g) +
                      "[run]\nt_end = 1.0\ninitial = \"static\"\noutput_dt = 0.01\n" +
                      fmt::format("[nodes]\nL = [0.0, 0.0]\nR = [{:.17g}, {:.17g}]\nT = [{:.17g}, {:.17g}]\n",
@@ -75,11 +75,11 @@ std::string scene(const Block& b, double mirror, bool permuted) {
              mirror, b.ramp);
 }
 
-void check(const Block& b, double mirror, bool permuted, const std::string& engine) {
+void check_case(const Block& b, double mirror, bool permuted, const std::string& engine) {
   CAPTURE(mirror);
   CAPTURE(permuted);
   CAPTURE(engine);
-  const Scene read = parse_scene(scene(b, mirror, permuted), "test.toml",
+  const Scene read = parse_scene(scene_text(b, mirror, permuted), "test.toml",
                                  {{"run.engine", engine}, {"run.certify", "false"}});
   const Result result = simulate(build_model(read), read.run);
   CHECK(result.report.outcome.reason == "");
@@ -107,7 +107,7 @@ TEST_SUITE_BEGIN("behaviour/uneven_feet");
 TEST_CASE("forces of a block on feet at unequal heights have the least sum of squares within the cones") {
   const Block known{0.581, 0.277, 0.338, 0.626, 0.338, 1.998, 0.34, -11.772};
   for (const double mirror : {1.0, -1.0})
-    for (const bool permuted : {false, true}) check(known, mirror, permuted, "exact");
+    for (const bool permuted : {false, true}) check_case(known, mirror, permuted, "exact");
   const Eigen::Vector4d x = *least(known, known.ramp * 0.08);
   CHECK(x[0] == doctest::Approx(-6.864).epsilon(1e-3));
   CHECK(x[3] == doctest::Approx(-1.002).epsilon(1e-3));
@@ -128,9 +128,9 @@ TEST_CASE("twenty random blocks, pushed either way, seen from behind, in both or
                   y + 1.5 * part(random),
                   0.15 + 0.5 * part(random),
                   part(random) < 0.5 ? 11.772 : -11.772};
-    check(b, 1.0, false, "exact");
-    check(b, -1.0, i % 2 == 0, "exact");
-    check(b, 1.0, true, "ida");
+    check_case(b, 1.0, false, "exact");
+    check_case(b, -1.0, i % 2 == 0, "exact");
+    check_case(b, 1.0, true, "ida");
   }
 }
 

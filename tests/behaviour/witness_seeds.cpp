@@ -10,7 +10,7 @@
 namespace signorini::tests::witness_seeds {
 namespace {
 
-Result run(std::uint64_t seed, const std::vector<Override>& changes) {
+Result run_scene(std::uint64_t seed, const std::vector<Override>& changes) {
   std::vector<Override> all = changes;
   all.push_back({"run.certify", "false"});
   const Scene scene = parse_scene(differential::draw_scene(seed), "seed.toml", all);
@@ -46,24 +46,25 @@ TEST_SUITE_BEGIN("behaviour/witness_seeds");
 TEST_CASE(
     "late in a sequence of hits a dashpot's jump of N is below the rounding of kn u, and lets stick all the "
     "same") {
-  const Result result = run(620, in_modes_to("0.1424"));
+  const Result result = run_scene(620, in_modes_to("0.1424"));
   CHECK(result.events.size() > 400);
 }
 
 TEST_CASE("what rests on a surface that begins to move has the rounding of that motion") {
   for (const char* engine : {"exact", "ida", "newmark"})
     for (const std::uint64_t seed : {3067UL, 7425UL})
-      CHECK(run(seed, {{"run.engine", engine}, {"run.dt", "1e-4"}}).events.size() > 3);
+      CHECK(run_scene(seed, {{"run.engine", engine}, {"run.dt", "1e-4"}}).events.size() > 3);
 }
 
 TEST_CASE("a motion in modes that has just begun is a sum of amplitudes that still cancel") {
-  CHECK(run(173, in_modes_to("0.02")).events.size() == 0);
-  CHECK(run(245, in_modes_to("0.001")).events.size() > 0);
+  CHECK(run_scene(173, in_modes_to("0.02")).events.size() == 0);
+  CHECK(run_scene(245, in_modes_to("0.001")).events.size() > 0);
 }
 
 TEST_CASE(
     "what another contact's stop drags along has no guard that fell: no rate of it, and no uncertainty") {
-  const Result result = run(341, {{"run.engine", "newmark"}, {"run.dt", "0.032"}, {"run.t_end", "0.7"}});
+  const Result result =
+      run_scene(341, {{"run.engine", "newmark"}, {"run.dt", "0.032"}, {"run.t_end", "0.7"}});
   int dragged = 0;
   for (std::size_t i = 1; i < result.events.size(); ++i) {
     const Event &stop = result.events[i - 1], &slip = result.events[i];
@@ -80,24 +81,25 @@ TEST_CASE(
 TEST_CASE("a corner of a wall and a floor that moves; a surface whose slip turns inside a step") {
   for (const char* engine : {"exact", "ida"}) {
     CAPTURE(engine);
-    const Result corner = run(930, {{"run.engine", engine}});
+    const Result corner = run_scene(930, {{"run.engine", engine}});
     // A table of velocities that passes zero in its second piece: the block leaves the wall there.
     const Event& last = corner.events.back();
     CHECK(last.type == EventType::separation);
     CHECK(last.t == doctest::Approx(0.3 + 0.3 * 0.2291 / 0.3437).epsilon(1e-9));
-    run(314, {{"run.engine", engine}});
-    run(722, {{"run.engine", engine}});
+    run_scene(314, {{"run.engine", engine}});
+    run_scene(722, {{"run.engine", engine}});
   }
 }
 
 TEST_CASE(
     "slow modes answer short ramps by terms 40,000 times the motion, which cancel: u is known to less") {
-  for (const std::uint64_t seed : {3UL, 1595UL}) run(seed, in_modes);
+  for (const std::uint64_t seed : {3UL, 1595UL}) run_scene(seed, in_modes);
 }
 
 TEST_CASE("a slow pair of roots that is no free motion is left to the series, which lose no digits in it") {
-  const Result result = run(5058, in_modes);  // omega = 3e-3 rad/s over 2 s, of digits that K was rounded to
-  const Result series = run(5058, {{"run.engine", "exact"}, {"run.flow", "taylor"}});
+  const Result result =
+      run_scene(5058, in_modes);  // omega = 3e-3 rad/s over 2 s, of digits that K was rounded to
+  const Result series = run_scene(5058, {{"run.engine", "exact"}, {"run.flow", "taylor"}});
   REQUIRE(result.events.size() == series.events.size());
   for (std::size_t i = 0; i < result.events.size(); ++i) {
     CAPTURE(i);
@@ -108,7 +110,7 @@ TEST_CASE("a slow pair of roots that is no free motion is left to the series, wh
 
 TEST_CASE(
     "where slides nearly depend on each other, rounding of the structure's forces is greater in theirs") {
-  run(685, in_modes);
+  run_scene(685, in_modes);
 }
 
 TEST_CASE(
@@ -124,7 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE("|N| of a slip drops by a hit that turns the body: T falls with it, and sticks") {
-  const Result result = run(1288, {{"run.engine", "exact"}});
+  const Result result = run_scene(1288, {{"run.engine", "exact"}});
   int stopped = 0;
   for (const Event& e : result.events)
     if (e.type == EventType::stick && e.N_after > e.N && std::abs(e.T - e.T_after) > 1e-3) {
@@ -136,15 +138,16 @@ TEST_CASE("|N| of a slip drops by a hit that turns the body: T falls with it, an
 }
 
 TEST_CASE("what rests is set to rest while a slider sticks: the slider's impulse against it is told, too") {
-  CHECK(run(5527, {{"run.engine", "ida"}, {"run.rtol", "1e-6"}, {"run.t_end", "0.13"}}).events.size() > 0);
+  CHECK(run_scene(5527, {{"run.engine", "ida"}, {"run.rtol", "1e-6"}, {"run.t_end", "0.13"}}).events.size() >
+        0);
 }
 
 TEST_CASE("a slip that a hit stops, and that goes on a little before it turns, has its peak there") {
-  run(5387, {{"run.engine", "exact"}, {"run.flow", "taylor"}});
+  run_scene(5387, {{"run.engine", "exact"}, {"run.flow", "taylor"}});
 }
 
 TEST_CASE("a block that starts at rest on a spring has been deep in it when it is at zero again") {
-  run(5372, {{"run.engine", "exact"}});
+  run_scene(5372, {{"run.engine", "exact"}});
   CHECK(steps_of(5372).empty());
 }
 

@@ -28,7 +28,7 @@ std::string last_cell(const std::string& table) {
 
 const std::string three_rows = "contacts.belt.friction.static=1:2:0.5";  // three rows
 
-void sweep(const Shell& shell, const std::vector<std::string>& more = {}) {
+void run_sweep(const Shell& shell, const std::vector<std::string>& more = {}) {
   shell.write("belt.toml", belt(5));
   std::vector<std::string> arguments = {"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -97,13 +97,13 @@ TEST_CASE("cli run: of three --force at once into one directory one is kept whol
 
 TEST_CASE("cli sweep: --force removes no file that is not its own") {
   const Shell shell;
-  sweep(shell, {"--keep"});
+  run_sweep(shell, {"--keep"});
   const std::vector<std::string> foreign = {"rows/000001.json", "notes", "rows.txt", "runs/000002.txt",
                                             "runs/12/mine"};
   for (const char* folder : {"rows", "runs/12"}) fs::create_directories(shell / "belt-sweep" / folder);
   for (const std::string& file : foreign) shell.write("belt-sweep/" + file, "mine");
   const std::string before = shell.read("belt-sweep/rows.jsonl");
-  sweep(shell, {"--force"});
+  run_sweep(shell, {"--force"});
   for (const std::string& file : foreign) {
     CAPTURE(file);
     CHECK(shell.read("belt-sweep/" + file) == "mine");
@@ -114,7 +114,7 @@ TEST_CASE("cli sweep: --force removes no file that is not its own") {
 
 TEST_CASE("cli sweep: --force follows no link") {
   const Shell shell;
-  sweep(shell, {"--keep"});
+  run_sweep(shell, {"--keep"});
   fs::rename(shell / "belt-sweep/runs", shell / "elsewhere");
   fs::create_directory_symlink(shell / "elsewhere", shell / "belt-sweep/runs");
   const Ending ending =
@@ -127,7 +127,7 @@ TEST_CASE("cli sweep: --force follows no link") {
   // A run that is a link is somebody else's: it stays, with what it leads to.
   fs::rename(shell / "belt-sweep/runs/000002", shell / "kept");
   fs::create_directory_symlink(shell / "kept", shell / "belt-sweep/runs/000002");
-  sweep(shell, {"--force"});
+  run_sweep(shell, {"--force"});
   CHECK(exists(shell, "kept/events.csv"));
   // So are rows: a link is not followed, and --force removes the link alone.
   fs::rename(shell / "belt-sweep/rows.jsonl", shell / "mine");
@@ -136,13 +136,13 @@ TEST_CASE("cli sweep: --force follows no link") {
   const Ending linked = shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet"});
   CHECK(linked.code == 6);
   CHECK(has(linked.err, "rows.jsonl: is a link, expected the rows of a sweep"));
-  sweep(shell, {"--force"});
+  run_sweep(shell, {"--force"});
   CHECK(shell.read("mine") == mine);
 }
 
 TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, are 6") {
   const Shell shell;
-  sweep(shell);
+  run_sweep(shell);
   const std::string file = "belt-sweep/rows.jsonl", good = shell.read(file);
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < good.size(); begin = good.find('\n', begin) + 1)
@@ -188,7 +188,7 @@ TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, ar
 
 TEST_CASE("cli sweep: a row of another value, or of another share, is none of this sweep") {
   const Shell shell;
-  sweep(shell);
+  run_sweep(shell);
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
     std::vector<std::string> arguments = {"sweep", "belt.toml", "--no-plots", "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -208,7 +208,7 @@ TEST_CASE("cli sweep: a row of another value, or of another share, is none of th
                     "-o", "half"})
               .code == 0);
   CHECK(shell.read("half/rows.jsonl").starts_with("{\"row\":2,"));
-  sweep(shell, {"--force"});
+  run_sweep(shell, {"--force"});
   fs::copy_file(shell / "belt-sweep/rows.jsonl", shell / "half/rows.jsonl",
                 fs::copy_options::overwrite_existing);
   refused({"--vary", three_rows, "--share", "2/2", "-o", "half"}, "is not of share 2/2");
@@ -237,8 +237,8 @@ TEST_CASE(
 
 TEST_CASE("cli sweep: shares that contradict each other are not merged") {
   const Shell shell;
-  sweep(shell, {"-o", "one"});
-  sweep(shell, {"-o", "two"});
+  run_sweep(shell, {"-o", "one"});
+  run_sweep(shell, {"-o", "two"});
   const auto merge = [&] {
     return shell.run({"sweep", "--merge", "one", "two", "-o", "joined", "--force", "--no-plots"});
   };

@@ -218,7 +218,7 @@ std::vector<Override> overrides(const std::vector<std::string>& changes) {
   return list;
 }
 
-int run(const Asked& asked) {
+int run_study(const Asked& asked) {
   std::map<Setting, Tally> tallies;
   const auto attempt = [&](const std::string& name, const auto& scene) {
     try {
@@ -258,7 +258,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}: cannot be written\n", rows);
     return 3;
   }
-  const int code = run(asked);
+  const int code = run_study(asked);
   if (asked.rows != nullptr) std::fclose(asked.rows);
   return code;
 }

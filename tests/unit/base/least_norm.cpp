@@ -48,8 +48,8 @@ VectorXd farthest(const std::vector<base::ConvexSet>& sets, const VectorXd& from
   return from + inside * way;
 }
 
-void check(std::mt19937_64& random, const std::vector<base::ConvexSet>& sets, const VectorXd& feasible,
-           Index kept) {
+void check_case(std::mt19937_64& random, const std::vector<base::ConvexSet>& sets, const VectorXd& feasible,
+                Index kept) {
   const MatrixXd a = base::orthonormal(normal_matrix(random, feasible.size(), kept)).transpose();
   const auto x = base::least_norm(a, a * feasible, sets);
   const MatrixXd open = base::orthogonal_complement(MatrixXd(a.transpose()));
@@ -112,7 +112,7 @@ TEST_CASE("no feasible point lies in a shorter direction: cones of one and two t
         CAPTURE(rays);
         CAPTURE(i);
         const auto [sets, point] = random_sets(random, 2 + i % 5, tangents, rays);
-        check(random, sets, point, std::max<Index>(1, point.size() - 1 - i % 3));
+        check_case(random, sets, point, std::max<Index>(1, point.size() - 1 - i % 3));
       }
 }
 

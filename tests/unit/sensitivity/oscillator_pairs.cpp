@@ -12,7 +12,7 @@ namespace {
 using Wide = std::complex<long double>;
 
 /// y(t) of y'' + alpha y' + l y = p from z and r, in extended precision.
-Wide motion(Wide l, long double alpha, long double t, Wide z, Wide r, Wide p) {
+Wide closed_form_motion(Wide l, long double alpha, long double t, Wide z, Wide r, Wide p) {
   const Wide w = std::sqrt(l - 0.25L * alpha * alpha);
   const Wide s = std::exp(-0.5L * alpha * t) * (std::abs(w) > 0.0L ? std::sin(w * t) / w : Wide(t));
   const Wide c = std::exp(-0.5L * alpha * t) * std::cos(w * t) + 0.5L * alpha * s;
@@ -34,7 +34,7 @@ Wide motion(Wide l, long double alpha, long double t, Wide z, Wide r, Wide p) {
 /// (y(k) - y(l))/(k - l), or what it comes to where both are one: an average of differences.
 Wide apart(Wide k, Wide l, long double alpha, long double t, Wide z, Wide r, Wide p) {
   const auto difference = [&](Wide a, Wide b) {
-    return (motion(a, alpha, t, z, r, p) - motion(b, alpha, t, z, r, p)) / (a - b);
+    return (closed_form_motion(a, alpha, t, z, r, p) - closed_form_motion(b, alpha, t, z, r, p)) / (a - b);
   };
   const long double size = (1.0L + std::sqrt(std::abs(k)) * t) / (t * t);
   if (std::abs(k - l) > 1e-4L * size) return difference(k, l);

@@ -14,7 +14,7 @@ using namespace signorini;
 namespace {
 
 /// Two masses, one of them on a compliant contact that slips.
-Model model() {
+Model make_model() {
   return build_model(parse_scene(
       "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
       "1.0\n"
@@ -31,7 +31,7 @@ Model model() {
 
 TEST_SUITE("unit/engine/newmark/newmark_step") {
   TEST_CASE("the formulas of average acceleration, equilibrium and the limit hold at the end of a step") {
-    const Model m = model();
+    const Model m = make_model();
     const linear::SystemMatrices structure(m);
     motion::StateSystems systems(m, structure);
     const contact::ContactStates mode{{State::slip_plus, 0.0}};
@@ -88,7 +88,7 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
   }
 
   TEST_CASE("a factorisation is kept for a length that comes again in the same states") {
-    const Model m = model();
+    const Model m = make_model();
     const linear::SystemMatrices structure(m);
     motion::StateSystems systems(m, structure);
     newmark::NewmarkStep step(m, structure);

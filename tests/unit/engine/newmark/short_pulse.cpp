@@ -17,7 +17,7 @@ using namespace parts;
 constexpr double dt = 0.01;
 
 /// A free mass of 1 under a load from 0.103 on.
-std::string scene(const std::string& history, const std::string& engine) {
+std::string scene_text(const std::string& history, const std::string& engine) {
   return head + fmt::format("[run]\nt_end = 0.5\nengine = \"{}\"\ndt = {}\n", engine, dt) +
          nodes({{"A", 0, 0}}) + point_mass("A", 1.0) + fixed("A", "uy, rz") +
          "[[loads]]\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = 10.0\nhistory = " + history + "\n";
@@ -28,7 +28,7 @@ void check_impulse(const std::string& history, double impulse, double part) {
   for (const char* engine : {"newmark", "friction-iteration"}) {
     CAPTURE(history);
     CAPTURE(engine);
-    const Scene s = parse_scene(scene(history, engine), "test.toml");
+    const Scene s = parse_scene(scene_text(history, engine), "test.toml");
     const Result result = simulate(build_model(s), s.run);
     REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
     CHECK(result.rows.back().v[0] == doctest::Approx(impulse).epsilon(part));
@@ -38,7 +38,7 @@ void check_impulse(const std::string& history, double impulse, double part) {
 }
 
 long steps_of(const std::string& history) {
-  const Scene s = parse_scene(scene(history, "newmark"), "test.toml");
+  const Scene s = parse_scene(scene_text(history, "newmark"), "test.toml");
   return simulate(build_model(s), s.run).report.counters.steps;
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("tables keep the steps of dt, straight or smooth, whose rows are dense
 TEST_CASE("a load that swings within steps is named") {
   const auto warnings = [](double omega) {
     const Scene s = parse_scene(
-        scene(fmt::format("{{ type = \"harmonic\", start = 0.0, omega = {} }}", omega), "newmark"),
+        scene_text(fmt::format("{{ type = \"harmonic\", start = 0.0, omega = {} }}", omega), "newmark"),
         "test.toml");
     return simulate(build_model(s), s.run).report.warnings;
   };

@@ -7,7 +7,7 @@ using namespace signorini;
 namespace {
 
 /// d0 - d3 by K, d1 - d4 by a contact, d2 and d5 touched by nothing.
-std::string scene(const std::string& rest = "") {
+std::string scene_text(const std::string& rest = "") {
   return "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n"
          "[run]\nt_end = 1.0\ninitial = { u = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5], v = [1.0, 1.1, 1.2, 1.3, 1.4, "
          "1.5] }\n"
@@ -31,7 +31,7 @@ std::string scene(const std::string& rest = "") {
 TEST_SUITE_BEGIN("unit/model/assembly/part_models");
 
 TEST_CASE("a model as several: each has what acts on it, by its own numbers") {
-  const Model model = build_model(parse_scene(scene(), "parts.toml"));
+  const Model model = build_model(parse_scene(scene_text(), "parts.toml"));
   const std::vector<assembly::PartModel> parts = assembly::part_models(model);
   REQUIRE(parts.size() == 3);
   CHECK(parts[0].dofs == std::vector<int>{1, 4});
@@ -78,7 +78,7 @@ TEST_CASE("what is one stays one") {
     CAPTURE(rest);
     std::optional<Scene> read;
     try {
-      read = parse_scene(scene(rest), "parts.toml");
+      read = parse_scene(scene_text(rest), "parts.toml");
     } catch (const std::exception& error) {
       FAIL(error.what());
     }

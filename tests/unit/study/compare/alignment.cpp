@@ -8,26 +8,24 @@ using signorini::compare::LoggedEvent;
 
 namespace {
 
-using Events = std::vector<compare::LoggedEvent>;
+using Events = std::vector<LoggedEvent>;
 
-compare::LoggedEvent slip(double t, const char* contact, double uncertainty = 0.0) {
+LoggedEvent slip(double t, const char* contact, double uncertainty = 0.0) {
   return {t, contact, "slip", "stick", "slip+", uncertainty};
 }
-compare::LoggedEvent stick(double t, const char* contact, double uncertainty = 0.0) {
+LoggedEvent stick(double t, const char* contact, double uncertainty = 0.0) {
   return {t, contact, "stick", "slip+", "stick", uncertainty};
 }
-compare::LoggedEvent load(double t) { return {t, "", "time", "", "", 0.0}; }
+LoggedEvent load(double t) { return {t, "", "time", "", "", 0.0}; }
 
-compare::Alignment aligned(const Events& a, const Events& b, double t_end = 10.0) {
-  return compare::align(a, b, {t_end, 0.0});
-}
+Alignment aligned(const Events& a, const Events& b, double t_end = 10.0) { return align(a, b, {t_end, 0.0}); }
 
 }  // namespace
 
 TEST_SUITE_BEGIN("unit/study/compare/alignment");
 
 TEST_CASE("alignment: the same list, at other times") {
-  const compare::Alignment a =
+  const Alignment a =
       aligned({slip(1, "a"), stick(2, "a"), slip(3, "b")}, {slip(1.1, "a"), stick(1.9, "a"), slip(3.2, "b")});
   REQUIRE(a.pairs.size() == 3);
   CHECK_FALSE(a.split);
@@ -40,7 +38,7 @@ TEST_CASE("alignment: the same list, at other times") {
 }
 
 TEST_CASE("alignment: a missing event ends the list, and both sides are named") {
-  const compare::Alignment a =
+  const Alignment a =
       aligned({slip(1, "a"), stick(2, "a"), slip(3, "a")}, {slip(1, "a"), slip(4, "b"), stick(5, "b")});
   CHECK(a.pairs.size() == 1);
   REQUIRE(a.split);
@@ -52,7 +50,7 @@ TEST_CASE("alignment: a missing event ends the list, and both sides are named") 
 
 TEST_CASE("alignment: the shorter list has no more") {
   const Events lower = {slip(1, "a")}, longer = {slip(1, "a"), stick(2, "a")};
-  const compare::Alignment missing = aligned(longer, lower), extra = aligned(lower, longer);
+  const Alignment missing = aligned(longer, lower), extra = aligned(lower, longer);
   REQUIRE(missing.split);
   CHECK(missing.split->reference == 1);
   CHECK_FALSE(missing.split->other);
@@ -64,8 +62,7 @@ TEST_CASE("alignment: the shorter list has no more") {
 }
 
 TEST_CASE("alignment: an extra event of another contact in between is a difference") {
-  const compare::Alignment a =
-      aligned({slip(1, "a"), stick(2, "a")}, {slip(1, "a"), slip(1.5, "b"), stick(2, "a")});
+  const Alignment a = aligned({slip(1, "a"), stick(2, "a")}, {slip(1, "a"), slip(1.5, "b"), stick(2, "a")});
   CHECK(a.pairs.size() == 1);
   REQUIRE(a.split);
   CHECK(a.split->t == 1.5);
@@ -74,9 +71,9 @@ TEST_CASE("alignment: an extra event of another contact in between is a differen
 }
 
 TEST_CASE("alignment: another state after the event is a difference") {
-  compare::LoggedEvent other = slip(1, "a");
+  LoggedEvent other = slip(1, "a");
   other.to = "slip-";
-  const compare::Alignment a = aligned({slip(1, "a")}, {other});
+  const Alignment a = aligned({slip(1, "a")}, {other});
   CHECK(a.pairs.empty());
   REQUIRE(a.split);
   CHECK(a.split->t == 1.0);
@@ -84,27 +81,26 @@ TEST_CASE("alignment: another state after the event is a difference") {
 
 TEST_CASE("alignment: events of one instant have no order") {
   SUBCASE("in both lists") {
-    const compare::Alignment a = aligned({slip(1, "a"), slip(1, "b"), slip(1, "c"), stick(2, "a")},
-                                         {slip(1, "c"), slip(1, "a"), slip(1, "b"), stick(2, "a")});
+    const Alignment a = aligned({slip(1, "a"), slip(1, "b"), slip(1, "c"), stick(2, "a")},
+                                {slip(1, "c"), slip(1, "a"), slip(1, "b"), stick(2, "a")});
     CHECK(a.pairs.size() == 4);
     CHECK_FALSE(a.split);
     CHECK(a.swapped == 0);
     CHECK(a.pairs[0].other == 1);
   }
   SUBCASE("in one list only: the other one had to choose") {
-    const compare::Alignment a = aligned({slip(1, "a"), slip(1, "b")}, {slip(0.9, "b"), slip(1.1, "a")});
+    const Alignment a = aligned({slip(1, "a"), slip(1, "b")}, {slip(0.9, "b"), slip(1.1, "a")});
     CHECK_FALSE(a.split);
     CHECK(a.swapped == 0);
     CHECK_FALSE(aligned({slip(0.9, "b"), slip(1.1, "a")}, {slip(1, "a"), slip(1, "b")}).split);
   }
   SUBCASE("of a given length") {
     const Events a = {slip(1, "a"), slip(1.01, "b")}, b = {slip(1, "b"), slip(1.01, "a")};
-    CHECK(compare::align(a, b, {10.0, 0.0}).split);
-    CHECK_FALSE(compare::align(a, b, {10.0, 0.02}).split);
+    CHECK(align(a, b, {10.0, 0.0}).split);
+    CHECK_FALSE(align(a, b, {10.0, 0.02}).split);
   }
   SUBCASE("but one that is missing is missed") {
-    const compare::Alignment a =
-        aligned({slip(1, "a"), slip(1, "b"), stick(2, "a")}, {slip(1, "b"), stick(2, "a")});
+    const Alignment a = aligned({slip(1, "a"), slip(1, "b"), stick(2, "a")}, {slip(1, "b"), stick(2, "a")});
     REQUIRE(a.split);
     CHECK(a.split->t == 1.0);
     CHECK(a.split->reference == 0);
@@ -114,7 +110,7 @@ TEST_CASE("alignment: events of one instant have no order") {
 TEST_CASE("alignment: an order closer than its uncertainty is swapped, not different") {
   const Events a = {slip(1.0, "a", 1e-6), slip(1.000001, "b", 1e-6), stick(2, "a")};
   const Events b = {slip(1.0, "b", 1e-6), slip(1.000001, "a", 1e-6), stick(2, "a")};
-  const compare::Alignment swapped = aligned(a, b);
+  const Alignment swapped = aligned(a, b);
   CHECK_FALSE(swapped.split);
   CHECK(swapped.swapped == 1);
   CHECK(swapped.pairs.size() == 3);
@@ -122,7 +118,7 @@ TEST_CASE("alignment: an order closer than its uncertainty is swapped, not diffe
 
   Events sure_a = a, sure_b = b;
   for (Events* list : {&sure_a, &sure_b})
-    for (compare::LoggedEvent& event : *list) event.uncertainty = 1e-9;
+    for (LoggedEvent& event : *list) event.uncertainty = 1e-9;
   CHECK(aligned(sure_a, sure_b).split);
   // One of the two lists does not know better: the other one may be right.
   CHECK_FALSE(aligned(sure_a, b).split);
@@ -130,14 +126,14 @@ TEST_CASE("alignment: an order closer than its uncertainty is swapped, not diffe
 }
 
 TEST_CASE("alignment: events of one contact are never swapped") {
-  const compare::Alignment a =
+  const Alignment a =
       aligned({slip(1, "a", 1.0), stick(1, "a", 1.0)}, {stick(1, "a", 1.0), slip(1, "a", 1.0)});
   CHECK(a.pairs.empty());
   CHECK(a.split);
 }
 
 TEST_CASE("alignment: load jumps take no part") {
-  const compare::Alignment a = aligned({load(0.5), slip(1, "a"), load(2)}, {slip(1, "a")});
+  const Alignment a = aligned({load(0.5), slip(1, "a"), load(2)}, {slip(1, "a")});
   CHECK_FALSE(a.split);
   REQUIRE(a.pairs.size() == 1);
   CHECK(a.pairs[0].reference == 1);

@@ -18,7 +18,7 @@ Model driven() {
   return model;
 }
 
-double history(double t) {
+double history_text(double t) {
   const double s = t - 0.5;
   return 2.0 - s + 3.0 * s * s + 1.5 * std::sin(4.0 * s + 0.3);
 }
@@ -33,8 +33,8 @@ TEST_CASE("a history in the basis, its derivative and its series") {
   const modal::Course c = basis.of(model.loads[0].history.piece(1.25)), rate = basis.derivative(c);
   CHECK(basis.degree() == 3);
   for (const double x : {0.0, 0.4, 2.0}) {
-    CHECK(c.dot(basis.at(x)) == doctest::Approx(history(1.25 + x)).epsilon(1e-13));
-    const double slope = (history(1.25 + x + 1e-5) - history(1.25 + x - 1e-5)) / 2e-5;
+    CHECK(c.dot(basis.at(x)) == doctest::Approx(history_text(1.25 + x)).epsilon(1e-13));
+    const double slope = (history_text(1.25 + x + 1e-5) - history_text(1.25 + x - 1e-5)) / 2e-5;
     CHECK(rate.dot(basis.at(x)) == doctest::Approx(slope).epsilon(1e-8));
   }
   std::vector<double> p(31);
@@ -44,7 +44,7 @@ TEST_CASE("a history in the basis, its derivative and its series") {
   for (const double x : {0.0, 0.3, 1.0}) {
     double sum = 0.0;
     for (std::size_t k = p.size(); k-- > 0;) sum = sum * x + p[k];
-    CHECK(sum == doctest::Approx(history(1.25 + 0.4 + 0.7 * x)).epsilon(1e-13));
+    CHECK(sum == doctest::Approx(history_text(1.25 + 0.4 + 0.7 * x)).epsilon(1e-13));
   }
   // A shorter polynomial is off by no more than it says, and not by much less, whatever the wave's size.
   for (const double size : {1e-6, 1.0, 1e6}) {
@@ -55,7 +55,7 @@ TEST_CASE("a history in the basis, its derivative and its series") {
     for (const double x : {0.5, 0.8, 1.0}) {
       double sum = 0.0;
       for (std::size_t k = few.size(); k-- > 0;) sum = sum * x + few[k];
-      most = std::max(most, std::abs(sum - size * history(1.25 + 0.4 + 0.7 * x)));
+      most = std::max(most, std::abs(sum - size * history_text(1.25 + 0.4 + 0.7 * x)));
     }
     CHECK(most <= rest);
     CHECK(rest < 20.0 * most);
@@ -66,8 +66,8 @@ TEST_CASE("a history in the basis, its derivative and its series") {
   CHECK(fast.rate == doctest::Approx(6.0).epsilon(1e-13));
   double sum = 0.0;
   for (std::size_t k = p.size(); k-- > 0;) sum = sum * 0.5 + p[k];
-  CHECK(std::abs(sum - history(1.25 + 1.4)) < 1.5);
-  CHECK(std::abs(sum - (history(1.25 + 1.4) - 1.5 * std::sin(4.0 * 2.15 + 0.3))) < 1e-12);
+  CHECK(std::abs(sum - history_text(1.25 + 1.4)) < 1.5);
+  CHECK(std::abs(sum - (history_text(1.25 + 1.4) - 1.5 * std::sin(4.0 * 2.15 + 0.3))) < 1e-12);
 }
 
 TEST_CASE("answers solve z' = l z + p, with frequency and without") {
@@ -143,7 +143,7 @@ TEST_CASE("integrals of products") {
   double sum = 0.0;  // Simpson
   const int n = 20000;
   for (int i = 0; i <= n; ++i) {
-    const double f = history(0.2 + 3.0 * i / n);
+    const double f = history_text(0.2 + 3.0 * i / n);
     sum += (i == 0 || i == n ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * f * f;
   }
   CHECK(c.dot(basis.products(0.2, 3.2) * c) == doctest::Approx(sum * 3.0 / n / 3.0).epsilon(1e-11));
